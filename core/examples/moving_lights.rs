@@ -1,5 +1,5 @@
-//! Lamps that come, move and go. A rebuilder works beside the frames wherever the top level gets worse; how soon its tree comes
-//! in depends on the machine, unless [`Swap::Deterministic`](lightbvh::rebuilder::Swap) is chosen.
+//! Lamps are added, moved and removed. A rebuilder builds the top level in the background; the frame in which its tree is
+//! swapped in depends on the machine, unless [`Swap::Deterministic`](lightbvh::bvh::Swap) is chosen.
 //!
 //! `cargo run -p lightbvh --example moving_lights` (seconds)
 
@@ -45,10 +45,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         rebuilder.end_frame(&bvh);
 
         let sampled = bvh.sample(&point, u32::from(frame) * 0x0431_bde8);
-        // A ray that the surface's material chose has met the lamp that came last: multiple importance sampling asks how likely a
+        // A ray that the surface's material chose has hit the lamp added last: multiple importance sampling asks how likely a
         // light sample of this point would have been to choose it.
         let met = lamps.last().and_then(|&lamp| bvh.pmf_of(&point, lamp, 0));
-        // What a temporal method forgets before the next frame.
+        // A temporal method forgets these before it resamples.
         let gone = bvh.take_removed_lights();
         if frame % 20 == 19 {
             println!(

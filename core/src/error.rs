@@ -1,7 +1,7 @@
 //! Why input is refused: what is wrong, where, and what to do about it; and the limits of what is accepted.
 
 #[cfg(feature = "alloc")]
-pub use crate::bvh::{EditError, EditReason, FollowError, Foreign, ReadError};
+pub use crate::bvh::{EditError, EditReason, FollowError, ReadError};
 #[doc(inline)]
 pub use crate::light::{LightError, MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE};
 #[cfg(feature = "alloc")]

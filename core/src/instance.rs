@@ -25,9 +25,7 @@ const THIRD: f32 = 1.0 / 3.0;
 /// Greatest magnitude of a coordinate in a mesh's space, 2^60.
 const FAR: f32 = pow2(60);
 
-/// A leaf of the top level: where a mesh stands, and which lights its triangles are there. 136 bytes.
-///
-/// Or a part of an opened instance: a subtree below the root of its bottom level, which is a leaf in its place. Then `count` is 0.
+/// A placed mesh: its map into the world, and the numbers of its lights. 124 bytes.
 ///
 /// Plain words, as the device reads them; `Transform` (feature `alloc`) derives them on the CPU.
 #[repr(C)]
@@ -35,12 +33,7 @@ const FAR: f32 = pow2(60);
 pub struct Instance {
     /// Node index of the root of its bottom level.
     pub root: u32,
-    /// Where in the top level it is a leaf: a [place](crate::trail::place), or `u32::MAX` where it is none.
-    pub place: u32,
-    /// Has nothing to do with this instance: record k has the place of node number k of the top level in the node above it,
-    /// `u32::MAX` for the root. Places lead from a leaf up to the root, so that a subtree moves by one word.
-    pub above: u32,
-    /// Index of its bottom level.
+    /// Index of its mesh, and of the root of its bottom level.
     pub blas: u32,
     /// Its first light; its lights are numbered without gaps.
     pub first: u32,
@@ -66,19 +59,14 @@ pub struct Instance {
     pub radiance: f32,
     /// [`MIRRORS`](Self::MIRRORS) where the map mirrors, and [`IS_NOT_BY_AREA`](Self::IS_NOT_BY_AREA).
     pub mirrored: u32,
-    /// Of an instance that is opened, the record of its first part; that of the part in slot k of its bottom level's root is k further.
-    /// Of a part, its instance. `u32::MAX` of others.
-    pub part: u32,
 }
 
-const _: () = assert!(size_of::<Instance>() == 136);
+const _: () = assert!(size_of::<Instance>() == 124);
 
 impl Instance {
     /// A bottom level in world space.
     pub const IDENTITY: Self = Self {
         root: u32::MAX,
-        place: u32::MAX,
-        above: u32::MAX,
         blas: u32::MAX,
         first: 0,
         first_triangle: 0,
@@ -91,7 +79,6 @@ impl Instance {
         flux: 1.0,
         radiance: 1.0,
         mirrored: 0,
-        part: u32::MAX,
     };
 
     /// Bit of [`mirrored`](Self::mirrored): the determinant of A is negative.
@@ -125,13 +112,6 @@ impl Instance {
         triangle
             .wrapping_sub(self.first_triangle)
             .wrapping_add(self.first)
-    }
-
-    /// Whether it is a part of another (or no instance at all).
-    #[inline(always)]
-    #[must_use]
-    pub fn is_part(&self) -> bool {
-        self.count == 0
     }
 
     /// The triangle of the bottom level that light `light` is.

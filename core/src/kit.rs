@@ -1,4 +1,8 @@
-//! What tests of core share: numbers that look random and are the same in every run, vectors in `f64`, triangles.
+//! Shared by the tests of core: numbers that look random and are the same in every run, vectors in `f64`, triangles, scenes.
+
+pub mod lights;
+pub mod plain;
+pub mod scenes;
 
 use glam::Vec3;
 
@@ -6,6 +10,7 @@ use crate::exact::{hash, unit_f32};
 use crate::light::EmissiveTriangle;
 
 /// Hashes of 1, 2, 3 and so on after its seed.
+#[derive(Clone)]
 pub struct Random(pub u32);
 
 impl Random {
@@ -18,6 +23,11 @@ impl Random {
     /// From -1 to 1.
     pub fn signed(&mut self) -> f32 {
         2.0 * self.unit() - 1.0
+    }
+
+    /// From 0 to `count` - 1.
+    pub fn below(&mut self, count: u32) -> u32 {
+        (self.unit() * count as f32) as u32
     }
 
     pub fn vector(&mut self) -> Vec3 {
@@ -63,10 +73,4 @@ pub fn triangle(p: [[f32; 3]; 3]) -> EmissiveTriangle {
         mesh: 0,
         flags: 0,
     }
-}
-
-/// Triangle `k` of a row, `step` apart.
-pub fn line(k: u16, step: f32) -> EmissiveTriangle {
-    let x = f32::from(k) * step;
-    triangle([[x, 0.0, 0.0], [x + 0.5, 0.0, 0.0], [x, 0.5, 0.1]])
 }

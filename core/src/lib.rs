@@ -7,8 +7,8 @@
 //! there is flux, so no light is lost (`docs/walk.md`).
 //!
 //! **Two levels** make it fit for moving lights (Moreau, Pharr & Clarberg 2019; Freire & Pereira 2023): each emissive
-//! mesh has a bottom-level tree over its triangles that is refitted, and a top-level tree over the instances changes leaf by leaf;
-//! what has lost quality is built anew beside the frames.
+//! mesh has a bottom-level tree over its triangles that is refitted, and edits change a top-level tree over the instances leaf by
+//! leaf, while a thread builds whole trees in the background (`docs/dynamics.md`).
 //!
 //! **The bits agree.** Nodes, refit and traversal are written with operations that Vulkan defines exactly ([`exact`]), in
 //! a fixed order, so the same source compiled by rust-gpu gives the same words on a device as natively.
@@ -18,8 +18,8 @@
 //! | [`LightBvh`], [`Bvh`] | the light BVH that owns its arrays: edits, refit of what changed, samples and their probabilities |
 //! | [`EmissiveTriangle`], [`Lights`], [`Transform`] | lights, and where their meshes stand |
 //! | [`ShadingPoint`], [`Random64`], [`SampledLight`], [`LightPoint`] | what is lit, the number that chooses, the light chosen, a point on it |
-//! | [`Rebuilder`] | rebuilds on a thread beside the frame, or within it where there are no threads |
-//! | [`bvh`], [`build`] | edits, ids, plans and rebuilds; builders |
+//! | [`Rebuilder`] | builds whole trees on a thread in the background, or within the frame if there are no threads |
+//! | [`bvh`], [`build`] | edits, ids, plans and files; builders |
 //! | [`light`] | lights of other kinds: points, spots, spheres, rectangles, discs, boxes; points on them |
 //! | [`importance`], [`node`] | what children are chosen by, and what nodes store of them |
 //! | [`requirements`] | what a scene requires, and the smallest model that is sufficient |
@@ -49,11 +49,11 @@ let row = (0..100).map(|i| Edit::AddInstance {
     radiance: 1.0,
 });
 let lamps = bvh.apply(row.collect())?.instances;                         // a batch: all or nothing, and faster than singly
-let mut rebuilder = Rebuilder::default();                                // no frame waits for it; `Swap::Deterministic` may
+let mut rebuilder = Rebuilder::default();                                // builds in the background; `Swap::Deterministic` may wait
 for frame in 0..3 {
-    rebuilder.begin_frame(&mut bvh)?;                                    // swaps in what was built beside the frames before
+    rebuilder.begin_frame(&mut bvh)?;                                    // swaps in trees built in the background
     bvh.set_transform(lamps[7], Transform::at([7.0, frame as f32, 0.0]))?;
-    bvh.refit();                                                         // what the edits touch; on a device: lightbvh_gpu::Mirror
+    bvh.refit();                                                         // computes the changed nodes; lightbvh_gpu::Mirror updates a device
     rebuilder.end_frame(&bvh);
 
     let point = ShadingPoint { p: [5.0, 0.0, 0.0], n: [0.0, 1.0, 0.0] };
@@ -74,7 +74,6 @@ for frame in 0..3 {
 //! - P. Freire, J. M. Pereira. Dynamic many-light importance sampling for real-time ray tracing. 2023 ("the paper").
 //! - B. Bitterli, C. Wyman, M. Pharr, P. Shirley, A. Lefohn, W. Jarosz. Spatiotemporal reservoir resampling for real-time
 //!   ray tracing with dynamic direct lighting. 2020 ("ReSTIR").
-//! - Y. Tokuyoshi, S. Ikeda, P. Kulkarni, T. Harada. Hierarchical light sampling with accurate spherical Gaussian lighting. SIGGRAPH Asia 2024.
 //! - M. Pharr, W. Jakob, G. Humphreys. Physically based rendering, 4th edition, section 12.6. 2023.
 #![no_std]
 #![forbid(unsafe_code)]
@@ -105,8 +104,7 @@ pub mod bvh;
 pub mod requirements;
 
 // For the kernels, the host and the tests, which are of this workspace: not part of the interface.
-#[doc(hidden)]
-pub mod beam;
+mod beam;
 #[doc(hidden)]
 pub mod bounds;
 #[doc(hidden)]
@@ -131,11 +129,9 @@ pub mod vector;
 #[doc(hidden)]
 pub mod levels;
 #[cfg(feature = "alloc")]
-#[doc(hidden)]
-pub mod lights;
+mod lights;
 #[cfg(feature = "std")]
-#[doc(hidden)]
-pub mod rebuilder;
+mod rebuilder;
 #[cfg(feature = "alloc")]
 #[doc(hidden)]
 pub mod sweep;
@@ -177,16 +173,13 @@ pub use bvh::{InstanceId, MeshId};
 #[doc(hidden)]
 pub use error::*;
 #[doc(hidden)]
-pub use importance::{
-    Cycles, Defensive, Eq4, Falcor, Flux, FluxOverDistance, Glossy, ImportanceModel, Moments, Pbrt,
-    SphericalGaussian,
-};
+pub use importance::{Defensive, Eq4, Flux, FluxOverDistance, Glossy, ImportanceModel, Moments};
 #[doc(hidden)]
 pub use light::LightPoint;
 #[doc(hidden)]
 pub use node::{
-    BoundsNode, CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightBounds, LightMoments, LightNode,
-    MomentLayout, MomentNode, Node, Summary, TwoSidedMomentNode,
+    BoundsNode, CompactNode, LightBounds, LightMoments, LightNode, MomentLayout, MomentNode, Node, Summary,
+    TwoSidedMomentNode,
 };
 #[doc(hidden)]
 pub use point::{GlossyPoint, Receiver};

@@ -1,81 +1,69 @@
-//! Rebuilds on a thread beside the frame (paper section 3.5).
+//! Builds on a thread in the background (paper section 3.5).
 //!
-//! [`end_frame`](Rebuilder::end_frame) takes a copy of what is to be built and hands it to a worker thread,
-//! [`begin_frame`](Rebuilder::begin_frame) swaps the result in. In between the scene is free: it may be sampled, edited and
-//! refitted as ever. A large mesh is copied to the builder, and its tree put in place, a piece in each frame: the bytes that a
-//! frame copies are bounded ([`RebuilderParams::bytes`]), whatever is built beside it. The paper lets the next frame wait for
-//! the rebuild if it must; here that is a choice, [`Swap::Deterministic`].
+//! The thread has a copy of each instance's leaf, which every frame updates, so no frame takes a snapshot.
+//! It builds the whole top level and applies the edits made meanwhile. The next frame swaps the two trees in constant time; the
+//! retired one is the next copy. The paper lets the next frame wait for the thread if it must; here that is a choice,
+//! [`Swap::Deterministic`]. Meshes that changed are copied, built whole, and put in place.
 
 mod clock;
 mod handover;
-mod meshes;
 mod params;
-mod queue;
 mod report;
 mod worker;
 
-use alloc::collections::BTreeSet;
+use alloc::boxed::Box;
 use alloc::vec::Vec;
+use core::time::Duration;
 
 use self::clock::Clock;
-use self::meshes::Meshes;
 pub use self::params::{RebuilderParams, Swap};
-use self::queue::Queue;
 pub use self::report::{FrameStart, RebuildError};
-use self::worker::{Built, Job, Product, Worker, build};
-use crate::bvh::{Bvh, Looked, Search, Taken, Trails};
+use self::worker::{Built, Job, Outcomes, Work, Worker, build};
+use crate::bvh::{Bvh, Top, Trails, TreeId};
 use crate::node::{DefaultNode, Holds, Node};
 
-/// Runs the rebuilds of one [`Bvh`] beside its frames (paper section 3.5), [`begin_frame`](Self::begin_frame) before the
-/// frame's edits and [`end_frame`](Self::end_frame) after its refit: that of the top level and of small meshes, one at a time,
-/// and those of [some](RebuilderParams::meshes) large meshes.
+/// Builds the trees of one [`Bvh`] in the background (paper section 3.5). Call [`begin_frame`](Self::begin_frame) before the
+/// frame's edits and [`end_frame`](Self::end_frame) after its refit. One thread builds the top level after any change, and in
+/// turn meshes whose triangles changed. Use one for each [`Bvh`]: two void each other's builds.
 ///
-/// Dropping it waits for its threads to end the rebuilds that they run, if any: 0.3 s for a mesh of 10^6 triangles;
-/// [`detach`](Self::detach) does not. Where no thread can be started (a limit of
-/// the system, or a platform without threads) rebuilds run at the end of their frame, with the same results: so it is on
-/// `wasm32-unknown-unknown`, where there is no clock either, and all times are zero. Where panics abort, one while building does
-/// too.
+/// Dropping it waits for its thread to end the build that it runs, if any: 0.4 s for a mesh of 10^6 triangles. If no thread can be started (a limit of the system, or a platform without threads),
+/// builds run at the end of their frame. On `wasm32-unknown-unknown` there is no clock either, and all times are
+/// zero. If panics abort, a panic while building does too.
 #[derive(Debug)]
 pub struct Rebuilder<N: Holds = DefaultNode, const W: usize = 8> {
     params: RebuilderParams,
-    worker: Option<Worker<N, W>>,
-    flight: Option<Flight<N, W>>,
-    /// Large meshes.
-    meshes: Meshes<N, W>,
-    /// When the last rebuild was taken, if nothing was lost since.
-    taken: Option<Taken>,
-    /// For the next part of a large top level.
-    search: Search,
-    /// Instances that are to be opened, those `to_open`, or closed, and of which light BVH.
-    reopening: Queue,
-    to_open: BTreeSet<u32>,
-    /// Those that were.
-    reopened: Vec<u32>,
-    reopens: Option<Taken>,
-    /// Frames since there was time for any.
-    held: u32,
-    /// Which instances that moved away were looked at.
-    looked: Looked,
-    /// Whether small meshes that are many had the last turn.
-    is_tops_turn: bool,
+    worker: Option<Worker<N>>,
+    flight: Option<Flight<N>>,
+    /// A top level whose leaves are those of the scene as of batch `seen`, unless the thread has it.
+    spare: Option<Box<Top<N>>>,
+    id: TreeId,
+    /// The light BVH that it belongs to, and the number of the first batch that was not seen.
+    tree: u32,
+    seen: u64,
+    /// Whether the top level changed since a build of it began.
+    is_due: bool,
+    /// Whether a mesh is built next, if any changed, and which.
+    is_meshes_turn: bool,
+    next_mesh: u32,
+    /// When the last build was swapped in, and how long the pause after it is.
+    pause: Option<(Clock, Duration)>,
+    /// Frames that are left of it under [`Swap::Deterministic`].
+    pause_frames: u32,
     /// How a worker is started.
-    start: fn() -> std::io::Result<Worker<N, W>>,
+    start: fn() -> std::io::Result<Worker<N>>,
 }
 
-/// Leaves of instances whose meshes went elsewhere that a frame puts in anew, or a few more where the last one is opened.
-const STRAYED: usize = 2;
-/// Instances that a frame opens or closes.
-const REOPENED: usize = 2;
-/// Frames in a row in which none is, for parts of a large top level come in.
-const HELD: u32 = 3;
-
-/// A rebuild under way.
+/// A build under way.
 #[derive(Debug)]
-struct Flight<N: Holds, const W: usize> {
+struct Flight<N: Holds> {
     /// Frames to begin until it is due; at 1 or below, the next one.
     left: u32,
     /// The result, where it was built at once.
-    inline: Option<Built<N, W>>,
+    inline: Option<Outcomes<N>>,
+    /// Number of the first batch that it has to apply; `None` for a build of meshes.
+    first: Option<u64>,
+    /// Whether the result is to be dropped.
+    is_void: bool,
 }
 
 impl<N: Node<W>, const W: usize> Default for Rebuilder<N, W> {
@@ -85,216 +73,230 @@ impl<N: Node<W>, const W: usize> Default for Rebuilder<N, W> {
 }
 
 impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
-    /// A rebuilder that has nothing under way; its thread starts with the first rebuild.
+    /// A rebuilder without a build under way; its thread starts with the first build.
     #[must_use]
     pub fn new(params: RebuilderParams) -> Self {
         Self {
             params,
             worker: None,
             flight: None,
-            meshes: Meshes::default(),
-            taken: None,
-            search: Search::default(),
-            reopening: Queue::default(),
-            to_open: BTreeSet::new(),
-            reopened: Vec::new(),
-            reopens: None,
-            held: 0,
-            looked: Looked::default(),
-            is_tops_turn: false,
+            spare: None,
+            id: TreeId::next(),
+            tree: 0,
+            seen: 0,
+            is_due: false,
+            is_meshes_turn: false,
+            next_mesh: 0,
+            pause: None,
+            pause_frames: 0,
             start: Worker::start,
         }
     }
 
-    /// Ends without waiting: threads that still build go on alone until that is done, and what they build is dropped. Where
-    /// their code may be unloaded meanwhile, as that of a plugin, drop it instead, which waits.
-    pub fn detach(mut self) {
-        let workers = self.worker.iter_mut().chain(self.meshes.workers());
-        workers.for_each(Worker::detach);
-    }
-
-    /// Whether a rebuild is under way, or its result waits to be swapped in.
+    /// Whether a build is under way, or its result waits to be swapped in.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.flight.is_some() || self.meshes.is_busy() || !self.reopening.is_empty()
+        self.flight.is_some()
     }
 
-    /// How many instances wait for being opened or closed.
-    #[cfg(test)]
-    pub(crate) fn waiting_to_reopen(&self) -> usize {
-        self.reopening.len()
-    }
-
-    /// Swaps in what is due. Comes before the frame's [`Bvh::apply`] or after it, but before its [`Bvh::plan`] and [`Bvh::refit`],
-    /// with the scene that [`end_frame`](Self::end_frame) gets.
+    /// Swaps in trees that are due. Call it before or after the frame's [`Bvh::apply`], but before its [`Bvh::refit`], with the
+    /// scene that [`end_frame`](Self::end_frame) gets. A top level takes constant time, plus time in proportion to the instances
+    /// that changed since the thread's last edit and those that may be opened. A mesh takes a copy of its nodes and trails.
     ///
     /// # Errors
-    /// [`RebuildError`], once, if the rebuild that was due came to nothing. The frame can go on as if nothing had been due.
+    /// [`RebuildError`], once, if the build that was due failed. The frame can go on without it.
     pub fn begin_frame<I, T: Trails>(
         &mut self,
         scene: &mut Bvh<N, I, W, T>,
     ) -> Result<FrameStart, RebuildError> {
         let mut start = FrameStart::default();
-        let is_due = self.flight.as_ref().is_some_and(|flight| flight.left <= 1);
-        let meshes = self
-            .meshes
-            .begin_frame(scene, &self.params, is_due, self.start, &mut start);
-        if meshes == Err(RebuildError::Foreign) {
-            // What it would have built of the other is still to be built.
-            self.taken = None;
+        let is_own = self.tree == scene.number();
+        let first = self.flight.as_ref().and_then(|flight| flight.first);
+        let needed = if is_own { first.unwrap_or(self.seen) } else { 0 };
+        if !scene.follow_batches(self.id.0, needed) || !is_own {
+            self.lose();
+            (self.tree, self.seen) = (scene.number(), scene.next_batch());
         }
-        let flight = self.begin_flight(scene, &mut start);
-        let most = match start.swapped {
-            false => REOPENED,
-            true if scene.is_top_large() && self.held < HELD => 0,
-            true => 1,
-        };
-        self.held = if most == 0 { self.held + 1 } else { 0 };
-        scene.put_strayed_elsewhere(STRAYED, &mut self.looked);
-        let closed = scene.close_for_stages(most);
-        self.reopen_some(scene, most - closed);
-        flight?;
-        meshes?;
-        Ok(start)
-    }
-
-    /// Swaps in the top level and small meshes.
-    fn begin_flight<I, T: Trails>(
-        &mut self,
-        scene: &mut Bvh<N, I, W, T>,
-        start: &mut FrameStart,
-    ) -> Result<(), RebuildError> {
-        let Some(flight) = &mut self.flight else {
-            return Ok(());
+        let Some(flight) = self.flight.as_mut() else {
+            return Ok(start);
         };
         if flight.left > 1 {
             flight.left -= 1;
-            return Ok(());
+            return Ok(start);
         }
-        let built = if let Some(built) = flight.inline.take() {
+        let outcome = if let Some(built) = flight.inline.take() {
             start.inline = true;
             Some(built)
         } else {
             let began = Clock::start();
             let waits = self.params.swap == Swap::Deterministic;
-            let built = self.worker.as_ref().and_then(|worker| worker.outcome(waits));
+            let outcome = self.worker.as_ref().and_then(|worker| worker.outcome(waits));
             if waits {
-                start.waited += began.elapsed();
+                start.waited = began.elapsed();
             }
-            built
+            outcome
         };
-        let Some(built) = built else {
-            return Ok(());
+        let Some(outcome) = outcome else {
+            return Ok(start);
         };
+        let (first, is_void) = (flight.first, flight.is_void);
         self.flight = None;
-        // What it would have built is still to be built.
-        let taken = self.taken.take();
-        let (product, time) = built.map_err(|message| {
-            // By a worker that has seen no panic.
-            self.worker = None;
-            RebuildError::Panicked { message }
-        })?;
-        if let Product::Frame(rebuilt) = product {
-            if let Some(gain) = rebuilt.gain_above() {
-                self.search.note_gain(gain);
+        let built = match outcome {
+            Ok(built) => built,
+            Err(message) => {
+                // The next build starts a new worker; the failed work is still to be done.
+                self.worker = None;
+                self.is_due = true;
+                return Err(RebuildError::Panicked { message });
             }
-            let (wanted, unfit) = scene
-                .install_as(rebuilt, false)
-                .map_err(|_| RebuildError::Foreign)?;
-            self.meshes.note_lost(unfit);
-            let [open, close] = wanted;
-            for &index in open.iter().chain(&close) {
-                self.reopening.push(index);
-            }
-            // What is wanted last counts.
-            close.iter().for_each(|index| _ = self.to_open.remove(index));
-            self.to_open.extend(open);
-            self.reopens = Some(scene.now());
+        };
+        self.rest(built.time);
+        if !is_void {
+            start.built = built.time;
+            self.swap(scene, built, first.unwrap_or(self.seen), &mut start);
         }
-        self.taken = taken;
-        start.swapped = true;
-        start.built = time;
-        Ok(())
+        Ok(start)
     }
 
-    /// Opens or closes some of the instances that a rebuilt top level asks it for: as many parts go and come as a node has
-    /// children, and each is put in where it costs least, which is as long as what else a frame has time for. Where a part of a
-    /// large top level comes in, one in [`HELD`] frames.
-    fn reopen_some<I, T: Trails>(&mut self, scene: &mut Bvh<N, I, W, T>, most: usize) {
-        if self.reopens.is_some_and(|of| !of.is_of_same(scene.now())) {
-            self.reopening = Queue::default();
-            self.to_open.clear();
-            self.reopened.clear();
-        }
-        for _ in 0..most {
-            if let Some(index) = self.reopening.pop() {
-                let opens = self.to_open.remove(&index);
-                if scene.reopen_one(index, opens) {
-                    self.reopened.push(index);
+    /// Puts finished trees in place.
+    fn swap<I, T: Trails>(
+        &mut self,
+        scene: &mut Bvh<N, I, W, T>,
+        built: Built<N>,
+        first: u64,
+        start: &mut FrameStart,
+    ) {
+        match built.work {
+            Work::Top(mut top) => {
+                let first = first + built.batches as u64;
+                let mut rest = scene.batches_from(first);
+                if self.params.swap == Swap::Deterministic {
+                    // One by one, as a thread applies them.
+                    for batch in rest.drain(..self.seen.saturating_sub(first) as usize) {
+                        top.edit(&[batch], scene.params());
+                    }
                 }
+                self.is_due |= scene.next_batch() > self.seen;
+                self.seen = scene.next_batch();
+                scene.swap_top(&mut top, rest);
+                self.spare = Some(top);
+                start.swapped = true;
             }
-        }
-        // Once for all of them: the tree around is tried for what each of them changed.
-        if self.reopening.is_empty() {
-            scene.note_reopened(&core::mem::take(&mut self.reopened));
+            Work::Meshes(meshes) => {
+                for mesh in meshes {
+                    start.meshes += u32::from(scene.install_mesh(&mesh));
+                }
+                scene.take_out_changed();
+            }
         }
     }
 
-    /// Starts the next rebuild, unless one is under way or there is nothing to build. Comes after the frame's [`Bvh::refit`].
-    /// Takes time in proportion to the meshes refitted since the last rebuild started, to the instances of the part of the top
-    /// level that is rebuilt, at most [`RebuilderParams::leaves`], and to the triangles of small meshes that are built anew.
+    /// Begins the pause after a build that took `time`.
+    fn rest(&mut self, time: Duration) {
+        let idle = self.params.idle.max(0.0);
+        if self.params.swap == Swap::Deterministic {
+            // Infinity saturates: 2^32 - 1 frames.
+            self.pause_frames = (idle * f64::from(self.params.after.max(1))) as u32;
+        } else {
+            let pause = Duration::try_from_secs_f64(time.as_secs_f64() * idle);
+            self.pause = Some((Clock::start(), pause.unwrap_or(Duration::MAX)));
+        }
+    }
+
+    /// Drops the copy of the top level and the build under way: they miss edits.
+    fn lose(&mut self) {
+        self.spare = None;
+        self.is_due = true;
+        if let Some(flight) = &mut self.flight {
+            (flight.first, flight.is_void) = (None, true);
+        }
+    }
+
+    /// Records the frame's changes, and starts the next build, unless one is under way, there is nothing to build, or the
+    /// pause after the last one is not over. Call it after the frame's [`Bvh::refit`]. Takes time in proportion to the changes,
+    /// and copies at most [`RebuilderParams::bytes`] of meshes. The first call, and the first with another scene, copies the top
+    /// level.
     pub fn end_frame<I, T: Trails>(&mut self, scene: &Bvh<N, I, W, T>) {
-        let now = scene.now();
-        self.search.note_frame(now);
-        if self.taken != Some(now) {
-            scene.search_again(&mut self.search);
+        if self.tree != scene.number() || !scene.is_followed_by(self.id.0) {
+            self.lose();
+            (self.tree, self.seen) = (scene.number(), scene.next_batch());
         }
-        if self.flight.is_some()
-            || (self.taken == Some(now)
-                && self.search.is_done()
-                && !self.meshes.has_small()
-                && !self.meshes.has_resting()
-                && !self.meshes.has_lost())
-        {
+        let batches = scene.batches_from(self.seen);
+        self.is_due |= !batches.is_empty();
+        self.seen += batches.len() as u64;
+        if let Some(spare) = &mut self.spare {
+            batches.iter().for_each(|batch| spare.set(batch));
+        } else if let (Some(Flight { first: Some(_), .. }), Some(worker)) = (&self.flight, &self.worker) {
+            batches.into_iter().for_each(|batch| worker.send(batch));
+        }
+        if self.flight.is_some() || self.is_pausing() {
             return;
         }
-        let worn = scene.worn_since(&self.params.rebuild, self.taken);
-        let strained = scene.strained_since(&self.params.rebuild, self.taken);
-        let unsettled = scene.unsettled_since(&self.params.rebuild, self.taken);
-        let rests_since = self.search.rests_since();
-        self.meshes
-            .await_turn([worn, strained, unsettled], rests_since, scene, &self.params);
-        let takes_turns = scene.is_top_large() && self.meshes.has_small();
-        let is_tops_turn = takes_turns && core::mem::replace(&mut self.is_tops_turn, false);
-        let mut top = Vec::new();
-        if is_tops_turn {
-            top = scene.copy_worn_parts(self.params.rebuild.top, self.params.leaves, &mut self.search);
-        }
-        let (mut small, mut is_much) = (Vec::new(), false);
-        if top.is_empty() {
-            (small, is_much) = self.meshes.next_small(scene, &self.params);
-        }
-        if takes_turns && is_much {
-            self.is_tops_turn = true;
-        } else if top.is_empty() {
-            top = scene.copy_worn_parts(self.params.rebuild.top, self.params.leaves, &mut self.search);
-        }
-        let job = scene.rebuild_of(top, &small);
-        self.taken = Some(now);
-        if job.is_empty() {
+        let Some(work) = self.next_work(scene) else {
             return;
-        }
+        };
+        let first = matches!(work, Work::Top(_)).then_some(self.seen);
+        let job = Job {
+            work,
+            params: *scene.params(),
+            waits: self.params.swap == Swap::Deterministic,
+        };
         if self.worker.is_none() {
             self.worker = (self.start)().ok();
         }
         let refused = match &self.worker {
-            Some(worker) => worker.handover().submit(Job::Frame(job)).err(),
-            None => Some(Job::Frame(job)),
+            Some(worker) => worker.submit(job).err(),
+            None => Some(job),
         };
         self.flight = Some(Flight {
             left: self.params.after,
-            inline: refused.map(build),
+            inline: refused.map(|job| build(job, &|_| Vec::new())),
+            first,
+            is_void: false,
         });
+    }
+
+    fn is_pausing(&mut self) -> bool {
+        if self.pause_frames > 0 {
+            self.pause_frames -= 1;
+            return true;
+        }
+        self.pause.is_some_and(|(since, pause)| since.elapsed() < pause)
+    }
+
+    /// The next work: the top level and meshes in turn.
+    fn next_work<I, T: Trails>(&mut self, scene: &Bvh<N, I, W, T>) -> Option<Work<N>> {
+        let has_top = self.is_due && !scene.is_single_level();
+        if core::mem::take(&mut self.is_meshes_turn) || !has_top {
+            let meshes = self.next_meshes(scene);
+            if !meshes.is_empty() {
+                return Some(Work::Meshes(meshes));
+            }
+        }
+        self.is_meshes_turn = true;
+        has_top.then(|| {
+            self.is_due = false;
+            let spare = self.spare.take();
+            Work::Top(spare.unwrap_or_else(|| Box::new(scene.copy_top())))
+        })
+    }
+
+    /// Copies of meshes that changed since they were built, as far as the frame may copy.
+    fn next_meshes<I, T: Trails>(&mut self, scene: &Bvh<N, I, W, T>) -> Vec<crate::bvh::MeshTree<N>> {
+        let mut meshes = Vec::new();
+        let mut left = self.params.bytes;
+        for (mesh, bytes) in scene.reshaped_from(self.next_mesh) {
+            if bytes > self.params.bytes {
+                continue;
+            }
+            if bytes > left {
+                break;
+            }
+            left -= bytes;
+            self.next_mesh = mesh + 1;
+            meshes.push(scene.copy_mesh(mesh));
+        }
+        meshes
     }
 }
 

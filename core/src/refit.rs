@@ -20,9 +20,11 @@ use crate::light::{Light, LightSlots};
 use crate::node::{Node, kind};
 use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
 
-pub(crate) use limits::limits_below;
 #[cfg(feature = "alloc")]
-pub(crate) use limits::{has_limits, limits_of_instance};
+pub(crate) use children::leaf_child;
+#[cfg(feature = "alloc")]
+pub(crate) use limits::has_limits;
+pub(crate) use limits::limits_below;
 
 /// Node `index` of a bottom level with the summaries of its triangles and of the nodes below it.
 #[inline]
@@ -98,12 +100,14 @@ pub fn root<N: Node<W>, const W: usize>(nodes: &[N], root: u32) -> BlasRoot {
     BlasRoot::new(root, &nodes[node as usize].merged())
 }
 
-/// Node `index` of the top level with the summaries of its instances, from their bottom levels' roots, and of the nodes
-/// below it.
+/// A node of the top level, with the summaries of its instances, from their bottom levels' roots, and of the nodes below it.
+/// `nodes` holds the bottom levels and from `first` on the top level, as on a device; `index` counts in all of it. A
+/// [plan's](crate::bvh::RefitPlan::top) list counts from `first`.
 #[inline]
 #[must_use]
 pub fn top<N: Node<W>, const W: usize>(
     nodes: &[N],
+    first: u32,
     instances: &[Instance],
     roots: &[BlasRoot],
     index: u32,
@@ -112,7 +116,7 @@ pub fn top<N: Node<W>, const W: usize>(
     let mut children = Lanes::<W>([[0.0; W]; SUMMARY_WORDS]);
     let mut limits = [Limits::NONE; W];
     for slot in 0..W {
-        let child = top_child(nodes, instances, roots, index, slot);
+        let child = top_child(nodes, first, instances, roots, index, slot);
         children.set(slot, &child.summary);
         limits[slot] = child.limits;
     }

@@ -5,12 +5,10 @@
 
 #[cfg(feature = "rayon")]
 use alloc::vec::Vec;
-use core::ops::Range;
 
-use crate::instance::Instance;
 use crate::node::{Node, kind};
 use crate::prefetch::fetch;
-use crate::refit::{self, BlasRoot, Room};
+use crate::refit::{self, Room};
 use crate::widest::widest;
 
 /// Shorter lists run on one thread.
@@ -28,18 +26,6 @@ pub fn bottom<N: Node<W>, const W: usize>(nodes: &mut [N], triangles: &[N::Light
     each(nodes, list, |nodes, index| refit::bottom(nodes, triangles, index));
 }
 
-/// [`refit::top`] over `list`, whose nodes are all of one level.
-pub fn top<N: Node<W>, const W: usize>(
-    nodes: &mut [N],
-    instances: &[Instance],
-    roots: &[BlasRoot],
-    list: &[u32],
-) {
-    each(nodes, list, |nodes, index| {
-        refit::top(nodes, instances, roots, index)
-    });
-}
-
 /// [`refit::bottom`] over all `nodes`, which begin with node `first`: the trees of `roots`, each in depth-first order, one after
 /// another. Children come before parents, from the last node to the first, so that memory is read in one direction; subtrees go
 /// to several threads.
@@ -55,30 +41,6 @@ pub fn bottom_sweep<N: Node<W>, const W: usize>(
     }
     let _ = roots;
     one_by_one(nodes, nodes.len(), first, triangles);
-}
-
-/// [`bottom_sweep`] of each of `trees`, ranges of nodes that do not overlap.
-pub fn trees<N: Node<W>, const W: usize>(nodes: &mut [N], triangles: &[N::Light], trees: &[Range<u32>]) {
-    #[cfg(feature = "rayon")]
-    if trees.len() > 1 && rayon::current_num_threads() > 1 {
-        use rayon::prelude::*;
-
-        let mut sorted = trees.to_vec();
-        sorted.sort_unstable_by_key(|tree| tree.start);
-        let (mut rest, mut at) = (nodes, 0);
-        let mut pieces = Vec::with_capacity(sorted.len());
-        for tree in sorted {
-            let (piece, after) = rest[(tree.start - at) as usize..].split_at_mut(tree.len());
-            pieces.push((tree.start, piece));
-            (rest, at) = (after, tree.end);
-        }
-        let sweep = |(start, piece): (u32, &mut [N])| bottom_sweep(piece, start, triangles, &[start]);
-        return pieces.into_par_iter().for_each(sweep);
-    }
-    for tree in trees {
-        let own = &mut nodes[tree.start as usize..tree.end as usize];
-        bottom_sweep(own, tree.start, triangles, &[tree.start]);
-    }
 }
 
 /// Nodes between the one computed and the one whose triangles are asked for.
@@ -194,6 +156,7 @@ fn each_parallel<N: Copy + Send + Sync>(
 #[cfg(all(test, feature = "rayon"))]
 mod tests {
     use super::*;
+    use crate::kit::scenes::bare;
     use crate::light::EmissiveTriangle;
     use crate::{BuildParams, LightBvh, Lights, MomentNode};
 
@@ -211,39 +174,18 @@ mod tests {
         };
         let lights = Lights::new((0..60_000).map(light).collect()).expect("in the domain");
         let bvh = LightBvh::single_level(&lights, &BuildParams::FAST);
-        let plan = bvh.plan_of_everything();
-        let range = plan.trees[0].start as usize..plan.trees[0].end as usize;
-        assert!(range.len() > 2 * PARALLEL);
-        // Links and kinds, without what refit computes.
-        let bare: Vec<MomentNode<8>> = bvh.nodes()[range.clone()]
-            .iter()
-            .map(|node| {
-                let mut bare = MomentNode::EMPTY;
-                for slot in 0..8 {
-                    bare.set_child(slot, node.kind(slot), node.link(slot));
-                }
-                bare
-            })
-            .collect();
+        let nodes = &bvh.nodes()[..bvh.plan_of_everything().bottom.nodes().len()];
+        assert!(nodes.len() > 2 * PARALLEL);
+        let bare: Vec<MomentNode<8>> = nodes.iter().map(bare).collect();
         for threads in 1..=3 {
             let pool = rayon::ThreadPoolBuilder::new()
                 .num_threads(threads)
                 .build()
                 .expect("threads");
-            let mut nodes = bare.clone();
-            pool.install(|| {
-                bottom_sweep(
-                    &mut nodes,
-                    plan.trees[0].start,
-                    bvh.triangles(),
-                    &[plan.trees[0].start],
-                )
-            });
-            let words: (&[u32], &[u32]) = (
-                bytemuck::cast_slice(&nodes),
-                bytemuck::cast_slice(&bvh.nodes()[range.clone()]),
-            );
-            assert!(words.0 == words.1, "{threads} threads");
+            let mut swept = bare.clone();
+            pool.install(|| bottom_sweep(&mut swept, 0, bvh.triangles(), &[0]));
+            let words: [&[u32]; 2] = [bytemuck::cast_slice(&swept), bytemuck::cast_slice(nodes)];
+            assert!(words[0] == words[1], "{threads} threads");
         }
     }
 }

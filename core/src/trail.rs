@@ -41,7 +41,7 @@ pub const fn trail_words(w: usize, depth: u32) -> u32 {
     if depth <= word_levels(w) { 1 } else { 2 }
 }
 
-/// The place of `slot` of node number `node` of the top level; see [`Instance::place`](crate::Instance::place).
+/// The place of `slot` of node `node` of the top level: how [`Links`](crate::tree::Links) name it.
 #[inline(always)]
 #[must_use]
 pub const fn place<const W: usize>(node: u32, slot: u32) -> u32 {
@@ -55,8 +55,23 @@ pub const fn place_parts<const W: usize>(place: u32) -> (u32, u32) {
     (place >> Width::<W>::BITS, place & Width::<W>::MASK)
 }
 
-/// Most nodes of a top level, and so most instances: 2^27, whose places are words at any width, none of them `u32::MAX`.
+/// Most nodes of a top level, and so most instances: 2^27. Their places are words below 2^31 at any width.
 pub const MAX_PLACES: u32 = 1 << 27;
+
+/// The link of a leaf of the top level: an instance as a whole for `part` 0, else the subtree in slot `part - 1` of its mesh's
+/// root.
+#[inline(always)]
+#[must_use]
+pub const fn leaf(instance: u32, part: u32) -> u32 {
+    (part << MAX_PLACES.trailing_zeros()) | instance
+}
+
+/// Instance and part of a [`leaf`].
+#[inline(always)]
+#[must_use]
+pub const fn leaf_parts(link: u32) -> (u32, u32) {
+    (link & (MAX_PLACES - 1), link >> MAX_PLACES.trailing_zeros())
+}
 
 /// Refuses, when it is compiled, a width whose slots no trail can name.
 struct Width<const W: usize>;

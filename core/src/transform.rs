@@ -95,6 +95,11 @@ impl Transform {
         Ok(())
     }
 
+    /// Image of the origin, as in an instance's words, metres.
+    pub(crate) fn origin(&self) -> [f32; 3] {
+        self.translation.map(|t| exact::flush(t, MIN_COORDINATE))
+    }
+
     fn column(&self, k: usize) -> [f64; 3] {
         let [x, y, z] = self.columns[k];
         [f64::from(x), f64::from(y), f64::from(z)]
@@ -150,7 +155,7 @@ impl Transform {
             columns: self
                 .columns
                 .map(|column| column.map(|x| exact::flush(x, TINY_ENTRY))),
-            translation: self.translation.map(|t| exact::flush(t, MIN_COORDINATE)),
+            translation: self.origin(),
             inverse,
             per_inverse: per_inverse as f32,
             flux: if radiance > 0.0 {

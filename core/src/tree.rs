@@ -16,14 +16,21 @@ use crate::trail::{BitTrail, Path, max_levels, place_parts};
 /// Both shapes share every function: in a two-level tree the leaves of the starting tree are instances, in a single-level
 /// tree they are triangles and `live` is 0.
 pub struct LightTree<'a, N, I, const W: usize> {
-    /// All nodes of all trees; at least one.
+    /// The nodes of all bottom levels.
     pub nodes: &'a [N],
+    /// Nodes of the tree that a walk starts in, at least one. On a device they stand among `nodes`.
+    #[cfg(not(target_arch = "spirv"))]
+    pub top: &'a [N],
+    /// Index of the first of them there: links within the top level count from it.
+    pub first: u32,
     /// Index of the node that a walk starts at.
     pub root: u32,
     /// The instances; those not in use are in no leaf.
     pub instances: &'a [Instance],
     /// Bit trails of the triangles within the tree that holds them, `trail_words` words each.
     pub trails: &'a [u32],
+    /// Links of the top level upward.
+    pub links: Links<'a>,
     /// 1 when every tree of triangles fits one word, else 2.
     pub trail_words: u32,
     /// Number of instances in use, listed by [`Instance::listed`]; 0 in a single-level tree.
@@ -55,9 +62,13 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
     pub fn by<J>(&self) -> LightTree<'a, N, J, W> {
         LightTree {
             nodes: self.nodes,
+            #[cfg(not(target_arch = "spirv"))]
+            top: self.top,
+            first: self.first,
             root: self.root,
             instances: self.instances,
             trails: self.trails,
+            links: self.links,
             trail_words: self.trail_words,
             live: self.live,
             lights: self.lights,
@@ -86,65 +97,70 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
     #[inline]
     #[must_use]
     pub(crate) fn path_of(&self, triangle: u32, instance: u32) -> Path {
+        let bottom = self.trail(triangle);
         if instance < self.instances.len() as u32 {
-            let bottom = self.trail(triangle);
             Path {
-                top: self.trail_to(self.leaf_of(instance, bottom)),
+                top: self.trail_to(self.place_of(instance, bottom)),
                 bottom,
             }
         } else {
             Path {
-                top: self.trail(triangle),
+                top: bottom,
                 bottom: BitTrail { low: 0, high: 0 },
             }
         }
     }
 
-    /// The leaf of the top level below which a triangle of `instance` lies, whose trail in the bottom level is `bottom`: the instance, or
-    /// the one of its parts.
+    /// The place of the leaf of the top level below which a triangle of `instance` lies, whose trail in the bottom level is
+    /// `bottom`: that of the instance, or of the one of its parts.
     #[inline]
-    fn leaf_of(&self, instance: u32, bottom: BitTrail) -> u32 {
-        let own = &self.instances[instance as usize];
-        let mut leaf = instance;
-        if own.part != INVALID && !own.is_part() {
-            let part = own.part.wrapping_add(bottom.slot::<W>(0));
-            if part < self.instances.len() as u32 {
-                leaf = part;
-            }
+    fn place_of(&self, instance: u32, bottom: BitTrail) -> u32 {
+        let place = self.links.place(instance);
+        if place != INVALID && place >= OPENED {
+            self.links
+                .part((place - OPENED).wrapping_add(bottom.slot::<W>(0)))
+        } else {
+            place
         }
-        leaf
     }
 
-    /// The instance that a leaf of the top level belongs to: itself, unless it is a part.
-    #[inline(always)]
-    pub(crate) fn instance_of(&self, leaf: u32) -> u32 {
-        let mut instance = leaf;
-        if leaf < self.instances.len() as u32 {
-            let own = &self.instances[leaf as usize];
-            if own.is_part() && own.part != INVALID {
-                instance = own.part;
-            }
-        }
-        instance
-    }
-
-    /// Trail of an instance in the top level, from its leaf up: at most as many steps as a tree has levels, for any words.
+    /// Trail of a place in the top level, from there up: at most as many steps as a tree has levels, for any words.
     #[inline]
-    fn trail_to(&self, instance: u32) -> BitTrail {
-        let count = self.instances.len() as u32;
+    fn trail_to(&self, place: u32) -> BitTrail {
         let mut trail = BitTrail { low: 0, high: 0 };
-        let mut place = self.instances[instance as usize].place;
+        let mut place = place;
         let mut steps = 0;
-        while place != INVALID && steps < max_levels(W) {
+        while place < OPENED && steps < max_levels(W) {
             let (node, slot) = place_parts::<W>(place);
             trail = trail.behind::<W>(slot);
-            place = INVALID;
-            if node < count {
-                place = self.instances[node as usize].above;
-            }
+            place = self.links.above(node);
             steps += 1;
         }
         trail
+    }
+
+    /// Node `index` of the top level, or of a bottom level. An index out of range (hostile words) reads node 0.
+    #[inline(always)]
+    pub(crate) fn node(&self, is_top: bool, index: u32) -> &'a N {
+        // On a device both stand in one buffer: pointers into two cannot be told apart there.
+        #[cfg(target_arch = "spirv")]
+        let nodes = self.nodes;
+        #[cfg(not(target_arch = "spirv"))]
+        let nodes = if is_top { self.top } else { self.nodes };
+        let _ = is_top;
+        let valid = index < nodes.len() as u32;
+        &nodes[if valid { index as usize } else { 0 }]
+    }
+
+    /// Whether there is such a node.
+    #[inline(always)]
+    pub(crate) fn has_node(&self, is_top: bool, index: u32) -> bool {
+        #[cfg(target_arch = "spirv")]
+        let nodes = self.nodes;
+        #[cfg(not(target_arch = "spirv"))]
+        let nodes = if is_top { self.top } else { self.nodes };
+        let _ = is_top;
+        index < nodes.len() as u32
     }
 
     /// Trail of a triangle in the tree that holds it.
@@ -162,7 +178,87 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
     }
 }
 
-/// What a [`LightTree`] holds besides its arrays: five words, for push constants. They may change with every edit.
+/// Bit of an instance's place: it is opened, and the other bits say where the places of its parts begin.
+pub const OPENED: u32 = 1 << 31;
+
+/// Links of the top level upward: by leaf and by node the [place](crate::trail::place) in the node above, so that a subtree
+/// moves by one word.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Links<'a> {
+    /// By node of the top level; `u32::MAX` for its root.
+    #[cfg(not(target_arch = "spirv"))]
+    pub above: &'a [u32],
+    /// By instance: its place; if opened, bit [`OPENED`] and the start of its parts in `parts`; `u32::MAX` if it is no leaf.
+    #[cfg(not(target_arch = "spirv"))]
+    pub places: &'a [u32],
+    /// Places of the parts of opened instances, that of slot k of the mesh's root k further.
+    #[cfg(not(target_arch = "spirv"))]
+    pub parts: &'a [u32],
+    /// A device has all three behind the trails, in one buffer.
+    #[cfg(target_arch = "spirv")]
+    words: &'a [u32],
+    #[cfg(target_arch = "spirv")]
+    starts: [u32; 3],
+}
+
+impl<'a> Links<'a> {
+    /// The links in `words`, whose lists begin at `above`, `places` and `parts`.
+    #[inline(always)]
+    #[must_use]
+    pub fn within(words: &'a [u32], above: u32, places: u32, parts: u32) -> Self {
+        #[cfg(target_arch = "spirv")]
+        {
+            Self {
+                words,
+                starts: [above, places, parts],
+            }
+        }
+        #[cfg(not(target_arch = "spirv"))]
+        {
+            let from = |start: u32| words.get(start as usize..).unwrap_or(&[]);
+            Self {
+                above: from(above),
+                places: from(places),
+                parts: from(parts),
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn above(&self, node: u32) -> u32 {
+        #[cfg(target_arch = "spirv")]
+        return entry(self.words, self.starts[0].wrapping_add(node));
+        #[cfg(not(target_arch = "spirv"))]
+        entry(self.above, node)
+    }
+
+    #[inline(always)]
+    fn place(&self, instance: u32) -> u32 {
+        #[cfg(target_arch = "spirv")]
+        return entry(self.words, self.starts[1].wrapping_add(instance));
+        #[cfg(not(target_arch = "spirv"))]
+        entry(self.places, instance)
+    }
+
+    #[inline(always)]
+    fn part(&self, part: u32) -> u32 {
+        #[cfg(target_arch = "spirv")]
+        return entry(self.words, self.starts[2].wrapping_add(part));
+        #[cfg(not(target_arch = "spirv"))]
+        entry(self.parts, part)
+    }
+}
+
+#[inline(always)]
+fn entry(words: &[u32], index: u32) -> u32 {
+    if index < words.len() as u32 {
+        words[index as usize]
+    } else {
+        INVALID
+    }
+}
+
+/// The nine words of a [`LightTree`] besides its arrays, for push constants. They may change with every edit.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct TreeWords {
@@ -176,22 +272,19 @@ pub struct TreeWords {
     pub lights: u32,
     /// Greatest number of nodes on a path.
     pub depth: u32,
+    /// Index of the top level's first node in `nodes`; links within it count from there.
+    pub top: u32,
+    /// First words of [`Links`] in `trails`: those of nodes, of instances, of parts.
+    pub above: u32,
+    /// See `above`.
+    pub places: u32,
+    /// See `above`.
+    pub parts: u32,
 }
 
 impl TreeWords {
-    /// Those of `tree`.
-    #[must_use]
-    pub fn of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>) -> Self {
-        Self {
-            root: tree.root,
-            trail_words: tree.trail_words,
-            live: tree.live,
-            lights: tree.lights,
-            depth: tree.depth,
-        }
-    }
-
-    /// The tree over the given arrays: those of a `Bvh`, or a device's buffers.
+    /// The tree over the arrays of a device, as `lightbvh_gpu::Mirror` lays them out: the nodes of bottom levels and of the top
+    /// level, the instances, the trails and links.
     #[inline]
     #[must_use]
     pub fn tree<'a, N, I, const W: usize>(
@@ -202,9 +295,13 @@ impl TreeWords {
     ) -> LightTree<'a, N, I, W> {
         LightTree {
             nodes,
+            #[cfg(not(target_arch = "spirv"))]
+            top: nodes,
+            first: self.top,
             root: self.root,
             instances,
             trails,
+            links: Links::within(trails, self.above, self.places, self.parts),
             trail_words: self.trail_words,
             live: self.live,
             lights: self.lights,

@@ -1,8 +1,10 @@
-//! Every interleaving of a frame and its worker, by loom: no job and no result is lost or dropped twice, and nobody waits
-//! for ever (loom reports a deadlock when all threads wait). Jobs and results are counted while they live.
+//! Every interleaving of a frame and its worker, by loom: no job, message or result is lost or dropped twice, and nobody waits
+//! for ever (loom reports a deadlock when all threads wait). Each is counted while it lives.
 //!
 //! `RUSTFLAGS="--cfg loom" cargo test -p lightbvh --features std --profile quick --test handover --target-dir target/loom`
 #![cfg(loom)]
+
+extern crate alloc;
 
 // Of the library only this file, so that the rest of its tests need not be compiled with it.
 #[path = "../src/rebuilder/handover.rs"]
@@ -39,10 +41,23 @@ impl Drop for Counted {
     }
 }
 
-type Shared = Arc<Handover<Counted, Counted>>;
+/// A result, with the numbers of the messages that its job read.
+type Answer = (Counted, Vec<usize>);
+
+type Shared = Arc<Handover<Counted, Answer, Counted>>;
+
+/// The messages that a job reads.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Reads {
+    Nothing,
+    /// Messages that have arrived.
+    Some,
+    /// All messages, until none follow.
+    All,
+}
 
 /// A worker that answers 10 times the job's number, and lets go of job number 0.
-fn worker(handover: &Shared, alive: &Arc<AtomicUsize>) -> thread::JoinHandle<Vec<usize>> {
+fn worker(handover: &Shared, alive: &Arc<AtomicUsize>, reads: Reads) -> thread::JoinHandle<Vec<usize>> {
     let (handover, alive) = (handover.clone(), alive.clone());
     thread::spawn(move || {
         let mut seen = Vec::new();
@@ -50,7 +65,17 @@ fn worker(handover: &Shared, alive: &Arc<AtomicUsize>) -> thread::JoinHandle<Vec
             let number = task.job.as_ref().expect("a task has its job").number;
             seen.push(number);
             if number > 0 {
-                task.run(|job| Counted::new(10 * job.number, &alive));
+                task.run(|job, messages| {
+                    let mut read = Vec::new();
+                    while reads != Reads::Nothing {
+                        let more = messages(reads == Reads::All);
+                        read.extend(more.iter().map(|message| message.number));
+                        if more.is_empty() || reads == Reads::Some {
+                            break;
+                        }
+                    }
+                    (Counted::new(10 * job.number, &alive), read)
+                });
             }
         }
         seen
@@ -63,21 +88,29 @@ fn checked(body: impl Fn(&Shared, &Arc<AtomicUsize>) + Send + Sync + 'static) {
         let alive = Arc::new(AtomicUsize::new(0));
         body(&handover, &alive);
         drop(handover);
-        assert_eq!(alive.load(Ordering::Relaxed), 0, "all jobs and results are gone");
+        assert_eq!(alive.load(Ordering::Relaxed), 0, "nothing is left");
     });
 }
 
-fn number(outcome: Option<Outcome<Counted>>) -> Option<Outcome<usize>> {
+fn number(outcome: Option<Outcome<Answer>>) -> Option<Outcome<usize>> {
     outcome.map(|outcome| match outcome {
-        Outcome::Done(result) => Outcome::Done(result.number),
+        Outcome::Done((result, _)) => Outcome::Done(result.number),
         Outcome::Lost => Outcome::Lost,
     })
+}
+
+/// The messages that the job under way read.
+fn read(outcome: Option<Outcome<Answer>>) -> Vec<usize> {
+    match outcome {
+        Some(Outcome::Done((_, read))) => read,
+        _ => panic!("no result"),
+    }
 }
 
 #[test]
 fn each_job_gets_its_result() {
     checked(|handover, alive| {
-        let thread = worker(handover, alive);
+        let thread = worker(handover, alive, Reads::Nothing);
         assert!(handover.take().is_none(), "nothing to wait for");
         for k in 1..=2 {
             handover.submit(Counted::new(k, alive)).expect("idle");
@@ -91,7 +124,7 @@ fn each_job_gets_its_result() {
 #[test]
 fn a_result_not_waited_for_is_there_later() {
     checked(|handover, alive| {
-        let thread = worker(handover, alive);
+        let thread = worker(handover, alive, Reads::Nothing);
         handover.submit(Counted::new(1, alive)).expect("idle");
         let refused = handover
             .submit(Counted::new(2, alive))
@@ -112,7 +145,7 @@ fn a_result_not_waited_for_is_there_later() {
 #[test]
 fn a_job_let_go_of_is_told_once_and_another_may_follow() {
     checked(|handover, alive| {
-        let thread = worker(handover, alive);
+        let thread = worker(handover, alive, Reads::Nothing);
         handover.submit(Counted::new(0, alive)).expect("idle");
         assert_eq!(number(handover.take()), Some(Outcome::Lost));
         assert!(handover.try_take().is_none(), "told once");
@@ -124,10 +157,40 @@ fn a_job_let_go_of_is_told_once_and_another_may_follow() {
 }
 
 #[test]
+fn a_job_that_waits_reads_each_message_sent_before_the_frame_waits() {
+    checked(|handover, alive| {
+        let thread = worker(handover, alive, Reads::All);
+        handover.submit(Counted::new(1, alive)).expect("idle");
+        for message in 1..=2 {
+            handover.send(Counted::new(message, alive));
+        }
+        assert_eq!(read(handover.take()), [1, 2]);
+        handover.close();
+        assert_eq!(thread.join().expect("the worker ends"), [1]);
+    });
+}
+
+#[test]
+fn a_message_that_was_not_read_goes_to_no_later_job() {
+    checked(|handover, alive| {
+        for job in 1..=2 {
+            handover.submit(Counted::new(job, alive)).expect("idle");
+            let task = handover.next().expect("it was submitted");
+            task.run(|job, messages| {
+                let read = messages(false).iter().map(|message| message.number).collect();
+                (job, read)
+            });
+            handover.send(Counted::new(7, alive));
+            assert!(read(handover.take()).is_empty());
+        }
+    });
+}
+
+#[test]
 fn closing_at_any_moment_ends_the_worker() {
-    for job in 0..=1 {
+    for (job, reads) in [(0, Reads::Nothing), (1, Reads::Nothing), (1, Reads::All)] {
         checked(move |handover, alive| {
-            let thread = worker(handover, alive);
+            let thread = worker(handover, alive, reads);
             handover.submit(Counted::new(job, alive)).expect("idle");
             handover.close();
             let late = handover.submit(Counted::new(2, alive)).expect_err("closed");
@@ -143,7 +206,7 @@ fn closing_at_any_moment_ends_the_worker() {
 #[test]
 fn closing_wakes_who_waits() {
     checked(|handover, alive| {
-        let thread = worker(handover, alive);
+        let thread = worker(handover, alive, Reads::Nothing);
         handover.submit(Counted::new(1, alive)).expect("idle");
         let waiting = {
             let handover = handover.clone();

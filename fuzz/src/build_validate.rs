@@ -1,7 +1,7 @@
 //! Lights of any words, refused or built into valid trees.
 
 use arbitrary::{Result, Unstructured};
-use lightbvh::{BuildParams, Bvh, CompactNode, FullNode, LightNode, Lights, MomentNode};
+use lightbvh::{BuildParams, Bvh, CompactNode, LightNode, Lights, MomentNode};
 
 use crate::{Forms, input};
 
@@ -20,7 +20,7 @@ pub fn build_validate(data: &[u8], forms: Forms) {
                     0 => valid::<CompactNode<2>, 2>(&lights, &params, form),
                     1 => valid::<CompactNode<4>, 4>(&lights, &params, form),
                     2 => valid::<MomentNode<8>, 8>(&lights, &params, form),
-                    _ => valid::<FullNode<16>, 16>(&lights, &params, form),
+                    _ => valid::<CompactNode<16>, 16>(&lights, &params, form),
                 }
             }
         }

@@ -1,42 +1,35 @@
-//! Scenes under any edits, with rebuilds that end at any time.
+//! Scenes under any edits, with trees that are built in the background.
 
 mod batch;
+mod mirror;
 mod model;
 mod placing;
-mod work;
 
 use arbitrary::{Result, Unstructured};
-use lightbvh::bvh::{Rebuild, RebuildParams, Rebuilt};
-use lightbvh::node::Holds;
+use lightbvh::bvh::Swap;
 use lightbvh::{
-    Bvh, CompactNode, Eq4, FullNode, INVALID, ImportanceModel, InstanceId, LightNode, MomentNode, Moments,
+    Bvh, CompactNode, Eq4, INVALID, ImportanceModel, InstanceId, LightNode, MomentNode, Moments, Rebuilder,
+    RebuilderParams, ShadingPoint,
 };
 
+use self::mirror::Mirror;
 use self::model::Model;
 use crate::{Forms, input};
 
-/// Most rebuilds that are under way at once.
-const FLYING: usize = 2;
-
-/// A scene whose meshes and instances come, move, shine, bend and go, in batches that may hold refused edits, while trees are
-/// built anew: a refused batch changes nothing and names an edit that is wrong; a frame's work keeps its bound; after every
-/// frame the scene is valid and its lights are where the edits put them; in the end a scene built from scratch holds the same.
+/// Adds, moves, dims, deforms and removes meshes and instances, in batches that may hold refused edits, while trees are
+/// built in the background. A refused batch changes nothing and names an edit that is wrong. Until the refit no sample names a
+/// removed light. After every frame the scene is valid, and its lights are where the edits put them. Mirrors that follow its
+/// plans, and a twin read from its words, have its words. In the end a scene built from scratch holds the same.
 pub fn edits(data: &[u8], forms: Forms) {
     for form in forms.of(data, 4) {
         let u = &mut Unstructured::new(data);
         let _ = match form {
             0 => frames::<CompactNode<4>, Eq4, 4>(u, forms),
             1 => frames::<CompactNode<2>, Eq4, 2>(u, forms),
-            2 => frames::<FullNode<4>, Eq4, 4>(u, forms),
+            2 => frames::<MomentNode<4>, Moments, 4>(u, forms),
             _ => frames::<MomentNode<8>, Moments, 8>(u, forms),
         };
     }
-}
-
-/// A rebuild under way: not begun, or waiting to be swapped in.
-enum Flying<N: Holds, const W: usize> {
-    Planned(Rebuild<N, W>),
-    Built(Rebuilt<N, W>),
 }
 
 fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: usize>(
@@ -45,45 +38,69 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
 ) -> Result<()> {
     let mut scene = Bvh::<N, (), W>::new(input::params(u)?);
     let mut model = Model::default();
-    let mut flying: Vec<Flying<N, W>> = Vec::new();
-    let count = 1 + u.arbitrary::<u8>()? % 6;
+    // One follows in every frame, one in some.
+    let mut mirrors = [Mirror::default(), Mirror::default()];
+    let mut twin: Option<Bvh<N, (), W>> = None;
+    let mut rebuilder: Option<Rebuilder<N, W>> = None;
+    let count = 1 + u.arbitrary::<u8>()? % 8;
     for frame in 0..count {
         let bits: u8 = u.arbitrary()?;
-        let is_still = bits & 5 == 0 || flying.is_empty();
-        if bits & 1 != 0 {
-            land(&mut scene, &mut flying, bits & 2 != 0);
-        }
         // Comparing all that a scene is takes its time.
         let thorough = forms == Forms::All || bits & 0xf0 == 0;
-        let depth = scene.depth();
-        let touched = batch::edit(u, &mut model, &mut scene, frame == 0, thorough)?;
-        if bits & 4 != 0 {
-            land(&mut scene, &mut flying, bits & 2 != 0);
+        let mut is_swapped = bits & 1 != 0 && begin(&mut rebuilder, &mut scene);
+        twin = twin.filter(|_| !is_swapped);
+        let is_done = batch::edit(u, &mut model, &mut scene, twin.as_mut(), frame == 0, thorough)?;
+        if bits & 2 != 0 && begin(&mut rebuilder, &mut scene) {
+            (is_swapped, twin) = (true, None);
         }
+        let point = place(u, &scene)?;
+        let random: u32 = u.arbitrary()?;
+        before_refit::<N, I, W>(&model, &scene, &point, random);
+        let is_rebuilt = bits & 12 == 12;
+        for own in [Some(&mut scene), twin.as_mut()].into_iter().flatten() {
+            match is_rebuilt {
+                true => own.rebuild(),
+                false => own.refit(),
+            }
+        }
+        check(&model, &scene);
+        if let Some(twin) = &twin {
+            assert!(twin.to_words() == scene.to_words(), "a twin goes on alike");
+        }
+        let plan = mirrors[0].follow(&scene);
+        mirrors[0].check::<I, W>(&scene, &point, random);
+        if !is_done && !is_swapped && !is_rebuilt && frame > 0 {
+            let written = plan.written_nodes.len() + plan.written_top.len() + plan.written_instances.len();
+            assert_eq!((plan.computed(), written), (0, 0), "nothing changed");
+        }
+        if bits & 16 != 0 {
+            mirrors[1].follow(&scene);
+            mirrors[1].check::<I, W>(&scene, &point, random);
+        }
+        if bits & 32 != 0 {
+            let bits: u8 = u.arbitrary()?;
+            let own = rebuilder.get_or_insert_with(|| {
+                Rebuilder::new(RebuilderParams {
+                    after: u32::from(bits & 3),
+                    swap: Swap::Deterministic,
+                    idle: f64::from(bits >> 2 & 1),
+                    bytes: if bits & 8 == 0 { usize::MAX } else { 200 },
+                })
+            });
+            own.end_frame(&scene);
+        }
+        if bits & 64 != 0 {
+            let words = scene.to_words();
+            let read = Bvh::from_words(&words).unwrap_or_else(|error| panic!("{error}"));
+            assert!(read.to_words() == words);
+            twin = Some(read);
+        }
+    }
+    for _ in 0..3 {
+        begin(&mut rebuilder, &mut scene);
         scene.refit();
         check(&model, &scene);
-        if is_still && frame > 0 {
-            work::check(scene.work(), &touched, depth.max(scene.depth()));
-        }
-        if bits & 8 != 0 && flying.len() < FLYING {
-            let bits: u8 = u.arbitrary()?;
-            let params = RebuildParams {
-                top: if bits & 3 != 0 { 1.0 } else { f64::INFINITY },
-                drift: [1.0001, 1.5, 0.0, f64::INFINITY][usize::from(bits >> 2 & 3)],
-            };
-            let rebuild = scene.rebuild(&params);
-            flying.push(if bits & 16 == 0 {
-                Flying::Built(rebuild.run())
-            } else {
-                Flying::Planned(rebuild)
-            });
-        }
     }
-    while !flying.is_empty() {
-        land(&mut scene, &mut flying, false);
-    }
-    scene.refit();
-    check(&model, &scene);
     sampled::<N, I, W>(u, &model, &scene)?;
 
     let (scratch, ids) = model.from_scratch::<N, W>();
@@ -94,18 +111,51 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
     sampled::<N, I, W>(u, &anew, &scratch)
 }
 
-/// Swaps in the first rebuild, or the last.
-fn land<N: LightNode<W>, const W: usize>(
+/// Begins a frame of the rebuilder; returns whether anything was swapped in.
+fn begin<N: LightNode<W>, const W: usize>(
+    rebuilder: &mut Option<Rebuilder<N, W>>,
     scene: &mut Bvh<N, (), W>,
-    flying: &mut Vec<Flying<N, W>>,
-    last: bool,
-) {
-    if flying.is_empty() {
-        return;
+) -> bool {
+    rebuilder.as_mut().is_some_and(|rebuilder| {
+        let start = rebuilder.begin_frame(scene).expect("its own");
+        start.swapped || start.meshes > 0
+    })
+}
+
+/// A point for samples.
+fn place<N: LightNode<W>, const W: usize>(
+    u: &mut Unstructured<'_>,
+    scene: &Bvh<N, (), W>,
+) -> Result<ShadingPoint> {
+    let mut world = scene.world_lights();
+    if world.is_empty() {
+        world.push(lightbvh::EmissiveTriangle {
+            p: [[0.0; 3]; 3],
+            radiance: [0.0; 3],
+            mesh: INVALID,
+            flags: 0,
+        });
     }
-    match flying.remove(if last { flying.len() - 1 } else { 0 }) {
-        Flying::Planned(rebuild) => scene.install(rebuild.run()).expect("its own"),
-        Flying::Built(rebuilt) => scene.install(rebuilt).expect("its own"),
+    input::point(u, &world)
+}
+
+/// Samples between edits, or a swap, and the refit: of lights that are there, with their probabilities.
+fn before_refit<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    model: &Model,
+    scene: &Bvh<N, (), W>,
+    point: &ShadingPoint,
+    random: u32,
+) {
+    let tree = scene.by::<I>();
+    for i in 0..4_u32 {
+        let sampled = tree.sample(point, random.wrapping_add(i.wrapping_mul(0x9e37_79b9)));
+        if sampled.light != INVALID {
+            let id = scene.instance_id(sampled.instance);
+            let own = model.instances.iter().find(|placed| Some(placed.id) == id);
+            assert!(own.expect("it is there").lights.contains(&sampled.light));
+            let pmf = tree.pmf(point, sampled.light, sampled.instance);
+            assert_eq!(pmf.to_bits(), sampled.pmf.to_bits());
+        }
     }
 }
 
@@ -125,16 +175,7 @@ fn sampled<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     model: &Model,
     scene: &Bvh<N, (), W>,
 ) -> Result<()> {
-    let mut world = scene.world_lights();
-    if world.is_empty() {
-        world.push(lightbvh::EmissiveTriangle {
-            p: [[0.0; 3]; 3],
-            radiance: [0.0; 3],
-            mesh: INVALID,
-            flags: 0,
-        });
-    }
-    let point = input::point(u, &world)?;
+    let point = place(u, scene)?;
     let random: u32 = u.arbitrary()?;
     let mut pmfs = vec![0f32; scene.light_end() as usize];
     let mut any = false;
@@ -152,7 +193,7 @@ fn sampled<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         assert_ne!(scene.instance_id(gone.index()), Some(gone));
     }
     if any {
-        input::sum_is_one(&pmfs, 0);
+        input::sum_is_one(&pmfs, 0, &point);
     }
     for i in 0..4_u32 {
         let sampled = scene

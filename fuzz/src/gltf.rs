@@ -4,7 +4,7 @@ mod document;
 
 use arbitrary::{Result, Unstructured};
 use lightbvh::Lights;
-use lightbvh_host::scene::{Frame, Scene};
+use lightbvh_scenes::{Frame, Scene};
 
 use self::document::Document;
 use crate::Forms;

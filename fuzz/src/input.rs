@@ -209,22 +209,36 @@ pub fn shines<N: LightNode<W>, const W: usize>(triangle: &EmissiveTriangle) -> b
     N::Summary::of_triangle(triangle).phi() > 0.0
 }
 
-/// Asserts that pmfs sum to one, as in the property tests: those of a tree are exact but for the rounding of the sum; a uniform
-/// share of 2^-`halvings` is divided twice and added, each within 2^-24.
-pub fn sum_is_one(pmfs: &[f32], halvings: u32) {
-    let sum: f64 = pmfs.iter().map(|&pmf| f64::from(pmf)).sum();
+/// By how much a sum of pmfs of `lights` may be off 1, where a share of 2^-`halvings` is uniform, if any.
+///
+/// Those of a tree are shares of numbers, so their sum is 1 but for the rounding of the sum itself, at most 2^-54 for each
+/// light, and for shares below 2^-98, which count as at least 2^-99. A uniform share s is divided twice, each time within
+/// 2^-24, and added to the tree's within 2^-24.
+pub fn sum_tolerance(lights: usize, halvings: u32) -> f64 {
     let uniform = if halvings > 0 {
         (1.0 + 2.0 * 0.5f64.powi(halvings as i32)) * 2f64.powi(-24)
     } else {
         0.0
     };
-    let tolerance = pmfs.len() as f64 * 2f64.powi(-53) + uniform;
-    assert!((sum - 1.0).abs() <= tolerance, "sum {sum}");
+    lights as f64 * 2f64.powi(-53) + uniform
+}
+
+/// Asserts that pmfs are probabilities, and sum to one.
+pub fn sum_is_one(pmfs: &[f32], halvings: u32, point: &ShadingPoint) {
+    for pmf in pmfs {
+        assert!((0.0..=1.0).contains(pmf), "pmf {pmf} at {point:?}");
+    }
+    let off = (pmfs.iter().map(|&pmf| f64::from(pmf)).sum::<f64>() - 1.0).abs();
+    let (count, tolerance) = (pmfs.len(), sum_tolerance(pmfs.len(), halvings));
+    assert!(
+        off <= tolerance,
+        "the sum of {count} is off by {off:e}, at most {tolerance:e}, at {point:?}"
+    );
 }
 
 /// The probability of light `light` of a BVH that was built over `lights`.
 pub fn pmf_of<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &Bvh<N, (), W>,
+    bvh: &Bvh<N, impl Sized, W>,
     lights: &Lights,
     point: &ShadingPoint,
     light: u32,

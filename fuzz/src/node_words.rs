@@ -8,7 +8,7 @@ use arbitrary::{Result, Unstructured};
 use lightbvh::trail::max_levels;
 use lightbvh::{
     CompactNode, Eq4, INVALID, ImportanceModel, Instance, LightNode, LightTree, MomentNode, Moments,
-    ShadingPoint, refit,
+    SampledLight, ShadingPoint, TreeWords, refit,
 };
 
 use crate::{Forms, input};
@@ -39,13 +39,7 @@ pub fn node_words(data: &[u8], forms: Forms) {
         let triangles = input::any_triangles(u)?;
         let (random, light, instance): (u32, u32, u32) = u.arbitrary()?;
         let instances: Vec<Instance> = (0..u.int_in_range(0..=3)?)
-            .map(|_| {
-                let (first, last): ([u32; 32], [u32; 2]) = u.arbitrary()?;
-                let mut words = [last[0]; 34];
-                words[33] = last[1];
-                words[..32].copy_from_slice(&first);
-                Ok(bytemuck::cast(words))
-            })
+            .map(|_| Ok(bytemuck::cast(u.arbitrary::<[u32; 31]>()?)))
             .collect::<Result<_>>()?;
         let roots: Vec<refit::BlasRoot> = (0..u.int_in_range(0..=3)?)
             .map(|_| Ok(bytemuck::cast(u.arbitrary::<[u32; 13]>()?)))
@@ -53,25 +47,29 @@ pub fn node_words(data: &[u8], forms: Forms) {
         let trails: Vec<u32> = (0..u.int_in_range(0..=8)?)
             .map(|_| u.arbitrary())
             .collect::<Result<_>>()?;
-        let trail_words = u.arbitrary::<u32>()? & 3;
-        let root = u.arbitrary::<u32>()? & 7;
+        let bits: u32 = u.arbitrary()?;
         let (live, lights): (u32, u32) = u.arbitrary()?;
         let depth = u.arbitrary::<u8>()?;
         let nodes: Vec<N> = (0..u.int_in_range(1..=8)?)
             .map(|_| input::node(u))
             .collect::<Result<_>>()?;
 
-        let tree = LightTree {
-            nodes: &nodes,
-            root,
-            instances: &instances,
-            trails: &trails,
-            trail_words,
+        // The layout of a device, or one with a separate top level.
+        let words = TreeWords {
+            root: bits >> 2 & 7,
+            trail_words: bits & 3,
             live,
             lights,
             depth: u32::from(depth),
-            importance: PhantomData::<Counting<I>>,
+            top: bits >> 5 & 7,
+            above: bits >> 8 & 7,
+            places: bits >> 11 & 7,
+            parts: bits >> 14 & 7,
         };
+        let mut tree: LightTree<'_, N, Counting<I>, W> = words.tree(&nodes, &instances, &trails);
+        if bits >> 17 & 1 != 0 {
+            tree.top = &nodes[..1 + nodes.len() / 2];
+        }
         let counted = |pmf: f32| {
             assert!(NODES.take() <= u32::from(depth).min(2 * max_levels(W)));
             assert!((0.0..=1.0).contains(&pmf), "{pmf}");
@@ -79,6 +77,14 @@ pub fn node_words(data: &[u8], forms: Forms) {
         NODES.set(0);
         let sampled = tree.sample(&point, random);
         counted(sampled.pmf);
+        let numbers = [0, 1, 2].map(|k: u32| random.wrapping_add(k.wrapping_mul(0x9e37_79b9)).into());
+        let mut many = [SampledLight::NONE; 3];
+        tree.sample_batch(&[point; 3], &numbers, &mut many);
+        for (many, number) in many.iter().zip(numbers) {
+            let one = tree.sample(&point, number);
+            assert_eq!((many.light, many.pmf.to_bits()), (one.light, one.pmf.to_bits()));
+        }
+        NODES.set(0);
         for (light, instance) in [
             (sampled.light, instance),
             (light, instance),
@@ -89,7 +95,7 @@ pub fn node_words(data: &[u8], forms: Forms) {
         }
         for i in 0..nodes.len() as u32 {
             let _ = refit::bottom(&nodes, &triangles, i);
-            let _ = refit::top(&nodes, &instances, &roots, i);
+            let _ = refit::top(&nodes, words.top, &instances, &roots, i);
             let _ = refit::root(&nodes, i);
         }
         Ok(())

@@ -64,7 +64,7 @@ fn distributions<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
             }
         };
         if shines.contains(&true) {
-            input::sum_is_one(&pmfs, I::UNIFORM_HALVINGS);
+            input::sum_is_one(&pmfs, I::UNIFORM_HALVINGS, point);
         }
         for i in 0..8_u32 {
             sampled(random.wrapping_add(i.wrapping_mul(0x9e37_79b9)).into());

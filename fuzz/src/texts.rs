@@ -1,112 +1,10 @@
-//! The loaders of text: pbrt, OBJ, PLY.
+//! The loaders of text: OBJ, PLY.
 
 use arbitrary::{Result, Unstructured};
-use lightbvh_host::scene::{Scene, SceneError};
+use lightbvh_scenes::{Scene, SceneError};
 
 use crate::Forms;
 use crate::gltf::within_domain;
-
-/// What pbrt files are made of.
-const PBRT: &[&str] = &[
-    "Identity",
-    "Translate",
-    "Scale",
-    "Rotate",
-    "LookAt",
-    "Transform",
-    "ConcatTransform",
-    "CoordinateSystem",
-    "CoordSysTransform",
-    "ReverseOrientation",
-    "AttributeBegin",
-    "AttributeEnd",
-    "TransformBegin",
-    "TransformEnd",
-    "ObjectBegin",
-    "ObjectEnd",
-    "ObjectInstance",
-    "WorldBegin",
-    "WorldEnd",
-    "Attribute",
-    "MediumInterface",
-    "NamedMaterial",
-    "MakeNamedMaterial",
-    "Material",
-    "Texture",
-    "Shape",
-    "LightSource",
-    "AreaLightSource",
-    "Camera",
-    "Film",
-    "Sampler",
-    "ActiveTransform",
-    "Include",
-    "ColorSpace",
-    "Option",
-    "\"perspective\"",
-    "\"orthographic\"",
-    "\"diffuse\"",
-    "\"conductor\"",
-    "\"dielectric\"",
-    "\"mix\"",
-    "\"imagemap\"",
-    "\"scale\"",
-    "\"constant\"",
-    "\"checkerboard\"",
-    "\"trianglemesh\"",
-    "\"bilinearmesh\"",
-    "\"plymesh\"",
-    "\"sphere\"",
-    "\"disk\"",
-    "\"cylinder\"",
-    "\"loopsubdiv\"",
-    "\"point\"",
-    "\"spot\"",
-    "\"distant\"",
-    "\"infinite\"",
-    "\"goniometric\"",
-    "\"a\"",
-    "\"b\"",
-    "\"shape\"",
-    "\"light\"",
-    "\"point3 P\"",
-    "\"integer indices\"",
-    "\"point2 uv\"",
-    "\"normal N\"",
-    "\"float radius\"",
-    "\"float zmin\"",
-    "\"float phimax\"",
-    "\"float fov\"",
-    "\"float screenwindow\"",
-    "\"rgb L\"",
-    "\"rgb I\"",
-    "\"blackbody L\"",
-    "\"spectrum L\"",
-    "\"float power\"",
-    "\"float scale\"",
-    "\"float illuminance\"",
-    "\"float coneangle\"",
-    "\"float conedeltaangle\"",
-    "\"bool twosided\"",
-    "\"rgb reflectance\"",
-    "\"texture reflectance\"",
-    "\"float roughness\"",
-    "\"string filename\"",
-    "\"string materials\"",
-    "\"texture tex\"",
-    "\"float amount\"",
-    "\"spectrum eta\"",
-    "\"metal-Cu-eta\"",
-    "\"float alpha\"",
-    "\"point3 from\"",
-    "\"point3 to\"",
-    "true",
-    "false",
-    "[",
-    "]",
-    "[",
-    "]",
-];
 
 /// What OBJ files are made of.
 const OBJ: &[&str] = &[
@@ -174,14 +72,13 @@ const NUMBERS: &[&str] = &[
     "",
 ];
 
-/// A pbrt, OBJ or PLY file, of any bytes or of words that such files are made of: refused, or a scene whose frames hold numbers
+/// An OBJ or PLY file, of any bytes or of words that such files are made of: refused, or a scene whose frames hold numbers
 /// in the domain.
 pub fn texts(data: &[u8], _: Forms) {
     let run = |u: &mut Unstructured<'_>| -> Result<()> {
         let kind: u8 = u.arbitrary()?;
         let (words, read): (&[&str], fn(&[u8]) -> _) = match kind % 3 {
-            0 => (PBRT, |bytes| Scene::read_pbrt_slice("fuzz.pbrt", bytes, None)),
-            1 => (OBJ, |bytes| Scene::read_obj_slice("fuzz.obj", bytes, None)),
+            0 | 1 => (OBJ, |bytes| Scene::read_obj_slice("fuzz.obj", bytes, None)),
             _ => (PLY, |bytes| Scene::read_ply_slice("fuzz.ply", bytes)),
         };
         let bytes = match kind / 3 % 8 {

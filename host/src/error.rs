@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use lightbvh::RebuildError;
 use lightbvh::error::FollowError;
-use lightbvh::requirements::ModelError;
 use lightbvh_gpu::NotCompiled;
 
 use crate::backend::BackendError;
@@ -49,9 +48,6 @@ pub enum HostError {
     /// Lights that a backend cannot follow.
     #[error("{0}")]
     Follow(FollowError),
-    /// A refit of everything after edits.
-    #[error("{0}")]
-    Edited(BackendError),
     /// A comparison that makes no sense.
     #[error(transparent)]
     Compare(#[from] CompareError),
@@ -61,7 +57,7 @@ pub enum HostError {
     /// Two images that cannot be measured.
     #[error(transparent)]
     Metric(#[from] MetricError),
-    /// A rebuild beside the frame.
+    /// A rebuild in the background.
     #[error(transparent)]
     Rebuild(#[from] RebuildError),
     /// A result that cannot be kept.
@@ -120,17 +116,6 @@ pub enum HostError {
         /// What it needs.
         needs: &'static str,
     },
-    /// A list of scenes.
-    #[error("the list {path}: {problem}")]
-    List {
-        /// The file.
-        path: PathBuf,
-        /// Where, what, and what to do.
-        problem: String,
-    },
-    /// A model that is not sufficient for a scene.
-    #[error("{0}")]
-    Model(#[from] ModelError),
     /// A model without kernels, where a device is to run it.
     #[error("{0}")]
     Kernels(#[from] NotCompiled),
@@ -162,7 +147,6 @@ impl From<BackendError> for HostError {
         match error {
             BackendError::Vulkan(error) => Self::Vulkan(error),
             BackendError::Lights(error) => Self::Follow(error),
-            error @ BackendError::Edited => Self::Edited(error),
         }
     }
 }

@@ -8,9 +8,13 @@ pub mod method;
 pub mod metrics;
 pub mod plot;
 pub mod render;
-pub mod scene;
+// Written by `build-kernels`.
+#[rustfmt::skip]
+mod renderer;
 pub mod stability;
-mod vector;
 pub mod vulkan;
 pub mod words;
 pub mod workload;
+
+pub use lightbvh_scenes as scene;
+pub(crate) use lightbvh_scenes::vector;

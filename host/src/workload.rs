@@ -7,7 +7,7 @@ use lightbvh::{BuildParams, Bvh, INVALID, Lights, Random64, ShadingPoint};
 use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
 
-use crate::backend::{Sampler, SceneArrays};
+use crate::backend::{Sampler, SceneArrays, nodes_in_use};
 use crate::error::HostError;
 use crate::render::{RayBvh, camera};
 use crate::scene::{Scene, SceneLight, SkinArrays};
@@ -129,6 +129,14 @@ pub fn instance_of<N: Node<W>, I, const W: usize>(
         Some(light) if !bvh.is_single_level() => light.mesh(),
         _ => INVALID,
     }
+}
+
+/// The words of nodes in use, out of those of all nodes in the order of [`node_words`](crate::backend::node_words): the others
+/// may differ on a device.
+pub fn words_in_use<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>, words: &[u32]) -> Vec<u32> {
+    let width = size_of::<N>() / size_of::<u32>();
+    let used = nodes_in_use(bvh).into_iter().map(|node| node as usize * width);
+    used.flat_map(|at| words[at..at + width].to_vec()).collect()
 }
 
 /// `count` queries numbered from `first`: most on surfaces of the scene, some in volumes, some anywhere in and around

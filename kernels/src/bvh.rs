@@ -4,7 +4,7 @@ use lightbvh::importance::{DefaultImportance, NativeMath};
 use lightbvh::light::AnyLight;
 use lightbvh::node::{DefaultNode, Holds, Lit, Node as Layout, SpotMomentNode};
 use lightbvh::{
-    CompactNode, Defensive, EmissiveTriangle, Eq4, ImportanceModel, LightTree, MomentNode, Moments, Random64,
+    CompactNode, Defensive, EmissiveTriangle, Eq4, ImportanceModel, LightTree, Moments, Random64,
     SampledLight, ShadingPoint,
 };
 
@@ -36,7 +36,7 @@ pub struct Paper;
 
 impl Choice<4> for Paper {
     type Light = EmissiveTriangle;
-    type Node = CompactNode<4>;
+    type Node = PaperNode;
     type Importance = Eq4;
     const NAME: &'static str = "eq4";
     const SUFFIX: &'static str = "_eq4";
@@ -55,8 +55,8 @@ impl Choice<WIDTH> for Standard {
     const SUFFIX: &'static str = "";
 }
 
-/// The default's trees, chosen from by the processor's own operations: what exactness costs is measured against it. It has no
-/// refit of its own, and its words are those of one device alone.
+/// The default's trees, chosen from by the processor's own operations, on the CPU alone: what exactness costs is measured
+/// against it.
 #[derive(Clone, Copy, Debug)]
 pub struct Native;
 
@@ -65,31 +65,7 @@ impl Choice<WIDTH> for Native {
     type Node = Node;
     type Importance = Defensive<Moments<NativeMath>, 6>;
     const NAME: &'static str = "native moments";
-    const SUFFIX: &'static str = "_native";
-}
-
-/// The default with 4 children to a node: what its width costs a device is measured against it. It has no refit of its own.
-#[derive(Clone, Copy, Debug)]
-pub struct Narrow;
-
-impl Choice<4> for Narrow {
-    type Light = EmissiveTriangle;
-    type Node = MomentNode<4>;
-    type Importance = DefaultImportance;
-    const NAME: &'static str = "moments, 4 children";
-    const SUFFIX: &'static str = "_narrow";
-}
-
-/// The default with 16 children to a node, as [`Narrow`].
-#[derive(Clone, Copy, Debug)]
-pub struct Wide;
-
-impl Choice<16> for Wide {
-    type Light = EmissiveTriangle;
-    type Node = MomentNode<16>;
-    type Importance = DefaultImportance;
-    const NAME: &'static str = "moments, 16 children";
-    const SUFFIX: &'static str = "_wide";
+    const SUFFIX: &'static str = "";
 }
 
 /// The default over lights of any kind.
@@ -108,41 +84,10 @@ impl Choice<WIDTH> for Kinds {
 pub const WIDTH: usize = 8;
 /// Node of [`Standard`].
 pub type Node = DefaultNode;
+/// Node of [`Paper`].
+pub type PaperNode = CompactNode<4>;
 /// Node over lights of any kind, spots among them: the words of [`Node`], and beams.
 pub type AnyNode = Lit<SpotMomentNode<8>, AnyLight>;
-
-/// The node of a choice that is made for one width only: what a kernel's buffer holds.
-pub type NodeOf<C> = <C as Kernels>::Node;
-
-/// A choice by itself, its width known.
-pub trait Kernels {
-    /// The node layout.
-    type Node;
-}
-
-impl Kernels for Standard {
-    type Node = Node;
-}
-
-impl Kernels for Kinds {
-    type Node = AnyNode;
-}
-
-impl Kernels for Native {
-    type Node = Node;
-}
-
-impl Kernels for Narrow {
-    type Node = MomentNode<4>;
-}
-
-impl Kernels for Wide {
-    type Node = MomentNode<16>;
-}
-
-impl Kernels for Paper {
-    type Node = CompactNode<4>;
-}
 
 /// The tree of a choice.
 pub type TreeOf<'a, C, const W: usize> =

@@ -1,30 +1,37 @@
-//! Passes over lights of any kind, [`AnyLight`]: the refits and `light_points_any`; those that choose lights or render stand beside the ones
-//! over triangles. Nodes are the default's with beams, since any kind may be a spot.
+//! Passes over trees of lights of any kind, [`AnyLight`]. Nodes are the default's with beams, since any kind may be a spot.
 
 use glam::UVec3;
 use lightbvh::instance::world_light;
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::refit::{self, BlasRoot, Children, LIMITED_ROWS};
-use lightbvh::{Instance, LightPoint, SampledLight};
+use lightbvh::{Instance, LightPoint, Random64, SampledLight};
 use spirv_std::spirv;
 
 pub use crate::bvh::AnyNode;
-use crate::bvh::WIDTH;
+use crate::bvh::{Kinds, TreeOf, WIDTH};
 use crate::invocation;
-use crate::query::{PointsPush, Query};
-use crate::refit::{RefitPush, bottom_pass, nodes_pass, roots_pass, top_pass};
+use crate::query::{PointsPush, Query, QueryPush, query_passes};
+use crate::refit::{RefitPush, refit_passes};
 
-bottom_pass!(
+type AnyTree<'a> = TreeOf<'a, Kinds, WIDTH>;
+
+query_passes!(
+    Query,
+    AnyNode,
+    AnyTree,
+    sample_any = "sample_any",
+    pmf_any = "pmf_any"
+);
+refit_passes!(
     AnyNode,
     WIDTH,
     LIMITED_ROWS,
     AnyLight,
-    refit_bottom_any,
-    "refit_bottom_any"
+    refit_bottom_any = "refit_bottom_any",
+    refit_top_any = "refit_top_any",
+    refit_nodes_any = "refit_nodes_any",
+    refit_roots_any = "refit_roots_any"
 );
-roots_pass!(AnyNode, refit_roots_any, "refit_roots_any");
-top_pass!(AnyNode, WIDTH, LIMITED_ROWS, refit_top_any, "refit_top_any");
-nodes_pass!(AnyNode, WIDTH, LIMITED_ROWS, refit_nodes_any, "refit_nodes_any");
 
 /// The point on a sampled light that the two numbers of `uv` choose for the receiver of `query`.
 #[inline]

@@ -2,14 +2,14 @@
 //! on its light.
 
 use bytemuck::{Pod, Zeroable};
-use glam::UVec3;
+use glam::{UVec3, Vec3};
 use lightbvh::instance::world_light;
-use lightbvh::{EmissiveTriangle, Instance, LightPoint, Random64, SampledLight, ShadingPoint};
+use lightbvh::light::Light;
+use lightbvh::{EmissiveTriangle, Instance, LightPoint, Random64, SampledLight, ShadingPoint, TreeWords};
 use spirv_std::spirv;
 
-use crate::bvh::{Choice, Kinds, Narrow, Native, NodeOf, Paper, Standard, TreeOf, Wide};
+use crate::bvh::{Choice, Node, Paper, PaperNode, Standard, TreeOf, WIDTH};
 use crate::invocation;
-use lightbvh::TreeWords;
 
 /// A point, and what is asked: 32 bytes.
 #[repr(C)]
@@ -20,6 +20,15 @@ pub struct Query {
     /// For `sample` the number of the walk, its high word first; for `pmf` the light and its instance (`u32::MAX` in a
     /// single-level tree).
     pub words: [u32; 2],
+}
+
+impl Query {
+    /// The receiver.
+    #[inline(always)]
+    #[must_use]
+    pub fn receiver(&self) -> ShadingPoint {
+        self.point
+    }
 }
 
 /// Push constants of both passes.
@@ -50,66 +59,65 @@ pub fn pmf_query<C: Choice<W>, const W: usize>(tree: &TreeOf<'_, C, W>, query: &
     tree.pmf(&query.point, query.words[0], query.words[1])
 }
 
-/// The passes for one choice: `$sample` chooses a light for each query's point, `$pmf` evaluates the probability of each
-/// query's light at its point.
+/// The passes for one type of query and of tree: `$sample` chooses a light for each query's receiver, `$pmf` evaluates the
+/// probability of each query's light.
 macro_rules! query_passes {
-    ($choice:ty, $sample:ident, $sample_name:tt, $pmf:ident, $pmf_name:tt) => {
-        /// Chooses a light for each query's point.
+    ($query:ty, $node:ty, $tree:ident, $sample:ident = $sample_name:tt, $pmf:ident = $pmf_name:tt) => {
+        /// Chooses a light for each query's receiver.
         #[spirv(compute(threads(64), entry_point_name = $sample_name))]
         pub fn $sample(
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &QueryPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[NodeOf<$choice>],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[$node],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] trails: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] queries: &[Query],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] queries: &[$query],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [SampledLight],
         ) {
             let i = invocation(id);
             if i < push.count && i < queries.len() as u32 {
-                let tree: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
-                results[i as usize] = sample_query::<$choice, _>(&tree, &queries[i as usize]);
+                let tree: $tree<'_> = push.tree.tree(nodes, instances, trails);
+                let query = queries[i as usize];
+                let number = Random64 {
+                    high: query.words[0],
+                    low: query.words[1],
+                };
+                results[i as usize] = tree.sample_for(&query.receiver(), number);
             }
         }
 
-        /// Evaluates the probability of each query's light at its point.
+        /// Evaluates the probability of each query's light for its receiver.
         #[spirv(compute(threads(64), entry_point_name = $pmf_name))]
         pub fn $pmf(
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &QueryPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[NodeOf<$choice>],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[$node],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] trails: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] queries: &[Query],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] queries: &[$query],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [f32],
         ) {
             let i = invocation(id);
             if i < push.count && i < queries.len() as u32 {
-                let tree = push.tree.tree(nodes, instances, trails);
-                results[i as usize] = pmf_query::<$choice, _>(&tree, &queries[i as usize]);
+                let tree: $tree<'_> = push.tree.tree(nodes, instances, trails);
+                let query = queries[i as usize];
+                results[i as usize] = tree.pmf_for(&query.receiver(), query.words[0], query.words[1]);
             }
         }
     };
 }
 
-query_passes!(Standard, sample, "sample", pmf, "pmf");
-query_passes!(Paper, sample_eq4, "sample_eq4", pmf_eq4, "pmf_eq4");
-query_passes!(Native, sample_native, "sample_native", pmf_native, "pmf_native");
-query_passes!(Narrow, sample_narrow, "sample_narrow", pmf_narrow, "pmf_narrow");
-query_passes!(Wide, sample_wide, "sample_wide", pmf_wide, "pmf_wide");
-query_passes!(Kinds, sample_any, "sample_any", pmf_any, "pmf_any");
+type StandardTree<'a> = TreeOf<'a, Standard, WIDTH>;
+type PaperTree<'a> = TreeOf<'a, Paper, 4>;
 
-/// The point on a sampled light that the two numbers of `uv` choose.
-#[inline]
-#[must_use]
-pub fn light_point(
-    triangles: &[EmissiveTriangle],
-    instances: &[Instance],
-    sample: &SampledLight,
-    uv: [f32; 2],
-) -> LightPoint {
-    world_light(triangles, instances, sample.light, sample.instance).point(uv)
-}
+query_passes!(Query, Node, StandardTree, sample = "sample", pmf = "pmf");
+query_passes!(
+    Query,
+    PaperNode,
+    PaperTree,
+    sample_eq4 = "sample_eq4",
+    pmf_eq4 = "pmf_eq4"
+);
 
 /// Push constants of pass `light_points`.
 #[repr(C)]
@@ -119,21 +127,42 @@ pub struct PointsPush {
     pub count: u32,
 }
 
-/// Turns each of `samples`, as pass `sample` writes them, into a point on its light in the world, by the two numbers of `numbers`
-/// in [0, 1). It reads the triangles through their instances: when an instance moves, its record is all that changes.
-#[spirv(compute(threads(64), entry_point_name = "light_points"))]
-pub fn light_points(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &PointsPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] samples: &[SampledLight],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] numbers: &[[f32; 2]],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [LightPoint],
-) {
-    let i = invocation(id);
-    if i < push.count && i < samples.len() as u32 && i < numbers.len() as u32 {
-        let sample = samples[i as usize];
-        results[i as usize] = light_point(triangles, instances, &sample, numbers[i as usize]);
-    }
+/// The point on a sampled light that the two numbers of `uv` choose, where receivers do not matter.
+#[inline]
+#[must_use]
+pub fn light_point<L: Light>(
+    triangles: &[L],
+    instances: &[Instance],
+    sample: &SampledLight,
+    uv: [f32; 2],
+) -> LightPoint {
+    world_light(triangles, instances, sample.light, sample.instance).point_for(Vec3::ZERO, uv)
 }
+
+/// The pass over points on one type of light.
+macro_rules! points_pass {
+    ($light:ty, $pass:ident = $name:tt) => {
+        /// Turns each of `samples`, as pass `sample` writes them, into a point on its light in the world, by the two numbers of `numbers`
+        /// in [0, 1). It reads the lights through their instances: when an instance moves, its record is all that changes.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &PointsPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] samples: &[SampledLight],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] numbers: &[[f32; 2]],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [LightPoint],
+        ) {
+            let i = invocation(id);
+            if i < push.count && i < samples.len() as u32 && i < numbers.len() as u32 {
+                let sample = samples[i as usize];
+                results[i as usize] = light_point(triangles, instances, &sample, numbers[i as usize]);
+            }
+        }
+    };
+}
+
+points_pass!(EmissiveTriangle, light_points = "light_points");
+
+pub(crate) use {points_pass, query_passes};

@@ -8,7 +8,7 @@ use lightbvh::refit::{self, BlasRoot, Children, PLAIN_ROWS};
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{NodeOf, Paper, Standard, WIDTH};
+use crate::bvh::{Node, PaperNode, WIDTH};
 use crate::invocation;
 
 /// Push constants of the refit passes.
@@ -19,15 +19,51 @@ pub struct RefitPush {
     pub first: u32,
     /// Number of invocations: of entries, times the nodes' width where each child has one.
     pub count: u32,
+    /// Index of the top level's first node.
+    pub top: u32,
 }
 
-/// The pass over children in bottom levels of one type of node, its width and its rows of [`Children`], and of light.
-macro_rules! bottom_pass {
-    ($node:ty, $width:expr, $rows:expr, $light:ty, $pass:ident, $name:tt) => {
-        /// What is known of each child of the nodes `list[first + k]`, all of one level of bottom levels, goes into `children` for `refit_nodes`: of
-        /// its triangle, or of the node below. Invocation `i` computes child `i % width` of node `k = i / width`.
-        #[spirv(compute(threads(64), entry_point_name = $name))]
-        pub fn $pass(
+/// The pass over roots of bottom levels.
+macro_rules! roots_pass {
+    ($node:ty, $roots:ident = $roots_name:tt) => {
+        /// The summaries of bottom levels `list[first + i]` from their root nodes.
+        #[spirv(compute(threads(64), entry_point_name = $roots_name))]
+        pub fn $roots(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RefitPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] nodes: &[$node],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &mut [BlasRoot],
+        ) {
+            let i = invocation(id);
+            let entry = push.first.wrapping_add(i);
+            if i < push.count && entry < list.len() as u32 {
+                let blas = list[entry as usize];
+                if blas < roots.len() as u32 {
+                    roots[blas as usize] = refit::root(nodes, roots[blas as usize].node);
+                }
+            }
+        }
+    };
+}
+
+/// The four passes over one type of node, its width and its rows of [`Children`], and of light; without the last where another
+/// type's does.
+macro_rules! refit_passes {
+    (
+        $node:ty,
+        $width:expr,
+        $rows:expr,
+        $light:ty,
+        $bottom:ident = $bottom_name:tt,
+        $top:ident = $top_name:tt,
+        $nodes:ident = $nodes_name:tt
+        $(, $roots:ident = $roots_name:tt)?
+    ) => {
+        /// Writes the summary of each child of the nodes `list[first + k]`, all of one level of bottom levels, into `children` for
+        /// `refit_nodes`: of its light, or of the node below. Invocation `i` computes child `i % width` of node `k = i / width`.
+        #[spirv(compute(threads(64), entry_point_name = $bottom_name))]
+        pub fn $bottom(
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &RefitPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
@@ -49,16 +85,11 @@ macro_rules! bottom_pass {
                 }
             }
         }
-    };
-}
 
-/// The pass over children in the top level.
-macro_rules! top_pass {
-    ($node:ty, $width:expr, $rows:expr, $pass:ident, $name:tt) => {
-        /// What is known of each child of the top-level nodes `list[first + k]`, all of one level, goes into `children` for `refit_nodes`: of its
-        /// instance, from the bottom level's root, or of the node below. Invocation `i` computes child `i % width` of node `k = i / width`.
-        #[spirv(compute(threads(64), entry_point_name = $name))]
-        pub fn $pass(
+        /// Writes the summary of each child of the top-level nodes `list[first + k]`, all of one level, into `children` for `refit_nodes`:
+        /// of its instance, from the bottom level's root, or of the node below. Invocations as of the pass over bottom levels.
+        #[spirv(compute(threads(64), entry_point_name = $top_name))]
+        pub fn $top(
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &RefitPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
@@ -76,20 +107,15 @@ macro_rules! top_pass {
             if i < push.count && entry < list.len() as u32 {
                 let node = list[entry as usize];
                 if node < nodes.len() as u32 {
-                    let child = refit::top_child(nodes, instances, roots, node, slot);
+                    let child = refit::top_child(nodes, push.top, instances, roots, node, slot);
                     child.put(children, place, slot);
                 }
             }
         }
-    };
-}
 
-/// The pass over nodes of either level, after that over their children.
-macro_rules! nodes_pass {
-    ($node:ty, $width:expr, $rows:expr, $pass:ident, $name:tt) => {
-        /// Nodes `list[first + k]` take the summaries of the children that the pass before has put into `children` as those of node `k`.
-        #[spirv(compute(threads(64), entry_point_name = $name))]
-        pub fn $pass(
+        /// Nodes `list[first + k]` take the summaries of the children that the pass before wrote into `children` as those of node `k`.
+        #[spirv(compute(threads(64), entry_point_name = $nodes_name))]
+        pub fn $nodes(
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &RefitPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
@@ -108,57 +134,32 @@ macro_rules! nodes_pass {
                 }
             }
         }
+        $($crate::refit::roots_pass!($node, $roots = $roots_name);)?
     };
 }
 
-/// The pass over the roots of bottom levels.
-macro_rules! roots_pass {
-    ($node:ty, $pass:ident, $name:tt) => {
-        /// The summaries of bottom levels `list[first + i]` from their root nodes.
-        #[spirv(compute(threads(64), entry_point_name = $name))]
-        pub fn $pass(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RefitPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] nodes: &[$node],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &mut [BlasRoot],
-        ) {
-            let i = invocation(id);
-            let entry = push.first.wrapping_add(i);
-            if i < push.count && entry < list.len() as u32 {
-                let blas = list[entry as usize];
-                if blas < roots.len() as u32 {
-                    roots[blas as usize] = refit::root(nodes, roots[blas as usize].node);
-                }
-            }
-        }
-    };
-}
+pub(crate) use {refit_passes, roots_pass};
 
-pub(crate) use {bottom_pass, nodes_pass, roots_pass, top_pass};
-
-bottom_pass!(
-    NodeOf<Standard>,
+refit_passes!(
+    Node,
     WIDTH,
     PLAIN_ROWS,
     EmissiveTriangle,
-    refit_bottom,
-    "refit_bottom"
+    refit_bottom = "refit_bottom",
+    refit_top = "refit_top",
+    refit_nodes = "refit_nodes",
+    refit_roots = "refit_roots"
 );
-roots_pass!(NodeOf<Standard>, refit_roots, "refit_roots");
-top_pass!(NodeOf<Standard>, WIDTH, PLAIN_ROWS, refit_top, "refit_top");
-nodes_pass!(NodeOf<Standard>, WIDTH, PLAIN_ROWS, refit_nodes, "refit_nodes");
-bottom_pass!(
-    NodeOf<Paper>,
+refit_passes!(
+    PaperNode,
     4,
     PLAIN_ROWS,
     EmissiveTriangle,
-    refit_bottom_eq4,
-    "refit_bottom_eq4"
+    refit_bottom_eq4 = "refit_bottom_eq4",
+    refit_top_eq4 = "refit_top_eq4",
+    refit_nodes_eq4 = "refit_nodes_eq4",
+    refit_roots_eq4 = "refit_roots_eq4"
 );
-roots_pass!(NodeOf<Paper>, refit_roots_eq4, "refit_roots_eq4");
-top_pass!(NodeOf<Paper>, 4, PLAIN_ROWS, refit_top_eq4, "refit_top_eq4");
-nodes_pass!(NodeOf<Paper>, 4, PLAIN_ROWS, refit_nodes_eq4, "refit_nodes_eq4");
 
 #[cfg(test)]
 mod tests {
@@ -167,7 +168,8 @@ mod tests {
     use lightbvh::node::Node as _;
     use lightbvh::node::kind;
 
-    type Node = NodeOf<Standard>;
+    /// Index of the top level's first node.
+    const TOP: u32 = 3;
 
     /// Two leaves and their parent, then a top level of an instance and a node without children.
     fn arrays() -> (Vec<Node>, Vec<EmissiveTriangle>, Vec<Instance>) {
@@ -193,7 +195,7 @@ mod tests {
         nodes[2].set_child(6, kind::INNER, u32::MAX);
         nodes[3].set_child(7, kind::MESH, 0);
         nodes[3].set_child(2, kind::MESH, 1);
-        nodes[3].set_child(1, kind::INNER, 4);
+        nodes[3].set_child(1, kind::INNER, 4 - TOP);
         let mut instance = Instance::IDENTITY;
         instance.blas = 0;
         (nodes, triangles.collect(), vec![instance])
@@ -209,7 +211,7 @@ mod tests {
         }
         let roots = [refit::root(&expected, 0)];
         for i in [4, 3] {
-            expected[i as usize] = refit::top(&expected, &instances, &roots, i);
+            expected[i as usize] = refit::top(&expected, TOP, &instances, &roots, i);
         }
 
         let list = [77, 1, 5, 2, 0, u32::MAX, 4, 3];
@@ -218,7 +220,11 @@ mod tests {
         let mut found = vec![BlasRoot::new(0, &lightbvh::moments::LightMoments::EMPTY)];
         for (first, count, is_top) in [(1, 3, false), (4, 1, false), (5, 2, true), (7, 1, true)] {
             if first == 5 {
-                let push = RefitPush { first: 4, count: 1 };
+                let push = RefitPush {
+                    first: 4,
+                    count: 1,
+                    top: TOP,
+                };
                 (0..64).for_each(|i| refit_roots(id(i), &push, &list, &nodes, &mut found));
                 assert_eq!(found, roots);
             }
@@ -226,6 +232,7 @@ mod tests {
             let push = RefitPush {
                 first,
                 count: count * width,
+                top: TOP,
             };
             for i in 0..64 {
                 if is_top {
@@ -234,7 +241,11 @@ mod tests {
                     refit_bottom(id(i), &push, &list, &triangles, &nodes, &mut children);
                 }
             }
-            let push = RefitPush { first, count };
+            let push = RefitPush {
+                first,
+                count,
+                top: TOP,
+            };
             (0..64).for_each(|i| refit_nodes(id(i), &push, &list, &children, &mut nodes));
         }
         assert_eq!(nodes, expected);
@@ -249,6 +260,7 @@ mod tests {
         let push = RefitPush {
             first: 0,
             count: u32::MAX,
+            top: TOP,
         };
         for i in 0..64 {
             let id = UVec3::new(i, 0, 0);

@@ -1,5 +1,5 @@
-//! Pass `render`: direct lighting, one invocation per pixel. Reads the scene, the ray BVH and whatever the picker chooses
-//! lights by; writes the pixel.
+//! Pass `render`: direct lighting, or light along paths, one invocation per pixel. Reads the scene, the ray BVH and what lights are chosen by; writes
+//! the pixel.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{UVec3, Vec3};
@@ -9,13 +9,14 @@ use lightbvh::light::infinite::DistantLight;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{Kinds, NodeOf, Paper, Standard, TreeOf};
+use crate::bvh::{AnyNode, Kinds, Node, Paper, PaperNode, Standard, TreeOf, WIDTH};
 use crate::invocation;
+use crate::path::path_pixel;
 use crate::shading::camera::Camera;
 use crate::shading::emitter::Emitter;
 use crate::shading::material::Material;
 use crate::shading::numbers::Part;
-use crate::shading::pick::{PickLight, Power, Uniform};
+use crate::shading::pick::{Chosen, PickLight, Power, Uniform, by};
 use crate::shading::pixel::{Samples, Scene, reflected, see};
 use crate::shading::skin::{Corner, NoSkin, SkinView};
 use crate::shading::sky::{NoSky, SkyView};
@@ -100,149 +101,103 @@ pub fn render_pixel<L: Emitter, P: PickLight>(
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RenderPush {
-    /// The image.
+    /// The image; of paths, `samples` counts them.
     pub params: RenderParams,
+    /// Most reflections of a path, at most [`MAX_BOUNCES`](crate::shading::path::MAX_BOUNCES).
+    pub bounces: u32,
     /// First pixel of this dispatch; `results` begins with it.
     pub first: u32,
     /// Number of pixels of this dispatch.
     pub count: u32,
-    /// The light BVH (`render_bvh` only).
+    /// The light BVH, if lights are chosen from one.
     pub tree: TreeWords,
 }
 
-/// Pass `render_bvh` for one choice.
-macro_rules! render_pass {
-    ($choice:ty, $light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
-        /// Direct lighting by lights chosen from a light BVH of one or two levels.
+/// A pass over the pixels of a scene: of triangles, by the default's trees or the paper's, or of lights of any kind, with a sky and
+/// textures besides. The specialisation constant 0 says how lights are chosen: [`by`](crate::shading::pick::by).
+macro_rules! scene_pass {
+    (
+        $(#[$doc:meta])*
+        [$plain:ident = $plain_name:tt, $eq4:ident = $eq4_name:tt, $any:ident = $any_name:tt],
+        $push_type:ty,
+        [$($out:ident: $word:ty = $at:tt or $any_at:tt),*],
+        |$i:ident, $push:ident, $scene:ident, $picker:ident, $camera:ident| $body:block
+    ) => {
+        scene_pass!(
+            @ $(#[$doc])* $plain = $plain_name, TreeOf<Standard, WIDTH>, EmissiveTriangle, Node, $push_type,
+            [], NoSky, NoSkin,
+            [$($out: $word = $at),*], |$i, $push, $scene, $picker, $camera| $body
+        );
+        scene_pass!(
+            @ $(#[$doc])* $eq4 = $eq4_name, TreeOf<Paper, 4>, EmissiveTriangle, PaperNode, $push_type,
+            [], NoSky, NoSkin,
+            [$($out: $word = $at),*], |$i, $push, $scene, $picker, $camera| $body
+        );
+        scene_pass!(
+            @ $(#[$doc])* $any = $any_name, TreeOf<Kinds, WIDTH>, AnyLight, AnyNode, $push_type,
+            [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3], 12 corners: Corner, 13 paint: u32],
+            SkyView { suns, counts: sky_counts, radiance: sky_radiance },
+            SkinView { corners, words: paint },
+            [$($out: $word = $any_at),*], |$i, $push, $scene, $picker, $camera| $body
+        );
+    };
+    (
+        @ $(#[$doc:meta])*
+        $pass:ident = $name:tt, TreeOf<$choice:ty, $width:tt>, $light:ty, $node:ty, $push_type:ty,
+        [$($own_at:tt $own:ident: $own_word:ty),*], $sky:expr, $skin:expr,
+        [$($out:ident: $word:ty = $at:tt),*],
+        |$i:ident, $push:ident, $scene:ident, $picker:ident, $camera:ident| $body:block
+    ) => {
+        $(#[$doc])*
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
             #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RenderPush,
+            #[spirv(spec_constant(id = 0))] by: u32,
+            #[spirv(push_constant)] $push: &$push_type,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] nodes: &[NodeOf<$choice>],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] nodes: &[$node],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] results: &mut [[f32; 3]],
-            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] thresholds: &[u32],
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $own_at)] $own: &[$own_word],)*
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $out: &mut [$word],)*
         ) {
-            let i = invocation(id);
-            if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
-                let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
-                results[i as usize] = render_pixel(
-                    &scene,
-                    &camera[0],
-                    &push.params,
-                    &picker,
-                    push.first.wrapping_add(i),
-                );
-            }
-        }
-    };
-}
-
-render_pass!(
-    Standard,
-    EmissiveTriangle,
-    render_bvh,
-    "render_bvh",
-    [],
-    NoSky,
-    NoSkin
-);
-render_pass!(
-    Paper,
-    EmissiveTriangle,
-    render_bvh_eq4,
-    "render_bvh_eq4",
-    [],
-    NoSky,
-    NoSkin
-);
-render_pass!(Kinds, AnyLight, render_bvh_any, "render_bvh_any", [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3], 12 corners: Corner, 13 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });
-
-/// Pass `render_power` for one type of light.
-macro_rules! render_power_pass {
-    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
-        /// Direct lighting by lights chosen in proportion to their power. `thresholds` is [`Power`]'s table.
-        #[spirv(compute(threads(64), entry_point_name = $name))]
-        pub fn $pass(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RenderPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] thresholds: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [[f32; 3]],
-            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
-        ) {
-            let i = invocation(id);
-            if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
-                let picker = Power { thresholds };
-                results[i as usize] = render_pixel(
-                    &scene,
-                    &camera[0],
-                    &push.params,
-                    &picker,
-                    push.first.wrapping_add(i),
-                );
-            }
-        }
-    };
-}
-
-render_power_pass!(EmissiveTriangle, render_power, "render_power", [], NoSky, NoSkin);
-render_power_pass!(AnyLight, render_power_any, "render_power_any", [8 suns: DistantLight, 9 sky_counts: u32, 10 sky_radiance: [f32; 3], 11 corners: Corner, 12 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });
-
-/// Pass `render_uniform` for one type of light.
-macro_rules! render_uniform_pass {
-    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
-        /// Direct lighting by lights chosen uniformly.
-        #[spirv(compute(threads(64), entry_point_name = $name))]
-        pub fn $pass(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RenderPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [[f32; 3]],
-            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
-        ) {
-            let i = invocation(id);
-            if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
-                let picker = Uniform {
-                    count: triangles.len() as u32,
+            let $i = invocation(id);
+            if $i < $push.count {
+                let $scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
+                let tree: TreeOf<'_, $choice, $width> = $push.tree.tree(nodes, instances, trails);
+                let $picker = Chosen {
+                    by,
+                    tree,
+                    power: Power { thresholds },
+                    uniform: Uniform {
+                        count: triangles.len() as u32,
+                    },
                 };
-                results[i as usize] = render_pixel(
-                    &scene,
-                    &camera[0],
-                    &push.params,
-                    &picker,
-                    push.first.wrapping_add(i),
-                );
+                let $camera = &camera[0];
+                $body
             }
         }
     };
 }
 
-render_uniform_pass!(
-    EmissiveTriangle,
-    render_uniform,
-    "render_uniform",
-    [],
-    NoSky,
-    NoSkin
+pub(crate) use scene_pass;
+
+scene_pass!(
+    /// Direct lighting, or light along paths.
+    [render = "render", render_eq4 = "render_eq4", render_any = "render_any"],
+    RenderPush,
+    [results: [f32; 3] = 9 or 14],
+    |i, push, scene, picker, camera| {
+        let pixel = push.first.wrapping_add(i);
+        results[i as usize] = if picker.by >= by::PATHS {
+            path_pixel(&scene, camera, &push.params, push.bounces, &picker, pixel)
+        } else {
+            render_pixel(&scene, camera, &push.params, &picker, pixel)
+        };
+    }
 );
-render_uniform_pass!(AnyLight, render_uniform_any, "render_uniform_any", [7 suns: DistantLight, 8 sky_counts: u32, 9 sky_radiance: [f32; 3], 10 corners: Corner, 11 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });

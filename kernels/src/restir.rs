@@ -1,15 +1,15 @@
 //! Passes of ReSTIR, one invocation per pixel, a barrier between dispatches:
 //!
-//! 1. `restir_initial_power` or `restir_initial_bvh`: what the pixel sees, and a light sample out of candidates drawn by
-//!    power (as in the paper) or from the light BVH. Writes G-buffer and reservoirs.
-//! 2. `restir_temporal_unbiased` or `restir_temporal_biased`: merges the frame before. Reads that frame's G-buffer and
-//!    reservoirs, updates reservoirs in place. Left out in the first frame.
-//! 3. `restir_spatial_unbiased` or `restir_spatial_biased`, as often as wanted: merges neighbours. Reads one buffer of
-//!    reservoirs, writes another.
+//! 1. `restir_initial`: what the pixel sees, and a light sample out of candidates drawn by power (as in the paper) or from the
+//!    light BVH. Writes G-buffer and reservoirs.
+//! 2. `restir_temporal`: merges the frame before. Reads that frame's G-buffer and reservoirs, updates reservoirs in place.
+//!    Left out in the first frame.
+//! 3. `restir_spatial`, as often as wanted: merges neighbours. Reads one buffer of reservoirs, writes another.
 //! 4. `restir_shade`: shadow ray and colour. Updates reservoirs in place; they and the G-buffer are the next frame's
 //!    frame before.
 //!
-//! The unbiased passes are so under the conditions in [`crate::shading::restir`]; the biased ones say so in their names.
+//! Passes 2 and 3 are **biased** where their specialisation constant 0 is zero, and otherwise unbiased under the conditions in
+//! [`crate::shading::restir`].
 
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
@@ -18,14 +18,15 @@ use lightbvh::light::infinite::DistantLight;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{Kinds, NodeOf, Paper, Standard, TreeOf};
+use crate::bvh::{AnyNode, Kinds, Node, Paper, PaperNode, Standard, TreeOf, WIDTH};
 use crate::invocation;
+use crate::render::scene_pass;
 use crate::shading::camera::Camera;
 use crate::shading::emitters::Emitters;
 use crate::shading::material::Material;
-use crate::shading::pick::Power;
+use crate::shading::pick::{Chosen, Power, Uniform};
 use crate::shading::pixel::Scene;
-use crate::shading::restir::combine::{Biased, Unbiased};
+use crate::shading::restir::combine::Combine;
 use crate::shading::restir::initial::{first_reservoir, first_surface};
 use crate::shading::restir::shade::{Shaded, shade};
 use crate::shading::restir::spatial::spatial;
@@ -37,7 +38,7 @@ use crate::shading::sky::{NoSky, SkyView};
 use crate::shading::trace::{RayNode, Surfaces, TriangleBlock};
 use lightbvh::TreeWords;
 
-/// Push constants of all passes; 84 bytes.
+/// Push constants of all passes; 100 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RestirPush {
@@ -47,114 +48,39 @@ pub struct RestirPush {
     pub first: u32,
     /// Number of pixels of this dispatch.
     pub count: u32,
-    /// The light BVH (`restir_initial_bvh` only).
+    /// The light BVH, if pass 1 chooses lights from one.
     pub tree: TreeWords,
 }
 
-const _: () = assert!(size_of::<RestirPush>() == 84);
+const _: () = assert!(size_of::<RestirPush>() == 100);
 
-/// Pass `restir_initial_power` for one type of light.
-macro_rules! initial_power_pass {
-    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
-        /// Pass 1 with candidates in proportion to power. `thresholds` is [`Power`]'s table.
-        #[spirv(compute(threads(64), entry_point_name = $name))]
-        pub fn $pass(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RestirPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] thresholds: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] gbuffer: &mut [Surface],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] reservoirs: &mut [PixelReservoir],
-            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
-        ) {
-            let i = invocation(id);
-            let pixel = push.first.wrapping_add(i);
-            if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
-                let surface = first_surface(&scene, &camera[0], &push.params, pixel);
-                let picker = Power { thresholds };
-                gbuffer[pixel as usize] = surface;
-                reservoirs[pixel as usize] = first_reservoir(&scene, &push.params, &picker, &surface, pixel);
-            }
+scene_pass!(
+    /// Pass 1.
+    [
+        restir_initial = "restir_initial",
+        restir_initial_eq4 = "restir_initial_eq4",
+        restir_initial_any = "restir_initial_any"
+    ],
+    RestirPush,
+    [gbuffer: Surface = 9 or 14, reservoirs: PixelReservoir = 10 or 15],
+    |i, push, scene, picker, camera| {
+        let pixel = push.first.wrapping_add(i);
+        if pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+            let surface = first_surface(&scene, camera, &push.params, pixel);
+            gbuffer[pixel as usize] = surface;
+            reservoirs[pixel as usize] = first_reservoir(&scene, &push.params, &picker, &surface, pixel);
         }
-    };
-}
-
-initial_power_pass!(
-    EmissiveTriangle,
-    restir_initial_power,
-    "restir_initial_power",
-    [],
-    NoSky,
-    NoSkin
+    }
 );
-initial_power_pass!(AnyLight, restir_initial_power_any, "restir_initial_power_any", [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3], 12 corners: Corner, 13 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });
 
-/// Pass `restir_initial_bvh` for one choice.
-macro_rules! initial_pass {
-    ($choice:ty, $light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
-        /// Pass 1 with candidates from the light BVH.
-        #[spirv(compute(threads(64), entry_point_name = $name))]
-        pub fn $pass(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RestirPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] nodes: &[NodeOf<$choice>],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] gbuffer: &mut [Surface],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 9)] reservoirs: &mut [PixelReservoir],
-            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
-        ) {
-            let i = invocation(id);
-            let pixel = push.first.wrapping_add(i);
-            if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
-                let surface = first_surface(&scene, &camera[0], &push.params, pixel);
-                let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
-                gbuffer[pixel as usize] = surface;
-                reservoirs[pixel as usize] = first_reservoir(&scene, &push.params, &picker, &surface, pixel);
-            }
-        }
-    };
-}
-
-initial_pass!(
-    Standard,
-    EmissiveTriangle,
-    restir_initial_bvh,
-    "restir_initial_bvh",
-    [],
-    NoSky,
-    NoSkin
-);
-initial_pass!(
-    Paper,
-    EmissiveTriangle,
-    restir_initial_bvh_eq4,
-    "restir_initial_bvh_eq4",
-    [],
-    NoSky,
-    NoSkin
-);
-initial_pass!(Kinds, AnyLight, restir_initial_bvh_any, "restir_initial_bvh_any", [10 suns: DistantLight, 11 sky_counts: u32, 12 sky_radiance: [f32; 3], 13 corners: Corner, 14 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });
-
-/// Pass `restir_temporal_unbiased` for one type of light.
-macro_rules! temporal_unbiased_pass {
+/// Pass `restir_temporal` for one type of light.
+macro_rules! temporal_pass {
     ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $skin:expr) => {
-        /// Pass 2 without bias; `before_*` is the frame before, `before_camera` its camera.
+        /// Pass 2; `before_*` is the frame before, `before_camera` its camera.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
             #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(spec_constant(id = 0))] unbiased: u32,
             #[spirv(push_constant)] push: &RestirPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] before_ray_nodes: &[RayNode],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] before_surfaces: &[TriangleBlock],
@@ -179,7 +105,8 @@ macro_rules! temporal_unbiased_pass {
                     triangles,
                     instances,
                 };
-                let combine = Unbiased {
+                let combine = Combine {
+                    is_unbiased: unbiased != 0,
                     surfaces: Surfaces {
                         nodes: before_ray_nodes,
                         blocks: before_surfaces,
@@ -214,17 +141,11 @@ macro_rules! temporal_unbiased_pass {
     };
 }
 
-temporal_unbiased_pass!(
-    EmissiveTriangle,
-    restir_temporal_unbiased,
-    "restir_temporal_unbiased",
-    [],
-    NoSkin
-);
-temporal_unbiased_pass!(
+temporal_pass!(EmissiveTriangle, restir_temporal, "restir_temporal", [], NoSkin);
+temporal_pass!(
     AnyLight,
-    restir_temporal_unbiased_any,
-    "restir_temporal_unbiased_any",
+    restir_temporal_any,
+    "restir_temporal_any",
     [14 before_corners: Corner, 15 paint: u32],
     SkinView {
         corners: before_corners,
@@ -232,65 +153,14 @@ temporal_unbiased_pass!(
     }
 );
 
-/// Pass `restir_temporal_biased` for one type of light.
-macro_rules! temporal_biased_pass {
-    ($light:ty, $pass:ident, $name:tt) => {
-        /// Pass 2, **biased**.
-        #[spirv(compute(threads(64), entry_point_name = $name))]
-        pub fn $pass(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RestirPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] materials: &[Material],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[$light],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] instances: &[Instance],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] before_camera: &[Camera],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] before_gbuffer: &[Surface],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] before_reservoirs: &[PixelReservoir],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] to_current: &[[u32; 2]],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] gbuffer: &[Surface],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] reservoirs: &mut [PixelReservoir],
-        ) {
-            let i = invocation(id);
-            let pixel = push.first.wrapping_add(i);
-            if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-                let emitters = Emitters {
-                    triangles,
-                    instances,
-                };
-                let before = Before {
-                    camera: &before_camera[0],
-                    gbuffer: before_gbuffer,
-                    reservoirs: before_reservoirs,
-                    to_current,
-                };
-                let surface = gbuffer[pixel as usize];
-                let current = reservoirs[pixel as usize];
-                reservoirs[pixel as usize] = temporal(
-                    &Biased,
-                    materials,
-                    &emitters,
-                    &before,
-                    to_current,
-                    &push.params,
-                    &surface,
-                    current,
-                    pixel,
-                );
-            }
-        }
-    };
-}
-
-temporal_biased_pass!(EmissiveTriangle, restir_temporal_biased, "restir_temporal_biased");
-temporal_biased_pass!(AnyLight, restir_temporal_biased_any, "restir_temporal_biased_any");
-
-/// Pass `restir_spatial_unbiased` for one type of light.
-macro_rules! spatial_unbiased_pass {
+/// Pass `restir_spatial` for one type of light.
+macro_rules! spatial_pass {
     ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $skin:expr) => {
-        /// Pass 3 without bias.
+        /// Pass 3.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
             #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(spec_constant(id = 0))] unbiased: u32,
             #[spirv(push_constant)] push: &RestirPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
@@ -309,7 +179,8 @@ macro_rules! spatial_unbiased_pass {
                     triangles,
                     instances,
                 };
-                let combine = Unbiased {
+                let combine = Combine {
+                    is_unbiased: unbiased != 0,
                     surfaces: Surfaces {
                         nodes: ray_nodes,
                         blocks: surfaces,
@@ -331,62 +202,17 @@ macro_rules! spatial_unbiased_pass {
     };
 }
 
-spatial_unbiased_pass!(
-    EmissiveTriangle,
-    restir_spatial_unbiased,
-    "restir_spatial_unbiased",
-    [],
-    NoSkin
-);
-spatial_unbiased_pass!(
+spatial_pass!(EmissiveTriangle, restir_spatial, "restir_spatial", [], NoSkin);
+spatial_pass!(
     AnyLight,
-    restir_spatial_unbiased_any,
-    "restir_spatial_unbiased_any",
+    restir_spatial_any,
+    "restir_spatial_any",
     [8 corners: Corner, 9 paint: u32],
     SkinView {
         corners,
         words: paint
     }
 );
-
-/// Pass `restir_spatial_biased` for one type of light.
-macro_rules! spatial_biased_pass {
-    ($light:ty, $pass:ident, $name:tt) => {
-        /// Pass 3, **biased**.
-        #[spirv(compute(threads(64), entry_point_name = $name))]
-        pub fn $pass(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RestirPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] materials: &[Material],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[$light],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] instances: &[Instance],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] gbuffer: &[Surface],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] reservoirs: &[PixelReservoir],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] results: &mut [PixelReservoir],
-        ) {
-            let i = invocation(id);
-            let pixel = push.first.wrapping_add(i);
-            if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-                let emitters = Emitters {
-                    triangles,
-                    instances,
-                };
-                results[pixel as usize] = spatial(
-                    &Biased,
-                    materials,
-                    &emitters,
-                    gbuffer,
-                    reservoirs,
-                    &push.params,
-                    pixel,
-                );
-            }
-        }
-    };
-}
-
-spatial_biased_pass!(EmissiveTriangle, restir_spatial_biased, "restir_spatial_biased");
-spatial_biased_pass!(AnyLight, restir_spatial_biased_any, "restir_spatial_biased_any");
 
 /// Pass `restir_shade` for one type of light.
 macro_rules! shade_pass {

@@ -1,4 +1,5 @@
-//! Random edits of scenes, and a model of what the scene should hold after them.
+//! Random edits of scenes, and a model of what the scene should hold after them: as small as tests of the thread that rebuilds
+//! need. All kinds of edits against all invariants are the fuzz target `edits`.
 
 use std::collections::BTreeMap;
 
@@ -14,36 +15,6 @@ pub struct Model {
     pub meshes: BTreeMap<MeshId, Vec<EmissiveTriangle>>,
     /// Mesh, place, and factor on its radiance.
     pub instances: BTreeMap<InstanceId, (MeshId, Transform, f32)>,
-}
-
-impl Model {
-    /// A scene built at once, and its instances in the order of the model's.
-    ///
-    /// # Panics
-    /// Where the scene refuses what the model holds.
-    #[must_use]
-    pub fn from_scratch<N: LightNode<W>, const W: usize>(&self) -> (Bvh<N, (), W>, Vec<InstanceId>) {
-        let mut scene = Bvh::default();
-        let meshes = self.meshes.values().map(|triangles| Edit::AddMesh {
-            triangles: triangles.clone(),
-        });
-        let added = scene.apply(meshes.collect()).expect("sound meshes").meshes;
-        let ids: BTreeMap<MeshId, MeshId> = self.meshes.keys().copied().zip(added).collect();
-        let instances = self
-            .instances
-            .values()
-            .map(|&(mesh, transform, radiance)| Edit::AddInstance {
-                mesh: ids[&mesh],
-                transform,
-                radiance,
-            });
-        let added = scene
-            .apply(instances.collect())
-            .expect("sound instances")
-            .instances;
-        scene.refit();
-        (scene, added)
-    }
 }
 
 /// A new mesh of `scene`.

@@ -6,7 +6,6 @@ pub mod direct;
 pub mod edits;
 pub mod generate;
 pub mod gltf_files;
-pub mod known;
 pub mod layouts;
 pub mod oracle;
 pub mod placing;

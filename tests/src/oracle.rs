@@ -4,11 +4,16 @@
 use glam::DVec3;
 use lightbvh::cone::Cone;
 use lightbvh::node::kind;
+use lightbvh::trail::leaf_parts;
 use lightbvh::{
-    Bvh, EmissiveTriangle, INVALID, ImportanceModel, LightBounds, LightNode, LightTree, Lights, ShadingPoint,
-    Transform,
+    BuildParams, Bvh, EmissiveTriangle, ImportanceModel, LightBounds, LightNode, LightTree, Lights,
+    ShadingPoint, Transform,
 };
+pub use lightbvh_fuzz::input::{pmf_of, sum_is_one, sum_tolerance};
 pub use lightbvh_host::stability::geometry::{Triangle, can_contribute, vector};
+
+use crate::generate::Random;
+use crate::statistics::{chi_squared, chi_squared_quantile};
 
 /// The angle between two vectors of any length, precise at every angle.
 #[must_use]
@@ -31,18 +36,18 @@ pub fn cone_excess(outer: (DVec3, f32), inner: (DVec3, f32)) -> f64 {
     (reach - half_angle(outer.1)).max(0.0)
 }
 
-/// Probability of light `light` of a BVH built over `lights`, at `point`.
-pub fn pmf_of<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &Bvh<N, impl Sized, W>,
+/// A BVH over `lights`, in two levels or in one.
+#[must_use]
+pub fn built<N: LightNode<W>, const W: usize>(
     lights: &Lights,
-    point: &ShadingPoint,
-    light: u32,
-) -> f32 {
-    let instance = match lights.triangles().get(light as usize) {
-        Some(triangle) if !bvh.is_single_level() => triangle.mesh,
-        _ => INVALID,
-    };
-    bvh.by::<I>().pmf(point, light, instance)
+    params: &BuildParams,
+    two: bool,
+) -> Bvh<N, (), W> {
+    if two {
+        Bvh::two_level(lights, params)
+    } else {
+        Bvh::single_level(lights, params)
+    }
 }
 
 /// Probability of every light at `point`.
@@ -56,19 +61,33 @@ pub fn all_pmfs<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         .collect()
 }
 
-/// By how much a sum of `lights` pmfs may be off 1.
+/// Asserts that `samples` draws at `point` are as often of each light as its probability says, by χ² with a tail of 1e-6; returns
+/// how often each was drawn.
 ///
-/// Those of a tree are shares of numbers, so their sum is 1 but for the rounding of the sum itself, at most 2^-54 for each
-/// light, and for shares below 2^-98, which count as at least 2^-99. A uniform share s is divided twice, each time within
-/// 2^-24, and added to the tree's within 2^-24.
-#[must_use]
-pub fn sum_tolerance<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(lights: usize) -> f64 {
-    let uniform = if I::UNIFORM_HALVINGS > 0 {
-        (1.0 + 2.0 * 0.5f64.powi(I::UNIFORM_HALVINGS as i32)) * 2f64.powi(-24)
-    } else {
-        0.0
-    };
-    lights as f64 * 2f64.powi(-53) + uniform
+/// # Panics
+/// If they are not.
+pub fn assert_frequencies<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    bvh: &Bvh<N, impl Sized, W>,
+    lights: &Lights,
+    point: &ShadingPoint,
+    samples: u32,
+    seed: u32,
+) -> Vec<u64> {
+    let random = &mut Random::new(seed);
+    let pmfs = all_pmfs::<N, I, W>(bvh, lights, point);
+    let expected: Vec<f64> = pmfs.into_iter().map(f64::from).collect();
+    let mut observed = vec![0_u64; expected.len()];
+    for _ in 0..samples {
+        observed[bvh.by::<I>().sample(point, random.bits()).light as usize] += 1;
+    }
+    let (statistic, degrees) = chi_squared(&observed, &expected);
+    let threshold = chi_squared_quantile(degrees, 1e-6);
+    assert!(
+        statistic < threshold,
+        "{} {W}: χ² {statistic} of {degrees} degrees, threshold {threshold}, at {point:?}",
+        N::NAME
+    );
+    observed
 }
 
 /// Asserts that pmfs are probabilities, and sum to one.
@@ -79,19 +98,7 @@ pub fn assert_sum_is_one<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usi
     pmfs: impl IntoIterator<Item = f32>,
     point: &ShadingPoint,
 ) {
-    let (mut sum, mut count) = (0.0, 0);
-    for pmf in pmfs {
-        assert!((0.0..=1.0).contains(&pmf), "pmf {pmf} at {point:?}");
-        sum += f64::from(pmf);
-        count += 1;
-    }
-    let tolerance = sum_tolerance::<N, I, W>(count);
-    let off = (sum - 1.0).abs();
-    assert!(
-        off <= tolerance,
-        "{} {W}: the sum of {count} is off by {off:e}, at most {tolerance:e}, at {point:?}",
-        N::NAME
-    );
+    sum_is_one(&pmfs.into_iter().collect::<Vec<_>>(), I::UNIFORM_HALVINGS, point);
 }
 
 /// The leaves of a tree in the order of its slots: (triangle, instance), without an instance in a single-level tree.
@@ -103,17 +110,21 @@ pub fn leaves<N: LightNode<W>, I, const W: usize>(tree: &LightTree<'_, N, I, W>)
             found.push((index & !LEAF, instance));
             continue;
         }
-        let node = &tree.nodes[index as usize];
+        let nodes = if instance.is_none() { tree.top } else { tree.nodes };
+        let node = &nodes[index as usize];
         // The last slot first, so that the first is on top of the stack.
         for slot in (0..W).rev() {
             let link = node.link(slot);
             match node.kind(slot) {
                 kind::INNER => stack.push((link, instance)),
                 kind::MESH => {
-                    let own = &tree.instances[link as usize];
-                    // A part is named as its instance.
-                    let instance = if own.is_part() { own.part } else { link };
-                    stack.push((own.root, Some(instance)));
+                    let (instance, part) = leaf_parts(link);
+                    let root = tree.instances[instance as usize].root;
+                    let below = match part {
+                        0 => root,
+                        _ => tree.nodes[root as usize].link(part as usize - 1),
+                    };
+                    stack.push((below, Some(instance)));
                 }
                 kind::LIGHT => stack.push((link | LEAF, instance)),
                 _ => {}

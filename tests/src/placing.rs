@@ -22,6 +22,18 @@ pub enum Kind {
     Extreme,
 }
 
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::Rigid,
+        Self::Similar,
+        Self::Affine,
+        Self::Flat,
+        Self::Singular,
+        Self::Extreme,
+    ];
+}
+
 /// A map of `kind` to within `reach` metres of the origin.
 pub fn transform(random: &mut Random, kind: Kind, reach: f32) -> Transform {
     let axis = DVec3::from(random.direction().map(f64::from));

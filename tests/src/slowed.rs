@@ -1,9 +1,8 @@
-//! Nodes that can be made slow, held up, or made to panic while they are built: tests of what happens beside a build get
+//! Nodes that can be held up or made to panic while they are built: tests of what happens beside a build get
 //! their hold on it without a hook in the library.
 
 use std::cell::Cell;
 use std::sync::{Condvar, Mutex, PoisonError};
-use std::time::Duration;
 
 use bytemuck::{Pod, Zeroable};
 use lightbvh::bounds::LightBounds;
@@ -13,7 +12,7 @@ use lightbvh::summary::Lanes;
 use lightbvh::{BoundsNode, CompactNode, EmissiveTriangle, Node};
 
 /// Number of tests that may use [`Slowed`] in one program; each needs a number of its own.
-pub const TESTS: usize = 8;
+pub const TESTS: usize = 5;
 
 /// What happens to nodes on threads that are not [`spared`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,8 +20,6 @@ pub enum Pace {
     /// Nothing.
     #[default]
     Full,
-    /// Every 64th node waits so long.
-    Slow(Duration),
     /// They wait until the pace changes.
     Held,
     /// They panic.
@@ -32,14 +29,12 @@ pub enum Pace {
 #[derive(Debug, Default)]
 struct Control {
     pace: Pace,
-    touched: u32,
     waiting: u32,
 }
 
 static CONTROLS: [Mutex<Control>; TESTS] = [const {
     Mutex::new(Control {
         pace: Pace::Full,
-        touched: 0,
         waiting: 0,
     })
 }; TESTS];
@@ -80,16 +75,8 @@ fn touch<const TEST: usize>() {
         return;
     }
     let mut control = control::<TEST>();
-    control.touched = control.touched.wrapping_add(1);
     match control.pace {
         Pace::Full => {}
-        Pace::Slow(time) => {
-            let due = control.touched % 64 == 1;
-            drop(control);
-            if due {
-                std::thread::sleep(time);
-            }
-        }
         Pace::Held => {
             control.waiting += 1;
             CHANGED[TEST].notify_all();

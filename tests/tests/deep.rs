@@ -3,12 +3,12 @@
 use lightbvh::trail::max_levels;
 use lightbvh::{
     BuildParams, Bvh, CompactNode, EmissiveTriangle, Eq4, Heuristic, INVALID, ImportanceModel, LightNode,
-    Lights, ShadingPoint, exact,
+    Lights, ShadingPoint, Transform, exact,
 };
 use lightbvh_tests::each_layout;
+use lightbvh_tests::edits::{add_instance, add_mesh};
 use lightbvh_tests::generate::{self, Random, split};
-use lightbvh_tests::oracle::{all_pmfs, assert_sum_is_one};
-use lightbvh_tests::statistics::{chi_squared, chi_squared_quantile};
+use lightbvh_tests::oracle::{all_pmfs, assert_frequencies, assert_sum_is_one};
 
 fn triangle(corner: [f32; 3], size: f32, radiance: f32, mesh: u32) -> EmissiveTriangle {
     let [x, y, z] = corner;
@@ -21,7 +21,7 @@ fn triangle(corner: [f32; 3], size: f32, radiance: f32, mesh: u32) -> EmissiveTr
 }
 
 /// `count` lights, each at half the distance from the origin of the one before, in meshes of `per_mesh`.
-fn shrinking(count: u32, per_mesh: u32, brighter: bool) -> Lights {
+pub fn shrinking(count: u32, per_mesh: u32, brighter: bool) -> Lights {
     let light = |i: u32| {
         let x = exact::pow2(38 - i as i32);
         // Radiance as the inverse square of the size gives all the same flux, or each twice that of the one before.
@@ -142,7 +142,7 @@ fn deep_in_both_levels() {
     assert!(bvh.depth() > 2 * 33, "only {} levels", bvh.depth());
     assert_eq!(bvh.tree().trail_words, 2);
     check::<_, Eq4, 2>(&bvh, &lights, 1);
-    frequencies_match(
+    assert_frequencies::<_, Eq4, _>(
         &bvh,
         &lights,
         &ShadingPoint {
@@ -154,33 +154,6 @@ fn deep_in_both_levels() {
     );
 }
 
-/// Observed frequencies against evaluated probabilities, tail 1e-6.
-fn frequencies_match<N: LightNode<W>, const W: usize>(
-    bvh: &Bvh<N, (), W>,
-    lights: &Lights,
-    point: &ShadingPoint,
-    samples: u32,
-    seed: u32,
-) -> Vec<u64>
-where
-    Eq4: ImportanceModel<N, W>,
-{
-    let random = &mut Random::new(seed);
-    let pmfs = all_pmfs::<N, Eq4, W>(bvh, lights, point);
-    let expected: Vec<f64> = pmfs.into_iter().map(f64::from).collect();
-    let mut observed = vec![0_u64; expected.len()];
-    for _ in 0..samples {
-        observed[bvh.by::<Eq4>().sample(point, random.bits()).light as usize] += 1;
-    }
-    let (statistic, degrees) = chi_squared(&observed, &expected);
-    let threshold = chi_squared_quantile(degrees, 1e-6);
-    assert!(
-        statistic < threshold,
-        "χ² {statistic} of {degrees} degrees, threshold {threshold}"
-    );
-    observed
-}
-
 /// Deep in a chain the random number must not run dry: the lights near the point are drawn as often as they should be.
 #[test]
 fn frequencies_below_32_levels() {
@@ -190,7 +163,7 @@ fn frequencies_below_32_levels() {
     assert!(bvh.depth() > 33);
     // About as far from the origin as the sixtieth light: it and its neighbours are drawn most.
     let d = exact::pow2(38 - 60);
-    let observed = frequencies_match(
+    let observed = assert_frequencies::<_, Eq4, _>(
         &bvh,
         &lights,
         &ShadingPoint {
@@ -227,9 +200,9 @@ fn one_light_outshines_all() {
         );
         let samples = if k == 12 { 1u32 << 20 } else { 100_000 };
         let observed = [
-            frequencies_match(&two, &lights, &point, samples, 1),
-            frequencies_match(&one, &lights, &point, samples, 2),
-            frequencies_match(&wide, &lights, &point, samples, 3),
+            assert_frequencies::<_, Eq4, _>(&two, &lights, &point, samples, 1),
+            assert_frequencies::<_, Eq4, _>(&one, &lights, &point, samples, 2),
+            assert_frequencies::<_, Eq4, _>(&wide, &lights, &point, samples, 3),
         ];
         let pmfs = all_pmfs::<_, Eq4, 2>(&two, &lights, &point);
         assert!(pmfs.iter().all(|&p| p > 0.0), "a starved light: {pmfs:?}");
@@ -261,7 +234,7 @@ fn one_light_outshines_all() {
             n: [0.0; 3],
         };
         let bvh = Bvh::<CompactNode<2>, (), 2>::two_level(&turned, &params);
-        frequencies_match(&bvh, &turned, &behind, 100_000, 4);
+        assert_frequencies::<_, Eq4, _>(&bvh, &turned, &behind, 100_000, 4);
         let pmfs = all_pmfs::<_, Eq4, 2>(&bvh, &turned, &behind);
         assert!(pmfs.iter().all(|&p| p > 0.0), "a starved light: {pmfs:?}");
     }
@@ -295,4 +268,54 @@ fn flux_over_sixty_decades() {
     }
     let lights = Lights::new(triangles).expect("within the domain");
     each_layout!(summed(&lights));
+}
+
+/// A scene whose trails grow to two words when a deep mesh comes, while shallow ones are there already.
+fn grown<N: LightNode<W>, const W: usize>()
+where
+    Eq4: ImportanceModel<N, W>,
+{
+    let mut scene = Bvh::<N, (), W>::new(split(Heuristic::Sah, 2));
+    let mut random = Random::new(1);
+    let mut instances = Vec::new();
+    for (count, words) in [(5, 1), (60, 2), (7, 2)] {
+        let triangles = match count {
+            60 => shrinking(count, count, true).triangles().to_vec(),
+            _ => generate::small_triangles(count, 100, 1.0, 0.1, false, 3),
+        };
+        let mesh = add_mesh(&mut scene, triangles);
+        instances.push(add_instance(
+            &mut scene,
+            mesh,
+            Transform::at([0.0, 0.0, count as f32]),
+        ));
+        scene.refit();
+        let stats = scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
+        assert_eq!(scene.tree().trail_words, words, "{} levels", stats.depth);
+        assert_eq!(
+            scene.tree().trails.len(),
+            scene.triangles().len() * words as usize
+        );
+        for _ in 0..20 {
+            let point = point(&mut random);
+            let tree = scene.by::<Eq4>();
+            let sampled = tree.sample(&point, random.bits());
+            assert_eq!(
+                tree.pmf(&point, sampled.light, sampled.instance).to_bits(),
+                sampled.pmf.to_bits()
+            );
+            let mut pmfs = Vec::new();
+            for &id in &instances {
+                let lights = scene.lights_of(id).expect("there");
+                pmfs.extend(lights.map(|light| tree.pmf(&point, light, id.index())));
+            }
+            assert_sum_is_one::<N, Eq4, W>(pmfs, &point);
+        }
+    }
+}
+
+#[test]
+fn trails_grow_with_a_deep_mesh() {
+    grown::<CompactNode<2>, 2>();
+    grown::<CompactNode<4>, 4>();
 }

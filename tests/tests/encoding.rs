@@ -4,7 +4,7 @@ use glam::Vec3;
 use lightbvh::bounds::{MAX_PHI, MIN_PHI};
 use lightbvh::cone::{Cone, normalized};
 use lightbvh::node::kind;
-use lightbvh::{BoundsNode, CompactNode, FullNode, Instance, LightBounds, LightNode, Node, Summary, exact};
+use lightbvh::{BoundsNode, CompactNode, Instance, LightBounds, LightNode, Node, Summary, exact};
 use lightbvh_tests::each_node;
 use lightbvh_tests::generate::{self, Random, any_bounds, extreme_triangle};
 use lightbvh_tests::oracle::{assert_cone_contains, box_contains, half_angle};
@@ -85,7 +85,6 @@ proptest! {
             let bounds = any_bounds(random);
             encoding_is_outward::<CompactNode<2>, 2>(&bounds, 1);
             encoding_is_outward::<CompactNode<16>, 16>(&bounds, random.below(16) as usize);
-            encoding_is_outward::<FullNode<4>, 4>(&bounds, random.below(4) as usize);
         }
     }
 
@@ -243,7 +242,6 @@ fn corners_of_the_domain() {
                     phi,
                 };
                 encoding_is_outward::<CompactNode<2>, 2>(&bounds, 0);
-                encoding_is_outward::<FullNode<2>, 2>(&bounds, 0);
             }
         }
     }

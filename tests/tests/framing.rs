@@ -1,6 +1,10 @@
 //! The camera of scenes that bring none.
 
-use lightbvh_host::scene::{Material, Mesh, Node, Primitive, Scene, SceneData, Transform};
+use std::sync::Arc;
+
+use lightbvh::light::infinite::Environment;
+use lightbvh_host::render::View;
+use lightbvh_host::scene::{Material, Mesh, Node, Primitive, Scene, SceneData};
 
 /// A box from `low` to `high`, its fronts outside.
 fn solid(low: [f32; 3], high: [f32; 3], material: u32) -> Primitive {
@@ -24,17 +28,32 @@ fn solid(low: [f32; 3], high: [f32; 3], material: u32) -> Primitive {
     }
 }
 
+/// A parallelogram, its front where its sides `a` and `b` go round it counter-clockwise.
+fn sheet(p: [f32; 3], a: [f32; 3], b: [f32; 3], material: u32) -> Primitive {
+    let plus = |p: [f32; 3], q: [f32; 3]| [0, 1, 2].map(|i| p[i] + q[i]);
+    Primitive {
+        positions: vec![p, plus(p, a), plus(plus(p, a), b), plus(p, b)],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        material,
+        ..Primitive::default()
+    }
+}
+
+/// Material 0 is grey, 1 glows.
 fn scene(primitives: Vec<Primitive>) -> Scene {
+    under_sky(primitives, false)
+}
+
+fn under_sky(primitives: Vec<Primitive>, is_under_sky: bool) -> Scene {
     let material = |radiance| Material {
         base_color: [0.5; 3],
         radiance,
-        double_sided: true,
         ..Material::default()
     };
+    let sky = || Environment::from_fn(4, |[_, y, _]| if y > 0.0 { [1.0; 3] } else { [0.1; 3] });
     Scene::new(SceneData {
         name: String::from("test"),
         nodes: vec![Node {
-            transform: Transform::IDENTITY,
             mesh: Some(0),
             ..Node::default()
         }],
@@ -43,9 +62,39 @@ fn scene(primitives: Vec<Primitive>) -> Scene {
             primitives,
         }],
         materials: vec![material([0.0; 3]), material([10.0; 3])],
+        environment: is_under_sky.then(|| Arc::new(sky().expect("a sky"))),
         ..SceneData::default()
     })
     .expect("a sound scene")
+}
+
+/// Where a point is in an image whose half height is one, right and up; none behind the eye.
+fn place(view: &View, p: [f32; 3]) -> Option<[f32; 2]> {
+    let d = [0, 1, 2].map(|i| p[i] - view.eye[i]);
+    let part = |axis: [f32; 3]| d.iter().zip(axis).map(|(x, y)| x * y).sum::<f32>();
+    let half = part(view.forward) * (0.5 * view.yfov).tan();
+    (half > 0.0).then(|| [part(view.right) / half, part(view.up) / half])
+}
+
+/// All corners are in an image of 16:9, and fill at least a third of its width or height.
+fn fill(view: &View, corners: &[[f32; 3]]) {
+    let places = corners
+        .iter()
+        .map(|&corner| place(view, corner).expect("before the eye"));
+    let places: Vec<_> = places.map(|[x, y]| [x * 9.0 / 16.0, y]).collect();
+    assert!(
+        places.as_flattened().iter().all(|x| x.abs() < 1.0),
+        "{places:?}: {view:?}"
+    );
+    let fills = [0, 1].map(|axis| {
+        let along = || places.iter().map(|place| place[axis]);
+        0.5 * (along().fold(-1.0, f32::max) - along().fold(1.0, f32::min))
+    });
+    assert!(fills[0].max(fills[1]) > 0.33, "{fills:?}: {view:?}");
+    assert!(
+        view.right[1].abs() < 1e-6 && view.up[1] > 0.0,
+        "upright: {view:?}"
+    );
 }
 
 fn inside(eye: [f32; 3], low: [f32; 3], high: [f32; 3]) -> bool {
@@ -87,4 +136,99 @@ fn a_lamp_behind_a_wall_is_seen_from_its_side() {
     let lamp = solid([-0.2, -0.2, -1.1], [0.2, 0.2, -1.0], 1);
     let camera = scene(vec![wall, lamp]).frame(0).camera;
     assert!(camera.eye[2] < 0.0, "{camera:?}");
+}
+
+#[test]
+fn sign_is_seen_whole_from_its_front() {
+    for (a, front) in [
+        ([4.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
+        ([-4.0, 0.0, 0.0], [0.0, 0.0, -1.0]),
+        ([0.0, 0.0, -4.0], [1.0, 0.0, 0.0]),
+        ([0.0, 0.0, 4.0], [-1.0, 0.0, 0.0]),
+    ] {
+        for (material, is_under_sky) in [(1, false), (0, true)] {
+            let sign = sheet([1.0, 2.0, 3.0], a, [0.0, 1.0, 0.0], material);
+            let corners = sign.positions.clone();
+            let view = under_sky(vec![sign], is_under_sky).frame(0).camera;
+            let towards: f32 = (0..3).map(|i| -view.forward[i] * front[i]).sum();
+            assert!(towards > 0.5, "{towards} of {front:?}: {view:?}");
+            fill(&view, &corners);
+        }
+    }
+}
+
+#[test]
+fn boxes_of_any_size_are_seen_from_outside() {
+    for size in [0.01_f32, 2.0, 4000.0] {
+        let (low, high) = ([size, -2.0 * size, 7.0 * size], [2.0 * size, -size, 8.0 * size]);
+        for (material, is_under_sky) in [(1, false), (0, true)] {
+            let one = solid(low, high, material);
+            let corners = one.positions.clone();
+            let view = under_sky(vec![one], is_under_sky).frame(0).camera;
+            assert!(!inside(view.eye, low, high), "{view:?}");
+            fill(&view, &corners);
+        }
+    }
+}
+
+/// The inside of a bulb is the brightest place.
+#[test]
+fn camera_does_not_stand_in_a_glowing_bulb() {
+    let floor = sheet([-5.0, 0.0, 5.0], [10.0, 0.0, 0.0], [0.0, 0.0, -10.0], 0);
+    for size in [0.02, 0.1, 0.3] {
+        let (low, high) = ([-size, 2.0 - size, -size], [size, 2.0 + size, size]);
+        let mut inner = solid(
+            low.map(|x| 0.98 * x),
+            [0.98 * size, 0.98 * (2.0 + size), 0.98 * size],
+            1,
+        );
+        inner.triangles.iter_mut().for_each(|own| own.swap(0, 1));
+        let view = scene(vec![solid(low, high, 1), inner, floor.clone()])
+            .frame(0)
+            .camera;
+        assert!(
+            !inside(view.eye, low, high) && view.eye[1] > 0.0,
+            "{size}: {view:?}"
+        );
+    }
+}
+
+#[test]
+fn nothing_to_see_is_no_error() {
+    for is_under_sky in [false, true] {
+        let flat = sheet([5.0; 3], [0.0; 3], [0.0; 3], 0);
+        let view = under_sky(vec![flat], is_under_sky).frame(0).camera;
+        let all = [view.eye, view.right, view.up, view.forward];
+        assert!(all.iter().flatten().all(|x| x.is_finite()), "{view:?}");
+    }
+}
+
+#[test]
+fn scenes_far_from_the_origin_or_very_small_are_noted() {
+    let far_off = |at: f32, size: f32| {
+        let floor = sheet([at, 0.0, 0.0], [size, 0.0, 0.0], [0.0, 0.0, -size], 0);
+        // One triangle at the origin says nothing of the others.
+        let mut stray = sheet([0.0; 3], [0.2 * size, 0.0, 0.0], [0.0, 0.0, -0.2 * size], 0);
+        stray.triangles.truncate(1);
+        let boxes = (0..8).map(|k| {
+            let x = at + 0.1 * size * k as f32;
+            solid(
+                [x, 0.0, -0.5 * size],
+                [x + 0.04 * size, 0.04 * size, -0.46 * size],
+                0,
+            )
+        });
+        scene([floor, stray].into_iter().chain(boxes).collect())
+            .frame(0)
+            .far_off()
+    };
+    assert_eq!(far_off(0.0, 100.0), None);
+    assert_eq!(far_off(1e4, 100.0), None);
+    // 2^-18 of the coordinate.
+    assert!(far_off(5e5, 100.0).is_some_and(|note| note.contains("rays start 1.90")));
+    let note = far_off(0.0, 1e-10).expect("a note");
+    assert!(
+        note.contains("very small, 6.6e-11 m") && !note.contains("origin"),
+        "{note}"
+    );
 }

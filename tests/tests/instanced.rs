@@ -3,11 +3,7 @@
 
 use std::sync::Arc;
 
-use lightbvh::bvh::RebuildParams;
-use lightbvh::{
-    BuildParams, Edit, EmissiveTriangle, INVALID, InstanceId, LightBvh, Lights, MeshId, ShadingPoint,
-    Transform,
-};
+use lightbvh::{Edit, EmissiveTriangle, INVALID, InstanceId, LightBvh, Lights, MeshId, Transform};
 use lightbvh_host::backend::{
     Backend, Combination, CpuBackend, DeviceBackend, Follow, Integrator, Restir, RestirFrame, RestirOptions,
     Sampler, SceneArrays,
@@ -15,7 +11,6 @@ use lightbvh_host::backend::{
 use lightbvh_host::render::{RayBvh, View, camera, render, render_path};
 use lightbvh_host::vulkan::{Device, Options};
 use lightbvh_kernels::bvh::Standard;
-use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::emitters::Emitters;
 use lightbvh_kernels::shading::material::Material;
@@ -208,10 +203,9 @@ fn devices_resample_lights_that_moved() {
                         bvh.apply(vec![Edit::SetTriangles { mesh, triangles }])
                             .expect("as many triangles");
                     }
-                    bvh.plan();
-                    other.follow(&bvh).expect("copies and a refit");
-                    cpu.follow(&bvh).expect("a refit");
                     bvh.refit();
+                    other.follow(&bvh).expect("copies and a refit");
+                    cpu.follow(&bvh).expect("a copy");
                 }
                 let scene = Arc::new(arrays(&bvh));
                 let frame = RestirFrame {
@@ -247,68 +241,6 @@ fn devices_resample_lights_that_moved() {
             }
         });
     }
-}
-
-/// A device that followed edits and a swap refits what it has then; lights of other meshes are refused as on the CPU.
-#[test]
-fn refits_after_edits_are_those_of_the_cpu() {
-    let lamps = |meshes: u32, each: u32, seed: u32| {
-        Lights::new(small_triangles(meshes * each, each, 8.0, 0.3, true, seed)).expect("within the domain")
-    };
-    on_each_device(Options::default(), |device| {
-        let mut bvh = LightBvh::two_level(&lamps(12, 40, 1), &BuildParams::default());
-        let mut cpu = CpuBackend::<Standard, 8>::new(bvh.clone());
-        let mut other = DeviceBackend::<Standard, 8>::new(device, &bvh).expect("an upload");
-        bvh.follow(&lamps(12, 40, 2)).expect("the same meshes");
-        let everything = RebuildParams { top: 1.0, drift: 0.0 };
-        let rebuilt = bvh.rebuild(&everything).run();
-        bvh.install(rebuilt).expect("its own");
-        bvh.plan();
-        other.follow(&bvh).expect("copies and a refit");
-        cpu.follow(&bvh).expect("a refit");
-        let moved = lamps(12, 40, 3);
-        // No frame pays for the list that this needs.
-        let error = other.refit(&moved).expect_err("edited").to_string();
-        assert!(error.contains("list_everything"), "{error}");
-        other.list_everything(&bvh);
-        cpu.refit(&moved).expect("a refit");
-        other.refit(&moved).expect("a refit");
-        let queries: Vec<_> = (0..500_u32)
-            .map(|k| {
-                let point = ShadingPoint {
-                    p: [(k % 9) as f32, (k % 7) as f32, (k % 5) as f32],
-                    n: [0.0, 1.0, 0.0],
-                };
-                let words = [k.wrapping_mul(0x9e37_79b9), 0];
-                Query { point, words }
-            })
-            .collect();
-        let expected = cpu.sample(&queries).expect("samples").value;
-        assert!(
-            expected == other.sample(&queries).expect("samples").value,
-            "{}",
-            device.name()
-        );
-        let wrong = lamps(10, 48, 4);
-        let error = cpu.refit(&wrong).expect_err("other meshes").to_string();
-        assert_eq!(other.refit(&wrong).expect_err("other meshes").to_string(), error);
-
-        // What it may refit to is what it has followed last.
-        let fifth = bvh.instance_id(5).expect("there");
-        bvh.remove_instance(fifth).expect("there");
-        bvh.remove_mesh(bvh.mesh_id(5).expect("a mesh"))
-            .expect("not in use");
-        bvh.plan();
-        other.follow(&bvh).expect("copies and a refit");
-        cpu.follow(&bvh).expect("a refit");
-        other.list_everything(&bvh);
-        let error = cpu.refit(&moved).expect_err("a mesh is gone").to_string();
-        assert!(error.contains("mesh light 5"), "{error}");
-        assert_eq!(
-            other.refit(&moved).expect_err("a mesh is gone").to_string(),
-            error
-        );
-    });
 }
 
 /// What one device left is of no use to another: its history begins anew there.
@@ -378,34 +310,4 @@ fn one_instance_is_meant_by_any_name() {
             }
         }
     }
-}
-
-/// A device may be made of a light BVH that no CPU has refitted, planned or not.
-#[test]
-fn a_device_takes_what_was_never_refitted() {
-    on_each_device(Options::default(), |device| {
-        for planned in [false, true] {
-            let (mut bvh, _, ids) = world();
-            bvh.apply(edits(&ids, 1.5)).expect("affine maps");
-            if planned {
-                bvh.plan();
-            }
-            let mut other = DeviceBackend::<Standard, 8>::new(device, &bvh).expect("an upload");
-            let mut refitted = bvh.clone();
-            refitted.refit();
-            let what = format!("{}, planned: {planned}", device.name());
-            let used = refitted.plan_of_everything();
-            let words = size_of_val(&refitted.nodes()[0]) / 4;
-            let expected: &[u32] = bytemuck::cast_slice(refitted.nodes());
-            for twice in 0..2 {
-                let found = other.nodes().expect("nodes");
-                for node in used.bottom.nodes().iter().chain(used.top.nodes()) {
-                    let at = *node as usize * words..(*node as usize + 1) * words;
-                    assert!(found[at.clone()] == expected[at], "node {node}, {twice}, {what}");
-                }
-                // The frame after changes nothing.
-                other.follow(&bvh).expect("nothing to do");
-            }
-        }
-    });
 }

@@ -7,7 +7,7 @@ use lightbvh::light::{
 };
 use lightbvh::{Bvh, Edit, EmissiveTriangle, LightPoint, Random64, SampledLight, ShadingPoint};
 use lightbvh_gpu::{KernelSet, query_push};
-use lightbvh_host::backend::Mirrored;
+use lightbvh_host::backend::{Mirrored, nodes_in_use};
 use lightbvh_host::vulkan::Options;
 use lightbvh_kernels::kinds::{AnyNode, light_point_for};
 use lightbvh_kernels::query::{PointsPush, Query};
@@ -113,20 +113,13 @@ fn mesh(random: &mut Random, lights: usize) -> Vec<AnyLight> {
     (0..lights).map(|number| light(random, number, 4.0)).collect()
 }
 
-const KINDS: [Kind; 5] = [
-    Kind::Rigid,
-    Kind::Similar,
-    Kind::Affine,
-    Kind::Flat,
-    Kind::Extreme,
-];
-
 /// All words in use are the scene's.
 fn assert_is(held: &Mirrored<'_, AnyNode, 8>, scene: &Scene, what: &str) {
     let (used, name) = (scene.plan_of_everything(), held.device().name());
     let nodes = held.nodes().expect("a read");
-    for &node in used.bottom.nodes().iter().chain(used.top.nodes()) {
-        let (found, expected) = (nodes[node as usize], scene.tree().nodes[node as usize]);
+    let own = [scene.nodes(), scene.top_nodes()].concat();
+    for node in nodes_in_use(scene) {
+        let (found, expected) = (nodes[node as usize], own[node as usize]);
         assert_eq!(
             bytes_of(&found),
             bytes_of(&expected),
@@ -163,9 +156,8 @@ fn samples_agree(held: &Mirrored<'_, AnyNode, 8>, scene: &Scene, random: &mut Ra
             }
         })
         .collect();
-    let tree = scene.tree();
     let asked = device.upload(&queries).expect("an upload");
-    let push = query_push(QUERIES as u32, &tree);
+    let push = query_push(QUERIES as u32, held.words());
     let sampled: Vec<SampledLight> = held
         .ask(
             KernelSet::ANY.sample,
@@ -233,7 +225,7 @@ fn samples_agree(held: &Mirrored<'_, AnyNode, 8>, scene: &Scene, random: &mut Ra
     for (k, at) in found.iter().enumerate() {
         let expected = light_point_for(
             scene.triangles(),
-            tree.instances,
+            scene.instances(),
             &queries[k],
             &sampled[k],
             numbers[k],
@@ -257,7 +249,7 @@ fn lights_of_every_kind_agree_with_every_device() {
         let meshes: Vec<_> = [3, 40, 300]
             .map(|lights| scene.add_mesh(mesh(random, lights)).expect("a mesh"))
             .into();
-        let place = |random: &mut Random, k: usize| placing::transform(random, KINDS[k % 5], 30.0);
+        let place = |random: &mut Random, k: usize| placing::transform(random, Kind::ALL[k % 6], 30.0);
         let add: Vec<_> = (0..60)
             .map(|k| Edit::AddInstance {
                 mesh: meshes[k % 3],
@@ -282,9 +274,8 @@ fn lights_of_every_kind_agree_with_every_device() {
                 });
                 scene.apply(edits).expect("edits");
             }
-            scene.plan();
-            held.follow(&scene).expect("a frame");
             scene.refit();
+            held.follow(&scene).expect("a frame");
             assert_is(&held, &scene, &format!("frame {frame}"));
             let sampled = samples_agree(&held, &scene, random);
             kinds = std::array::from_fn(|k| kinds[k] + sampled[k]);

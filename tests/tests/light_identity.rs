@@ -1,5 +1,5 @@
-//! Lights that come, go and move in every frame while ReSTIR hands samples on over frames and pixels, trees being rebuilt
-//! beside it: no reservoir ever points at another light than the one that was chosen.
+//! Lights are added, removed and moved in every frame while ReSTIR reuses samples over frames and pixels, and trees are built in
+//! the background: no reservoir ever points at another light than the one that was chosen.
 //!
 //! A sample keeps its two numbers in the unit square as long as it is handed on. So what a reservoir's light was when it was
 //! chosen, instance and triangle, is kept beside those, and must be what its number says in each later frame.
@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use lightbvh::bvh::{RebuildParams, Swap};
+use lightbvh::bvh::Swap;
 use lightbvh::{
     Edit, EmissiveTriangle, InstanceId, LightBvh, Lights, MeshId, Rebuilder, RebuilderParams, Transform,
 };
@@ -104,7 +104,7 @@ impl World {
             bvh,
             rebuilder: Rebuilder::new(RebuilderParams {
                 swap: Swap::Deterministic,
-                rebuild: RebuildParams::eager(),
+                idle: 0.0,
                 ..RebuilderParams::default()
             }),
             meshes: meshes.into(),
@@ -290,7 +290,6 @@ fn no_reservoir_of_a_device_points_at_another_light() {
     ] {
         on_each_device(Options::default(), |device| {
             let mut world = World::new(4);
-            world.bvh.plan();
             let mut cpu = CpuBackend::<Standard, 8>::new(world.bvh.clone());
             let mut other = DeviceBackend::<Standard, 8>::new(device, &world.bvh).expect("an upload");
             let mut on_cpu = Restir::new(options(combination));
@@ -301,10 +300,9 @@ fn no_reservoir_of_a_device_points_at_another_light() {
                 let mut remap = None;
                 if number > 0 {
                     remap = world.frame(taken);
-                    world.bvh.plan();
-                    other.follow(&world.bvh).expect("copies and a refit");
-                    cpu.follow(&world.bvh).expect("a refit");
                     world.bvh.refit();
+                    other.follow(&world.bvh).expect("copies and a refit");
+                    cpu.follow(&world.bvh).expect("a copy");
                     world.rebuilder.end_frame(&world.bvh);
                 }
                 ledger.count_gone(&world.bvh);

@@ -77,17 +77,9 @@ fn points_on_sampled_lights_agree_with_every_device() {
     let meshes: Vec<_> = (0..5)
         .map(|_| moving.add_mesh(mesh(random)).expect("a mesh"))
         .collect();
-    let kinds = [
-        Kind::Rigid,
-        Kind::Similar,
-        Kind::Affine,
-        Kind::Flat,
-        Kind::Singular,
-        Kind::Extreme,
-    ];
     let ids: Vec<_> = (0..60)
         .map(|i| {
-            let transform = placing::transform(random, kinds[i % 6], 50.0);
+            let transform = placing::transform(random, Kind::ALL[i % 6], 50.0);
             moving
                 .add_instance(meshes[i % 5], transform)
                 .expect("an instance")

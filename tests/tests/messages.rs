@@ -305,8 +305,7 @@ fn violations() {
         (What::TrailHigh, "high word of the leaf's trail"),
         (What::Place, "place in the node above"),
         (What::Children, "number of children"),
-        (What::Listed, "times in the list of levels"),
-        (What::ListedLevel, "level in the list of levels"),
+        (What::Listed, "times in its list"),
         (What::Word(5), "word 5 of the node"),
     ];
     for (what, name) in whole {
@@ -324,6 +323,6 @@ fn violations() {
         &RebuildError::Panicked {
             message: String::from("out of luck"),
         },
-        &["panicked: out of luck", "keeps its refitted tree"],
+        &["panicked: out of luck", "keeps its trees"],
     );
 }

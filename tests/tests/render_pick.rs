@@ -1,7 +1,8 @@
 //! The choice of a light without a tree: every probability is the exact frequency.
 
-use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, Random64, ShadingPoint};
-use lightbvh_host::render::{power_thresholds, triangle_flux};
+use lightbvh::{BuildParams, EmissiveTriangle, ImportanceModel, LightBvh, Lights, Random64, ShadingPoint};
+use lightbvh_host::render::power_thresholds;
+use lightbvh_host::scene::SceneLight;
 use lightbvh_kernels::bvh::{Choice, Node, Standard, WIDTH};
 use lightbvh_kernels::shading::pick::{MAX_PICKABLE, PickLight, Power, Uniform};
 use lightbvh_kernels::shading::trace::NONE;
@@ -87,17 +88,17 @@ fn power_pmfs_are_the_exact_frequencies_and_sum_to_one() {
         thresholds: &thresholds,
     });
     let emitters: Vec<usize> = (0..lights.len())
-        .filter(|&i| triangle_flux(&lights[i]) > 0.0)
+        .filter(|&i| SceneLight::flux(&lights[i]) > 0.0)
         .collect();
     assert_eq!(choices.iter().map(|c| c.0 as usize).collect::<Vec<_>>(), emitters);
-    let total: f64 = lights.iter().map(triangle_flux).sum();
+    let total: f64 = lights.iter().map(SceneLight::flux).sum();
     let mut sum = 0.0_f64;
     for &(light, chances, pmf) in &choices {
         assert_eq!(f64::from(pmf), f64::from(chances) / f64::from(MAX_PICKABLE));
         sum += f64::from(pmf);
         // One unit for itself, its part of the rest, and less than one by rounding at either end.
         let rest = f64::from(MAX_PICKABLE) - emitters.len() as f64;
-        let expected = 1.0 + triangle_flux(&lights[light as usize]) / total * rest;
+        let expected = 1.0 + SceneLight::flux(&lights[light as usize]) / total * rest;
         assert!(
             (f64::from(chances) - expected).abs() < 1.0 + 1e-3,
             "light {light}: {chances} {expected}"
@@ -186,7 +187,10 @@ fn evaluated_pmfs_are_those_of_the_pick() {
         } else {
             "two-level"
         };
-        let tolerance = sum_tolerance::<Node, <Standard as Choice<WIDTH>>::Importance, WIDTH>(300);
+        let tolerance = sum_tolerance(
+            300,
+            <<Standard as Choice<WIDTH>>::Importance as ImportanceModel<Node, WIDTH>>::UNIFORM_HALVINGS,
+        );
         pmf_is_of_the_pick(what, &picker, lights.triangles(), tolerance);
     }
 }

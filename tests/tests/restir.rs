@@ -15,7 +15,7 @@ use lightbvh_host::words::compare_words;
 use lightbvh_host::workload::arrays_at;
 use lightbvh_kernels::bvh::Standard;
 use lightbvh_kernels::shading::camera::Camera;
-use lightbvh_kernels::shading::restir::combine::Unbiased;
+use lightbvh_kernels::shading::restir::combine::Combine;
 use lightbvh_kernels::shading::restir::shade::shade;
 use lightbvh_kernels::shading::restir::spatial::spatial;
 use lightbvh_kernels::shading::restir::surface::Surface;
@@ -410,7 +410,8 @@ fn hostile_words_end_in_bounded_steps() {
             remapped: word(),
             drops_occluded: word(),
         };
-        let combine = Unbiased {
+        let combine = Combine {
+            is_unbiased: true,
             surfaces: view.surfaces,
             emitters: view.emitters,
         };

@@ -262,61 +262,29 @@ fn options(source: Sampler, combination: Combination) -> RestirOptions {
 }
 
 #[test]
-fn initial_samples_converge() {
-    let shots = still();
-    let references = references(&shots, 0.0);
-    for source in SOURCES {
-        let options = RestirOptions {
-            history: 0,
-            spatial_passes: 0,
-            ..options(source, Combination::Unbiased)
-        };
-        converges("initial", options, &shots[..1], &references);
-    }
-}
-
-#[test]
-fn reuse_over_time_converges() {
+fn each_unbiased_step_converges() {
     for (what, shots, time) in [("still", still(), 0.0), ("moving", moving(), 3.0)] {
         let references = references(&shots, time);
         for source in SOURCES {
-            let options = RestirOptions {
-                spatial_passes: 0,
-                ..options(source, Combination::Unbiased)
-            };
-            converges(&format!("over time, {what}"), options, &shots, &references);
-        }
-    }
-}
-
-#[test]
-fn reuse_over_pixels_converges() {
-    let shots = still();
-    let references = references(&shots, 0.0);
-    for source in SOURCES {
-        for spatial_passes in [1, 2] {
-            let options = RestirOptions {
-                history: 0,
-                spatial_passes,
-                ..options(source, Combination::Unbiased)
-            };
-            converges("over pixels", options, &shots[..1], &references);
-        }
-    }
-}
-
-#[test]
-fn reuse_over_time_and_pixels_converges() {
-    for (what, shots, time) in [("still", still(), 0.0), ("moving", moving(), 3.0)] {
-        let references = references(&shots, time);
-        for source in SOURCES {
-            let options = options(source, Combination::Unbiased);
-            converges(
-                &format!("over time and pixels, {what}"),
-                options,
-                &shots,
-                &references,
-            );
+            let usual = options(source, Combination::Unbiased);
+            for (step, history, spatial_passes) in [
+                ("initial", 0, 0),
+                ("over pixels", 0, 1),
+                ("over pixels twice", 0, 2),
+                ("over time", usual.history, 0),
+                ("over time and pixels", usual.history, usual.spatial_passes),
+            ] {
+                if history == 0 && time > 0.0 {
+                    continue;
+                }
+                let shots = if history == 0 { &shots[..1] } else { &shots };
+                let options = RestirOptions {
+                    history,
+                    spatial_passes,
+                    ..usual
+                };
+                converges(&format!("{step}, {what}"), options, shots, &references);
+            }
         }
     }
 }

@@ -1,25 +1,16 @@
 //! Sampling against an exhaustive oracle: the probabilities of all lights, evaluated one by one.
 
 use lightbvh::{
-    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, Heuristic, INVALID, ImportanceModel,
-    LightNode, LightTree, Lights, Random64, SampledLight, ShadingPoint, Summary,
+    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, ImportanceModel, LightNode, LightTree,
+    Lights, MomentNode, Moments, Random64, SampledLight, ShadingPoint, Summary,
 };
 use lightbvh_host::stability::geometry::contribution;
 use lightbvh_tests::each_layout;
 use lightbvh_tests::generate::{self, Random};
-use lightbvh_tests::oracle::{all_pmfs, assert_sum_is_one, leaves, pmf_of};
+use lightbvh_tests::oracle::{all_pmfs, assert_frequencies, built, leaves, pmf_of};
 use lightbvh_tests::statistics::{chi_squared, chi_squared_quantile};
-use proptest::prelude::*;
 
 mod several;
-
-fn built<N: LightNode<W>, const W: usize>(lights: &Lights, params: &BuildParams, two: bool) -> Bvh<N, (), W> {
-    if two {
-        Bvh::two_level(lights, params)
-    } else {
-        Bvh::single_level(lights, params)
-    }
-}
 
 fn flux<N: LightNode<W>, const W: usize>(triangle: &EmissiveTriangle) -> f32 {
     N::Summary::of_triangle(triangle).phi()
@@ -35,61 +26,6 @@ fn number(random: &mut Random) -> Random64 {
         _ => high,
     };
     Random64 { high, low }
-}
-
-/// Every light with flux has a probability, wherever the point is and whichever way it looks; they sum to one; and samples come
-/// with them, to the bit.
-fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    lights: &Lights,
-    params: &BuildParams,
-    two: bool,
-    seed: u32,
-) {
-    let random = &mut Random::new(seed);
-    let bvh = built::<N, W>(lights, params, two);
-    let shines: Vec<bool> = lights
-        .triangles()
-        .iter()
-        .map(|light| flux::<N, W>(light) > 0.0)
-        .collect();
-    let any = shines.contains(&true);
-    for _ in 0..4 {
-        let point = generate::point(random, 10.0);
-        let pmfs = all_pmfs::<N, I, W>(&bvh, lights, &point);
-        if any {
-            assert_sum_is_one::<N, I, W>(pmfs.iter().copied(), &point);
-        }
-        for (light, (&pmf, &shines)) in pmfs.iter().zip(&shines).enumerate() {
-            let expected = shines || I::UNIFORM_HALVINGS > 0;
-            assert_eq!(pmf > 0.0, expected, "{} {W}: light {light} at {point:?}", N::NAME);
-        }
-        let count = pmfs.len() as u32;
-        assert_eq!(pmf_of::<_, I, _>(&bvh, lights, &point, count), 0.0);
-        for _ in 0..32 {
-            let sampled = bvh.by::<I>().sample(&point, number(random));
-            assert!(!any || sampled.light < count, "no light at {point:?}");
-            let expected = pmfs.get(sampled.light as usize).copied().unwrap_or(0.0);
-            assert_eq!(
-                sampled.pmf.to_bits(),
-                expected.to_bits(),
-                "{} {W}: light {} at {point:?}",
-                N::NAME,
-                sampled.light
-            );
-            assert_eq!(sampled.pmf > 0.0, sampled.light != INVALID);
-        }
-    }
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
-
-    #[test]
-    fn pmfs_and_samples(lights in generate::lights(150), seed: u32, two: bool, sah: bool) {
-        let heuristic = if sah { Heuristic::Sah } else { BuildParams::default().heuristic };
-        let params = BuildParams { heuristic, ..BuildParams::default() };
-        each_layout!(check(&lights, &params, two, seed));
-    }
 }
 
 /// A share of 2^-H of the numbers chooses among all lights alike: out of the meshes alike, then out of a mesh's lights alike.
@@ -164,8 +100,8 @@ fn darkness() {
             assert_eq!(pmf > 0.0, I::UNIFORM_HALVINGS > 0);
         }
     }
-    each_layout!(dark(false));
-    each_layout!(dark(true));
+    dark::<CompactNode<4>, Defensive<Eq4, 5>, 4>(false);
+    dark::<MomentNode<8>, Moments, 8>(true);
 }
 
 /// Lights by their place in the order of the slots; the order of numbers is that of the lights.
@@ -261,34 +197,22 @@ fn numbers_are_lights_in_order() {
     each_layout!(numbers_are_ordered(true));
 }
 
-/// Frequencies of 10^5 samples per point match the evaluated probabilities (χ², tail 1e-6 for each of the tests).
-fn frequencies_match<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
-    const SAMPLES: u32 = 100_000;
+/// Uniform choices among those by importance: frequencies of 10^5 samples per point match the evaluated probabilities. Without
+/// uniform choices [`numbers_are_ordered`] says more.
+fn frequencies_match(two: bool) {
     let lights = scene(300, 7);
-    let bvh = built::<N, W>(&lights, &BuildParams::default(), two);
+    let bvh = built::<CompactNode<4>, 4>(&lights, &BuildParams::default(), two);
     let mut random = Random::new(99);
-    for _ in 0..4 {
+    for seed in 0..4 {
         let point = generate::point(&mut random, 10.0);
-        let pmfs = all_pmfs::<N, I, W>(&bvh, &lights, &point);
-        let expected: Vec<f64> = pmfs.into_iter().map(f64::from).collect();
-        let mut observed = vec![0; expected.len()];
-        for _ in 0..SAMPLES {
-            observed[bvh.by::<I>().sample(&point, random.bits()).light as usize] += 1;
-        }
-        let (statistic, degrees) = chi_squared(&observed, &expected);
-        let threshold = chi_squared_quantile(degrees, 1e-6);
-        assert!(
-            statistic < threshold,
-            "{} {W}: χ² {statistic} of {degrees} degrees, threshold {threshold}, at {point:?}",
-            N::NAME
-        );
+        assert_frequencies::<_, Defensive<Eq4, 5>, 4>(&bvh, &lights, &point, 100_000, seed);
     }
 }
 
 #[test]
 fn frequencies() {
-    each_layout!(frequencies_match(false));
-    each_layout!(frequencies_match(true));
+    frequencies_match(false);
+    frequencies_match(true);
 }
 
 /// All 2^32 words: a light's numbers are an interval, so it is returned for as many words as its probability says, but for one

@@ -1,15 +1,11 @@
 //! The CPU's parallel refit against the shared functions that it calls: every word, whatever the inputs, the order and the number
 //! of threads.
 
-use lightbvh::refit::{self, BlasRoot};
 use lightbvh::{
-    BuildParams, Bvh, CompactNode, Edit, EmissiveTriangle, Instance, LightNode, Lights, MomentNode, Summary,
-    sweep,
+    BuildParams, Bvh, CompactNode, EmissiveTriangle, LightNode, Lights, MomentNode, Summary, refit, sweep,
 };
 use lightbvh_tests::each_node;
-use lightbvh_tests::edits::add_mesh;
 use lightbvh_tests::generate::{self, Random, extreme_triangle};
-use lightbvh_tests::placing;
 use proptest::prelude::*;
 
 /// Nodes with any children, summaries of the whole domain, and links a little beyond `links`.
@@ -57,65 +53,22 @@ fn words<N: LightNode<W>, const W: usize>(nodes: &[N], pass: impl Fn(&mut [N])) 
     bytemuck::cast_slice(&out).to_vec()
 }
 
-/// Instances as a scene places them, and ones that lead nowhere.
-fn instances(random: &mut Random) -> Vec<Instance> {
-    let mut scene = Bvh::<CompactNode<2>, (), 2>::default();
-    let triangles = generate::small_triangles(4, 4, 1.0, 0.3, true, random.bits());
-    let mesh = add_mesh(&mut scene, triangles);
-    let add = (0..64)
-        .map(|_| {
-            let exponent = random.below(30) as i32 - 5;
-            let kind = placing::kind(random);
-            let transform = placing::transform(random, kind, lightbvh::exact::pow2(exponent));
-            let radiance = if random.below(8) == 0 {
-                0.0
-            } else {
-                generate::log_uniform(random, -50, 50)
-            };
-            Edit::AddInstance {
-                mesh,
-                transform,
-                radiance,
-            }
-        })
-        .collect();
-    scene.apply(add).expect("instances");
-    let mut instances = scene.instances().to_vec();
-    for instance in &mut instances {
-        instance.blas = random.below(70);
-    }
-    instances
-}
-
 fn check<N: LightNode<W>, const W: usize>(seed: u32, count: u32) {
     let random = &mut Random::new(seed);
     let triangles: Vec<EmissiveTriangle> = (0..200).map(|_| extreme_triangle(random)).collect();
     // The children are other nodes than those of the list, as in a tree.
-    let apart = |random: &mut Random, links: u32| {
-        let mut all: Vec<N> = nodes(random, 2 * count, links);
-        for node in &mut all[..count as usize] {
-            for slot in 0..W {
-                if node.kind(slot) == lightbvh::node::kind::INNER {
-                    node.relink(slot, count + random.below(count + count / 16 + 1));
-                }
+    let mut bottom: Vec<N> = nodes(random, 2 * count, 200);
+    for node in &mut bottom[..count as usize] {
+        for slot in 0..W {
+            if node.kind(slot) == lightbvh::node::kind::INNER {
+                node.relink(slot, count + random.below(count + count / 16 + 1));
             }
         }
-        all
-    };
-    let bottom = apart(random, 200);
+    }
     let list = list(random, count);
     let expected = one_by_one(&bottom, &list, |nodes, i| refit::bottom(nodes, &triangles, i));
     let found = words(&bottom, |nodes| sweep::bottom(nodes, &triangles, &list));
-    assert!(expected == found, "{} {W}: bottom", N::NAME);
-
-    let roots: Vec<BlasRoot> = (0..64)
-        .map(|i| BlasRoot::new(i, &N::Summary::of_triangle(&extreme_triangle(random))))
-        .collect();
-    let instances = instances(random);
-    let top = apart(random, instances.len() as u32);
-    let expected = one_by_one(&top, &list, |nodes, i| refit::top(nodes, &instances, &roots, i));
-    let found = words(&top, |nodes| sweep::top(nodes, &instances, &roots, &list));
-    assert!(expected == found, "{} {W}: top", N::NAME);
+    assert!(expected == found, "{} {W}", N::NAME);
 }
 
 /// All bottom levels of a tree, together and one by one, without summaries at first, against its levels one after the other.
@@ -138,27 +91,33 @@ fn check_trees<N: LightNode<W>, const W: usize>(count: u32) {
         }
         bare
     };
-    // The top level stands behind the bottom levels.
     let plan = bvh.plan_of_everything();
-    let end = plan.trees.iter().map(|tree| tree.end).max().expect("a tree") as usize;
-    let bare: Vec<N> = bvh.nodes()[..end].iter().map(bare).collect();
+    let bare: Vec<N> = bvh.nodes().iter().map(bare).collect();
     let mut expected = bare.clone();
     for range in plan.bottom.ranges() {
         for &index in &plan.bottom.nodes()[range] {
             expected[index as usize] = refit::bottom(&expected, triangles, index);
         }
     }
-    let expected = bytemuck::cast_slice::<N, u32>(&expected);
-    let roots: Vec<u32> = plan.trees.iter().map(|tree| tree.start).collect();
-    let together = words(&bare, |nodes| sweep::bottom_sweep(nodes, 0, triangles, &roots));
-    assert!(together == expected, "{} {W}: together", N::NAME);
-    let apart = words(&bare, |nodes| {
+    let check = |how: &str, sweep: &dyn Fn(&mut [N])| {
+        let mut found = bare.clone();
+        sweep(&mut found);
+        for &node in plan.bottom.nodes() {
+            let node = node as usize;
+            let [found, expected] = [&found, &expected].map(|all| bytemuck::bytes_of(&all[node]));
+            assert!(found == expected, "{} {W}: {how}, node {node}", N::NAME);
+        }
+    };
+    let roots: Vec<u32> = bvh.roots().iter().map(|root| root.node).collect();
+    check("together", &|nodes| {
+        sweep::bottom_sweep(nodes, 0, triangles, &roots);
+    });
+    check("apart", &|nodes| {
         for (k, &start) in roots.iter().enumerate() {
             let end = roots.get(k + 1).map_or(nodes.len(), |&next| next as usize);
             sweep::bottom_sweep(&mut nodes[start as usize..end], start, triangles, &[start]);
         }
     });
-    assert!(apart == expected, "{} {W}: apart", N::NAME);
 }
 
 proptest! {

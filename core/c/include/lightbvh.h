@@ -33,7 +33,7 @@ typedef enum lightbvh_status {
     LIGHTBVH_NO_LIGHT = 4,
     /* A defect of this library. A light BVH that was being changed then only can be freed, as can a rebuilder. */
     LIGHTBVH_PANICKED = 5,
-    /* A rebuild came to nothing; the light BVH keeps the tree that it has, and the next rebuild is tried anew. */
+    /* A background build failed; the light BVH keeps its trees, and the next frame starts another build. */
     LIGHTBVH_NO_REBUILD = 6
 } lightbvh_status;
 
@@ -96,17 +96,13 @@ typedef struct lightbvh_range {
     uint32_t first, count;
 } lightbvh_range;
 
-/* Builds trees anew on threads of its own, beside the frames of one light BVH. */
+/* Builds the trees of one light BVH again, on a thread of its own. */
 typedef struct lightbvh_rebuilder lightbvh_rebuilder;
 
 /* What the start of a frame did. */
 typedef struct lightbvh_frame_start {
-    uint32_t swapped;   /* 1 where parts of the top level, or small meshes, that were built came in */
-    uint32_t adopted;   /* large meshes whose new trees took their places since the last frame began */
-    uint32_t parts;     /* parts of large meshes that did */
-    uint32_t dropped;   /* new trees of large meshes, and of parts of them, that came to nothing since then */
-    uint32_t under_way; /* trees of large meshes, and of parts, that are under way or wait: one mesh may have two */
-    uint32_t copied;    /* bytes that this call copied or wrote for large meshes, and what takes as long */
+    uint32_t swapped; /* 1 if a new tree over the instances was swapped in */
+    uint32_t meshes;  /* number of meshes that got new trees */
 } lightbvh_frame_start;
 
 /* What the last function that failed on this thread had to say, in UTF-8; "" before any did. It stays until the next one
@@ -144,23 +140,23 @@ lightbvh_status lightbvh_remove_mesh(lightbvh *bvh, lightbvh_mesh mesh);
 
 /* Computes the nodes that the edits touched: once a frame. */
 lightbvh_status lightbvh_refit(lightbvh *bvh);
-/* Builds the top level anew, and meshes whose trees lost quality, and refits, on this thread, in time in proportion to
- * the scene: as one is loaded. Lights that move want a rebuilder. */
+/* Refits, then rebuilds the tree over the instances, and the tree of each mesh that changed since it was built, on this
+ * thread. Takes time in proportion to the scene; use a rebuilder for moving lights. */
 lightbvh_status lightbvh_rebuild(lightbvh *bvh);
 
-/* Frames: lightbvh_begin_frame, edits, lightbvh_refit, lightbvh_end_frame. Refits alone make samples of moving lights worse
- * from frame to frame; the rebuilder builds what lost quality on its threads. The work of begin and end of a frame is bounded,
- * whatever it builds: 0.3 ms on most machines, more where cores are slow or shared (docs/dynamics.md). */
+/* Frames: lightbvh_begin_frame, edits, lightbvh_refit, lightbvh_end_frame. A rebuilder builds the tree over the instances
+ * after any change, and that of a mesh after changes of its triangles. Begin and end of a frame take time in proportion to
+ * the frame's changes, and copy changed meshes (docs/dynamics.md). One light BVH has one rebuilder. */
 
-/* A rebuilder, to be freed by lightbvh_rebuilder_free; null only where memory or the library fails. With `after` 0 trees come
- * in once they are ready, and no frame waits. With another they come in as that many frames have passed, and that frame waits
- * for them where it must: samples then depend on the edits alone, never on how fast a thread was. */
+/* A rebuilder, to be freed by lightbvh_rebuilder_free; null only if memory or the library fails. If `after` is 0, trees are
+ * swapped in once they are ready, and no frame waits. Otherwise they are swapped in after `after` frames, and that frame
+ * waits for them if needed: samples then depend on the edits alone, never on the thread's speed. */
 lightbvh_rebuilder *lightbvh_rebuilder_create(uint32_t after);
-/* Waits for what its threads are building, 0.3 s for a mesh of 10^6 triangles, and frees it. Null does nothing. */
+/* Waits for the build under way, 0.4 s for a mesh of 10^6 triangles, and frees it. Null does nothing. */
 void lightbvh_rebuilder_free(lightbvh_rebuilder *rebuilder);
-/* Puts in place what was built: before the frame's edits. `start` may be null. */
+/* Swaps in finished trees. Call it before the frame's edits. `start` may be null. */
 lightbvh_status lightbvh_begin_frame(lightbvh_rebuilder *rebuilder, lightbvh *bvh, lightbvh_frame_start *start);
-/* Has what lost quality built: after the frame's lightbvh_refit. */
+/* Starts the next build. Call it after the frame's lightbvh_refit. */
 lightbvh_status lightbvh_end_frame(lightbvh_rebuilder *rebuilder, const lightbvh *bvh);
 
 /* What keeps numbers of lights from frame to frame, as reservoirs do, asks in each frame after its edits which numbers are no

@@ -1,6 +1,6 @@
 //! Functions that change a light BVH.
 
-use lightbvh::bvh::{EditError, EditReason, RebuildParams};
+use lightbvh::bvh::{EditError, EditReason};
 use lightbvh::{Edit, EmissiveTriangle, Transform};
 
 use crate::error::{Fault, Status};
@@ -169,8 +169,17 @@ pub unsafe extern "C" fn lightbvh_set_triangles(
     // SAFETY: the caller's promise, here and below.
     unsafe {
         Handle::change(bvh, |bvh| {
+            let mesh = mesh.id()?;
+            // Before they are read: a wrong count is one of memory that the caller has not.
+            let own = bvh.mesh_triangles(mesh).map(<[_]>::len);
+            if let Some(expected) = own.filter(|&own| own != count) {
+                return Err(refused(EditReason::Count {
+                    expected,
+                    found: count,
+                }));
+            }
             let triangles = raw::at_most_lights(triangles, count, "triangles")?;
-            bvh.set_triangles(mesh.id()?, triangles.to_vec()).map_err(refused)
+            bvh.set_triangles(mesh, triangles.to_vec()).map_err(refused)
         })
     }
 }
@@ -232,7 +241,7 @@ pub unsafe extern "C" fn lightbvh_refit(bvh: *mut Handle) -> Status {
     }
 }
 
-/// Builds anew what refits alone make worse, and refits.
+/// Rebuilds the top level, and the trees of changed meshes.
 ///
 /// # Safety
 /// As [`lightbvh_add_mesh`].
@@ -241,12 +250,7 @@ pub unsafe extern "C" fn lightbvh_rebuild(bvh: *mut Handle) -> Status {
     // SAFETY: the caller's promise.
     unsafe {
         Handle::change(bvh, |bvh| {
-            // A rebuild starts from what a refit left.
-            bvh.refit();
-            let rebuilt = bvh.rebuild(&RebuildParams::eager()).run();
-            bvh.install(rebuilt)
-                .map_err(|foreign| Fault::new(Status::Refused, foreign))?;
-            bvh.refit();
+            bvh.rebuild();
             Ok(())
         })
     }

@@ -21,7 +21,7 @@ pub enum Status {
     NoLight = 4,
     /// A defect of the library.
     Panicked = 5,
-    /// A rebuild came to nothing.
+    /// A background build failed.
     NoRebuild = 6,
 }
 

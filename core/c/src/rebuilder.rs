@@ -1,4 +1,4 @@
-//! Rebuilds beside the frames.
+//! Builds in the background.
 
 use lightbvh::bvh::{FrameStart, RebuilderParams, Swap};
 use lightbvh::{MomentNode, Rebuilder};
@@ -15,21 +15,13 @@ pub type CRebuilder = Held<Rebuilder<MomentNode<8>, 8>>;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CFrameStart {
-    /// 1 where parts of the top level or small meshes came in.
+    /// 1 if a new top level was swapped in.
     pub swapped: u32,
-    /// Large meshes whose trees came in since the last frame.
-    pub adopted: u32,
-    /// Parts of large meshes that did.
-    pub parts: u32,
-    /// Trees that came to nothing.
-    pub dropped: u32,
-    /// Meshes under way, or waiting.
-    pub under_way: u32,
-    /// Bytes that this call copied for them.
-    pub copied: u32,
+    /// Number of meshes that got new trees.
+    pub meshes: u32,
 }
 
-/// A rebuilder: of trees that come in once they are built, or after so many frames.
+/// A rebuilder. Its trees are swapped in after `after` frames; once they are ready if it is 0.
 #[unsafe(no_mangle)]
 pub extern "C" fn lightbvh_rebuilder_create(after: u32) -> *mut CRebuilder {
     let swap = match after {
@@ -44,7 +36,7 @@ pub extern "C" fn lightbvh_rebuilder_create(after: u32) -> *mut CRebuilder {
     Held::create("rebuilder", || Rebuilder::new(params))
 }
 
-/// Ends its threads, and frees it.
+/// Ends its thread, and frees it.
 ///
 /// # Safety
 /// `rebuilder` is null, or what `lightbvh_rebuilder_create` gave, and not used any more.
@@ -54,7 +46,7 @@ pub unsafe extern "C" fn lightbvh_rebuilder_free(rebuilder: *mut CRebuilder) {
     unsafe { Held::free(rebuilder) }
 }
 
-/// Puts in place what was built.
+/// Swaps in finished trees.
 ///
 /// # Safety
 /// `rebuilder` and `bvh` are null or what their functions gave, and nobody else uses them meanwhile; `start` is null, not
@@ -78,11 +70,7 @@ pub unsafe extern "C" fn lightbvh_begin_frame(
             if let Some(place) = place {
                 place.write(CFrameStart {
                     swapped: begun.swapped.into(),
-                    adopted: begun.adopted,
-                    parts: begun.parts,
-                    dropped: begun.dropped,
-                    under_way: begun.under_way,
-                    copied: begun.copied,
+                    meshes: begun.meshes,
                 });
             }
             Ok(())
@@ -90,7 +78,7 @@ pub unsafe extern "C" fn lightbvh_begin_frame(
     }
 }
 
-/// Has what is due built.
+/// Starts the next build.
 ///
 /// # Safety
 /// As [`lightbvh_begin_frame`].

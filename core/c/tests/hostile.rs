@@ -112,6 +112,9 @@ fn counts_and_numbers_out_of_range_are_refused() {
         assert!(last().contains("1073741825 triangles"), "{}", last());
         assert_eq!(lightbvh_set_triangles(bvh, mesh, &LAMP, 1 << 40), Status::Refused);
         assert_eq!(lightbvh_add_mesh(bvh, &LAMP, 1, &mut mesh), Status::Ok);
+        // Nobody has 2^29 triangles at that address: reading them would fault.
+        assert_eq!(lightbvh_set_triangles(bvh, mesh, &LAMP, 1 << 29), Status::Refused);
+        assert!(last().contains("for a mesh of 1"), "{}", last());
         assert_eq!(
             lightbvh_add_instance(bvh, mesh, &identity(), 1.0, &mut instance),
             Status::Ok
@@ -196,9 +199,9 @@ fn numbers_of_lights_are_kept_until_they_are_forgotten() {
     }
 }
 
-/// What was built for one light BVH is refused by another, which stays as it is.
+/// A build for one light BVH is dropped if the rebuilder is used with another one.
 #[test]
-fn a_rebuild_comes_back_to_its_own() {
+fn a_build_for_another_light_bvh_is_dropped() {
     let (bvh, other) = (lightbvh_create(), lightbvh_create());
     let rebuilder = lightbvh_rebuilder_create(1);
     let mut start = CFrameStart::default();
@@ -206,37 +209,10 @@ fn a_rebuild_comes_back_to_its_own() {
     unsafe {
         add(bvh, &[at(0.0)]);
         add(other, &[at(0.0)]);
-        // A mesh whose triangles change places is due.
-        let row = |by: u16| -> Vec<EmissiveTriangle> {
-            let lamp = |k: u16| {
-                let mut own = LAMP;
-                own.p
-                    .iter_mut()
-                    .for_each(|p| p[0] += 4.0 * f32::from(k * by % 199));
-                own
-            };
-            (0..200).map(lamp).collect()
-        };
-        let (mut mesh, mut instance): (CMesh, CInstance) = (words([0; 4]), words([0; 4]));
-        let (row, scrambled) = (row(1), row(7));
-        assert_eq!(lightbvh_add_mesh(bvh, row.as_ptr(), 200, &mut mesh), Status::Ok);
-        assert_eq!(
-            lightbvh_add_instance(bvh, mesh, &at(9.0), 1.0, &mut instance),
-            Status::Ok
-        );
-        assert_eq!(lightbvh_refit(bvh), Status::Ok);
         assert_eq!(lightbvh_begin_frame(rebuilder, bvh, &mut start), Status::Ok);
-        let changed = lightbvh_set_triangles(bvh, mesh, scrambled.as_ptr(), 200);
-        assert_eq!(changed, Status::Ok);
-        assert_eq!(lightbvh_refit(bvh), Status::Ok);
         assert_eq!(lightbvh_end_frame(rebuilder, bvh), Status::Ok);
-        assert_eq!(
-            lightbvh_begin_frame(rebuilder, other, &mut start),
-            Status::NoRebuild
-        );
-        assert!(last().contains("another light BVH"), "{}", last());
+        assert_eq!(lightbvh_begin_frame(rebuilder, other, &mut start), Status::Ok);
         assert_eq!(start, CFrameStart::default());
-        assert_eq!(lightbvh_begin_frame(rebuilder, other, null_mut()), Status::Ok);
         lightbvh_rebuilder_free(rebuilder);
         lightbvh_free(bvh);
         lightbvh_free(other);

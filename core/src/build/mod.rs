@@ -13,7 +13,6 @@ mod morton;
 mod primitive;
 mod split;
 mod topology;
-pub mod tune;
 mod ward;
 
 pub use cost::Heuristic;

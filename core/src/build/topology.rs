@@ -17,36 +17,10 @@ use crate::trail::BitTrail;
 pub(crate) struct Topology<N> {
     /// Nodes in depth-first order, the root first; links count from it.
     pub nodes: Vec<N>,
-    /// Level of each node, the root's is 0.
-    pub levels: Vec<u32>,
     /// (index of primitive, its trail), in depth-first order.
     pub trails: Vec<(u32, BitTrail)>,
     /// Number of levels.
     pub depth: u32,
-}
-
-impl<N> Topology<N> {
-    /// (level, index) of all nodes, the root's index being `base`.
-    pub fn leveled(&self, base: u32) -> Vec<(u32, u32)> {
-        self.levels.iter().copied().zip(base..).collect()
-    }
-
-    /// Numbers the triangles from `first` instead of 0.
-    pub fn move_primitives<const W: usize>(&mut self, first: u32)
-    where
-        N: Node<W>,
-    {
-        for node in &mut self.nodes {
-            for slot in 0..W {
-                if node.kind(slot) == kind::LIGHT {
-                    node.relink(slot, first + node.link(slot));
-                }
-            }
-        }
-        for (triangle, _) in &mut self.trails {
-            *triangle += first;
-        }
-    }
 }
 
 /// Builds a tree over each mesh.
@@ -76,14 +50,21 @@ pub(crate) fn build_over<N: Node<W>, const W: usize>(
     build_ward::<N, W>(&mut ward_primitives(triangles), kind::LIGHT, params)
 }
 
-/// Builds a tree over what is known of instances, at least one: pairs of an instance's index and its summary.
+/// Builds a tree over leaves of the top level, at least one, each a link and a summary. A leaf counts for a flux of at least
+/// `floor`, W.
 pub(crate) fn build_top<N: Node<W>, const W: usize>(
     instances: impl Iterator<Item = (u32, N::Summary)>,
+    floor: f32,
     params: &BuildParams,
 ) -> Topology<N> {
+    let at_least = |phi: f32| if phi > floor { phi } else { floor };
     if params.heuristic.is_binary() {
         let mut primitives: Vec<Primitive> = instances
-            .map(|(index, summary)| Primitive::new(index, &summary.bounds()))
+            .map(|(index, summary)| {
+                let mut bounds = summary.bounds();
+                bounds.phi = at_least(bounds.phi);
+                Primitive::new(index, &bounds)
+            })
             .collect();
         return build_binary::<N, W>(&mut primitives, kind::MESH, params);
     }
@@ -92,7 +73,7 @@ pub(crate) fn build_top<N: Node<W>, const W: usize>(
             let c = summary.center();
             WardPrimitive {
                 c: [c.x, c.y, c.z],
-                phi: summary.phi(),
+                phi: at_least(summary.phi()),
                 index,
             }
         })
@@ -108,7 +89,6 @@ fn build_binary<N: Node<W>, const W: usize>(
 ) -> Topology<N> {
     let mut out = Topology {
         nodes: Vec::with_capacity(primitives.len()),
-        levels: Vec::with_capacity(primitives.len()),
         trails: Vec::with_capacity(primitives.len()),
         depth: 1,
     };
@@ -116,7 +96,6 @@ fn build_binary<N: Node<W>, const W: usize>(
         let mut root = N::EMPTY;
         root.set_child(0, leaf_kind, only.index);
         out.nodes.push(root);
-        out.levels.push(0);
         out.trails.push((only.index, BitTrail::default()));
     } else {
         let binary = binary_tree(primitives, binary_levels::<W>(), params);
@@ -143,7 +122,6 @@ impl<N: Node<W>, const W: usize> Emitter<'_, N, W> {
     fn node(&mut self, binary: u32, level: u32, trail: BitTrail) {
         let index = self.out.nodes.len();
         self.out.nodes.push(N::EMPTY);
-        self.out.levels.push(level);
         self.out.depth = self.out.depth.max(level + 1);
 
         let (children, count) = self.collapse.children(self.binary, binary);

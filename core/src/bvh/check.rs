@@ -11,6 +11,7 @@ use super::{Bvh, Trails};
 use crate::light::Light;
 use crate::lights::MAX_LIGHTS;
 use crate::node::Node;
+use crate::trail::MAX_PLACES;
 use crate::transform::{Extent, Transform};
 
 /// Triangles that one thread looks at.
@@ -32,7 +33,8 @@ struct Batch<L> {
     added: BTreeMap<MeshId, Vec<Transform>>,
     /// Whether a later edit may ask for those.
     deforms: bool,
-    /// Ends of the numbers of lights and of triangles.
+    /// Ends of the numbers of instances, of lights and of triangles.
+    instances: usize,
     lights: usize,
     triangles: usize,
     /// Which of them are free, where those ends alone would be too great.
@@ -54,6 +56,7 @@ impl<L> Default for Batch<L> {
             transforms: BTreeMap::new(),
             added: BTreeMap::new(),
             deforms: false,
+            instances: 0,
             lights: 0,
             triangles: 0,
             space: None,
@@ -88,6 +91,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let deforms =
             |edit: &Edit<N::Light>| matches!(edit, Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. });
         let mut batch = Batch {
+            instances: self.placed_ranges.end() as usize,
             lights: self.lights.end() as usize,
             triangles: self.triangle_ranges.end() as usize,
             space: is_crowded.then(|| (self.lights.clone(), self.triangle_ranges.clone())),
@@ -128,6 +132,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 if batch.deforms {
                     batch.added.entry(mesh).or_default().push(transform);
                 }
+                batch.instances += 1;
                 batch.take_lights(count);
             }
             &mut Edit::SetTransform { instance, transform } => {
@@ -196,12 +201,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 }
                 batch.removed_meshes.insert(id);
                 if let Some((_, triangles)) = &mut batch.space {
-                    let blas = self.meshes[id.index as usize].blas;
-                    triangles.give(self.blases[blas as usize].triangles.clone());
+                    triangles.give(self.meshes[id.index as usize].triangles.clone());
                 }
             }
         }
-        if batch.lights > MAX_LIGHTS || batch.triangles > MAX_LIGHTS {
+        let is_full = batch.instances > MAX_PLACES as usize;
+        if is_full || batch.lights > MAX_LIGHTS || batch.triangles > MAX_LIGHTS {
             return Err(EditReason::TooMany);
         }
         Ok(())
@@ -233,9 +238,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     pub(super) fn mesh_len(&self, id: MeshId) -> usize {
-        self.blases[self.meshes[id.index as usize].blas as usize]
-            .triangles
-            .len()
+        self.meshes[id.index as usize].triangles.len()
     }
 }
 

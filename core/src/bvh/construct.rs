@@ -14,8 +14,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     #[must_use]
     pub fn single_level(lights: &Lights<N::Light>, params: &BuildParams) -> Self {
         let all = Some(0..lights.triangles().len()).filter(|all| !all.is_empty());
-        let mut bvh = Self::over(lights.triangles(), all.into_iter(), params);
+        let mut bvh = Self::new(*params);
         bvh.single = true;
+        bvh.over(lights.triangles(), all.into_iter());
         bvh
     }
 
@@ -24,31 +25,19 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     #[must_use]
     pub fn two_level(lights: &Lights<N::Light>, params: &BuildParams) -> Self {
         let meshes = (0..lights.mesh_count()).map(|mesh| lights.mesh(mesh));
-        Self::over(lights.triangles(), meshes, params)
+        let mut bvh = Self::new(*params);
+        bvh.over(lights.triangles(), meshes);
+        bvh
     }
 
     /// A mesh and an instance of it for each range of the triangles.
-    fn over(
-        triangles: &[N::Light],
-        meshes: impl Iterator<Item = Range<usize>>,
-        params: &BuildParams,
-    ) -> Self {
-        let mut bvh = Self::new(*params);
+    fn over(&mut self, triangles: &[N::Light], meshes: impl Iterator<Item = Range<usize>>) {
         let meshes: Vec<_> = meshes.map(|range| &triangles[range]).collect();
-        if meshes.is_empty() {
-            return bvh;
-        }
-        // The top level of no instances gives its place up, so that no node is left unused.
-        bvh.vacate_top();
-        let topologies = build_each(&meshes, params);
-        let mut added = Vec::new();
+        let topologies = build_each(&meshes, &self.params);
         for (triangles, topology) in meshes.into_iter().zip(topologies) {
-            let mesh = bvh.insert_mesh(triangles, topology);
-            added.push(bvh.insert_instance(mesh, Transform::IDENTITY, 1.0).index());
+            let mesh = self.insert_mesh(triangles, &topology);
+            self.insert_instance(mesh, Transform::IDENTITY, 1.0);
         }
-        bvh.insert_instances(&added);
-        bvh.reserve_room();
-        bvh.refit();
-        bvh
+        self.refit();
     }
 }

@@ -84,8 +84,7 @@ impl InstanceId {
 
     /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its triangles belong
     /// to. Free for another one as soon as the instance is removed: over frames lights are told apart by ids, as this one, or
-    /// by their numbers (see [`Bvh::removed_lights`](super::Bvh::removed_lights)). Indices of instances added one by one have
-    /// gaps, where parts of opened meshes have theirs.
+    /// by their numbers (see [`Bvh::removed_lights`](super::Bvh::removed_lights)).
     #[must_use]
     pub fn index(self) -> u32 {
         self.index
@@ -102,7 +101,7 @@ pub enum Edit<L = EmissiveTriangle> {
         /// At least one.
         triangles: Vec<L>,
     },
-    /// A mesh put into the world, where it costs least; see [`apply`](crate::Bvh::apply).
+    /// A mesh put into the world.
     AddInstance {
         /// Which mesh; [`MeshId::added`] for one that the same batch adds.
         mesh: MeshId,
@@ -205,7 +204,7 @@ pub enum EditReason {
         /// Their number.
         instances: usize,
     },
-    /// More than 2^30 lights or triangles.
+    /// More than 2^30 lights or triangles, or 2^27 instances.
     TooMany,
     /// A single-level BVH has one mesh and one instance, which stay.
     SingleLevel,
@@ -278,7 +277,7 @@ impl fmt::Display for EditReason {
             }
             Self::TooMany => write!(
                 f,
-                "more than 2^30 triangles or lights; numbers of removed lights count until `take_removed_lights`; or split the scene"
+                "more than 2^30 triangles or lights, or 2^27 instances; numbers of removed lights count until `take_removed_lights`; or split the scene"
             ),
             Self::SingleLevel => write!(
                 f,

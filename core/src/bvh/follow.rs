@@ -55,7 +55,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     #[must_use]
     pub fn mesh_counts(&self) -> MeshCounts {
         let count = |mesh: &super::Mesh| match mesh.live {
-            true => self.blases[mesh.blas as usize].triangles.len(),
+            true => mesh.triangles.len(),
             false => 0,
         };
         MeshCounts {
@@ -84,11 +84,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     reason: EditReason::Transform(reason),
                 })?;
             }
-            changes.push((mesh.blas, triangles, extent));
+            changes.push((index as u32, triangles, extent));
         }
-        for (blas, triangles, extent) in changes {
-            self.blases[blas as usize].extent = extent;
-            self.write_triangles(blas, triangles);
+        for (mesh, triangles, extent) in changes {
+            self.meshes[mesh as usize].extent = extent;
+            self.write_triangles(mesh, 0, triangles);
         }
         self.refit();
         Ok(())

@@ -5,10 +5,11 @@ use core::ops::Range;
 
 use super::edit::{InstanceId, MeshId};
 use super::{Bvh, Trails};
+use crate::instance::Instance;
 use crate::light::Light;
-use crate::lights::{Lights, LightsError, MAX_LIGHTS};
+use crate::lights::MAX_LIGHTS;
 use crate::node::Node;
-use crate::requirements::Placed;
+use crate::transform::Transform;
 
 /// So many numbers of removed lights wait to be taken, and as many as there are lights.
 const LEAST_WAITING: usize = 1 << 16;
@@ -38,7 +39,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .get(index as usize)
             .filter(|placed| placed.live && placed.lights.contains(&light))?;
         let own = &self.instances[index as usize];
-        let triangle = self.blas_of(placed).triangles.start + (light - placed.lights.start);
+        let triangle = self.meshes[placed.mesh as usize].triangles.start + (light - placed.lights.start);
         Some(self.triangles[triangle as usize].in_world(own, index))
     }
 
@@ -64,7 +65,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     #[must_use]
     pub fn mesh_triangles(&self, mesh: MeshId) -> Option<&[N::Light]> {
         let own = self.mesh_id(mesh.index).filter(|&own| own == mesh)?;
-        let range = &self.blases[self.meshes[own.index as usize].blas as usize].triangles;
+        let range = &self.meshes[own.index as usize].triangles;
         Some(&self.triangles[range.start as usize..range.end as usize])
     }
 
@@ -80,14 +81,14 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// All lights in the world by number, up to the greatest in use. Their `mesh` is the index of the instance; numbers not in
-    /// use get triangles without radiance of mesh `u32::MAX`. [`to_lights`](Self::to_lights) has those in use alone.
+    /// use get triangles without radiance of mesh `u32::MAX`.
     #[must_use]
     pub fn world_lights(&self) -> Vec<N::Light> {
         let dark = N::Light::DARK;
         let mut out = alloc::vec![dark; self.lights.used_end() as usize];
         for (index, placed) in self.placed.iter().enumerate().filter(|(_, placed)| placed.live) {
             let own = &self.instances[index];
-            let range = self.blas_of(placed).triangles.clone();
+            let range = self.meshes[placed.mesh as usize].triangles.clone();
             let local = &self.triangles[range.start as usize..range.end as usize];
             let lights = placed.lights.start as usize..placed.lights.end as usize;
             for (light, triangle) in out[lights].iter_mut().zip(local) {
@@ -97,30 +98,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         out
     }
 
-    /// All lights as triangles that stand in the world, a mesh light for each instance in the order of their indices: what
-    /// [`two_level`](Bvh::two_level), [`single_level`](Bvh::single_level) and
-    /// [`BuildParams::within`](crate::BuildParams::within) take. Time and memory in proportion to the lights.
-    ///
-    /// # Errors
-    /// [`LightsError`] naming a light that its instance puts outside of the domain.
-    pub fn to_lights(&self) -> Result<Lights<N::Light>, LightsError> {
-        let mut out = Vec::with_capacity(self.light_count());
-        let placed = self.placed.iter().enumerate().filter(|(_, placed)| placed.live);
-        for (mesh, (index, placed)) in (0..).zip(placed) {
-            let own = &self.instances[index];
-            let range = self.blas_of(placed).triangles.clone();
-            let local = &self.triangles[range.start as usize..range.end as usize];
-            out.extend(local.iter().map(|light| light.in_world(own, mesh)));
-        }
-        Lights::new(out)
-    }
-
-    /// The meshes, and their places in the world.
-    pub(crate) fn meshes_and_places(&self) -> (Vec<&[N::Light]>, Vec<Placed>) {
+    /// The lights of each mesh, and of each instance the index of its mesh among them, its transform, its factor and its words.
+    #[allow(clippy::type_complexity)]
+    pub(crate) fn meshes_and_places(&self) -> (Vec<&[N::Light]>, Vec<(usize, Transform, f32, Instance)>) {
         let mut found = alloc::vec![0; self.meshes.len()];
         let mut meshes = Vec::new();
         for (index, mesh) in self.meshes.iter().enumerate().filter(|(_, mesh)| mesh.live) {
-            let range = &self.blases[mesh.blas as usize].triangles;
+            let range = &mesh.triangles;
             found[index] = meshes.len();
             meshes.push(&self.triangles[range.start as usize..range.end as usize]);
         }
@@ -129,11 +113,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .iter()
             .zip(&self.instances)
             .filter(|(placed, _)| placed.live);
-        let placed = live.map(|(placed, instance)| Placed {
-            mesh: found[placed.mesh as usize],
-            transform: placed.transform,
-            radiance: placed.radiance,
-            instance: *instance,
+        let placed = live.map(|(placed, instance)| {
+            let mesh = found[placed.mesh as usize];
+            (mesh, placed.transform, placed.radiance, *instance)
         });
         (meshes, placed.collect())
     }
@@ -145,7 +127,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Numbers of lights that are no more, until [`take_removed_lights`](Self::take_removed_lights), in the order in which they
-    /// went; ranges do not overlap but for the first of those below. Every other light keeps its number. A temporal method
+    /// went; ranges do not overlap, except the first one in the last paragraph. Every other light keeps its number. A temporal method
     /// replaces each [`Reservoir`](crate::reservoir::Reservoir) of such a light by its
     /// [`occluded`](crate::reservoir::Reservoir::occluded): the light sends nothing any more, but the samples that it stands
     /// for still count; an empty reservoir in its place is biased where
@@ -159,7 +141,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     ///
     /// No new light gets such a number before it is taken. The exception keeps numbers from running out where they never are:
     /// once more of them wait than 65,536 and than there are lights (or than half of what is left of 2^30, where that is less),
-    /// all of them are free, and the first range is that of every number there was. The edit at which that happens takes time
+    /// all of them are free, and the first range is that of every number there was, from 0, lights that are still there included: make
+    /// every reservoir empty then, none occluded. The edit at which that happens takes time
     /// in proportion to all that waited.
     #[must_use]
     pub fn removed_lights(&self) -> &[Range<u32>] {

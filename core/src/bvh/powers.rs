@@ -58,9 +58,9 @@ impl Powers {
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// The words of an instance of bottom level `blas` that its map, its radiance and the kind of the mesh's lights decide.
-    pub(super) fn in_place(&self, blas: u32, transform: Transform, radiance: f32) -> Instance {
-        let power = self.blases[blas as usize].powers.common::<N::Light>();
+    /// The words of an instance of `mesh` that depend on its map, its radiance and the kind of the mesh's lights.
+    pub(super) fn in_place(&self, mesh: u32, transform: Transform, radiance: f32) -> Instance {
+        let power = self.meshes[mesh as usize].powers.common::<N::Light>();
         let own = transform.instance_by(radiance, power);
         let is_told = N::Light::HAS_FLUX_POWERS && power != 2;
         Instance {
@@ -69,9 +69,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// The powers of a bottom level once `lights` stand in place of those that stand in `range`: in time in proportion to them.
-    pub(super) fn powers_with(&self, blas: u32, range: Range<u32>, lights: &[N::Light]) -> Powers {
-        let own = &self.blases[blas as usize];
+    /// The powers of a mesh after `lights` replace those in `range`; takes time in proportion to `lights`.
+    pub(super) fn powers_with(&self, mesh: u32, range: Range<u32>, lights: &[N::Light]) -> Powers {
+        let own = &self.meshes[mesh as usize];
         if !N::Light::HAS_FLUX_POWERS || range == own.triangles {
             return Powers::of(lights);
         }
@@ -79,25 +79,24 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         own.powers.with(old, Powers::of(lights))
     }
 
-    /// Notes the powers of a bottom level; where the common one is another than before, its instances get other words.
-    pub(super) fn set_powers(&mut self, blas: u32, powers: Powers) {
-        let own = &mut self.blases[blas as usize];
+    /// Sets the powers of a mesh; if the common power changes, the words of its instances do too.
+    pub(super) fn set_powers(&mut self, mesh: u32, powers: Powers) {
+        let own = &mut self.meshes[mesh as usize];
         let old = core::mem::replace(&mut own.powers, powers);
         if old.common::<N::Light>() != powers.common::<N::Light>() {
-            let mesh = own.mesh as usize;
-            for user in self.meshes[mesh].users.clone() {
+            for user in own.users.clone() {
                 self.place(user);
             }
         }
     }
 
-    /// Whether the powers of a bottom level are those of its lights.
-    pub(super) fn check_powers(&self, blas: u32) -> Result<(), Violation> {
-        let own = &self.blases[blas as usize];
+    /// Whether the powers of a mesh are those of its lights.
+    pub(super) fn check_powers(&self, mesh: u32) -> Result<(), Violation> {
+        let own = &self.meshes[mesh as usize];
         let lights = &self.triangles[own.triangles.start as usize..own.triangles.end as usize];
         let found = own.powers.common::<N::Light>();
         let expected = Powers::of(lights).common::<N::Light>();
-        equal(crate::tree::INVALID, blas, What::Blas, expected, found)
+        equal(crate::tree::INVALID, mesh, What::Blas, expected, found)
     }
 }
 

@@ -1,6 +1,7 @@
 //! A light BVH that changes no more.
 
 use alloc::boxed::Box;
+use alloc::vec::Vec;
 
 use super::trails::Sampled;
 use super::{Bvh, Trails, WithTrails};
@@ -9,10 +10,10 @@ use crate::instance::Instance;
 use crate::node::Node;
 use crate::point::{Receiver, ShadingPoint};
 use crate::traverse::{Random64, SampledLight};
-use crate::tree::{LightTree, TreeWords};
+use crate::tree::{LightTree, Links};
 
-/// What sampling reads of a [`Bvh`], for lights that stay as they are: nodes, instances, and with [`WithTrails`] trails. The
-/// triangles, and all that edits and refits need, are left out: the caller has the lights, and [`LightTree::triangle`] finds
+/// The arrays of a [`Bvh`] that sampling reads, for lights that do not change: nodes, links, instances, trails if [`WithTrails`].
+/// It keeps no triangles and nothing that edits and refits need: the caller has the lights, and [`LightTree::triangle`] finds
 /// one.
 ///
 /// ```
@@ -26,20 +27,33 @@ use crate::tree::{LightTree, TreeWords};
 #[derive(Clone, Debug)]
 pub struct StaticBvh<N, I, const W: usize, T = WithTrails> {
     nodes: Box<[N]>,
+    /// Nodes and links of the top level, if there are two levels.
+    top: Box<[N]>,
+    above: Box<[u32]>,
+    places: Box<[u32]>,
+    parts: Box<[u32]>,
     instances: Box<[Instance]>,
     trails: Box<[u32]>,
-    words: TreeWords,
+    /// Root, words of a trail, instances in use, lights of a single level, depth.
+    words: [u32; 5],
     chosen: core::marker::PhantomData<(I, T)>,
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// What sampling reads, refitted: an instance removed and still in the tree would take its share of the samples for ever.
+    /// Refits and keeps what sampling reads: an instance removed and still in the tree would take its share of samples for ever.
     #[must_use]
     pub fn into_static(mut self) -> StaticBvh<N, I, W, T> {
         self.refit();
-        let words = TreeWords::of(&self.arrays());
+        let tree = self.arrays();
+        let words = [tree.root, tree.trail_words, tree.live, tree.lights, tree.depth];
+        let is_single = self.single && !self.roots.is_empty();
+        let top = if is_single { Vec::new() } else { self.top.nodes };
         StaticBvh {
             nodes: self.nodes.into_boxed_slice(),
+            top: top.into_boxed_slice(),
+            above: self.top.above.into_boxed_slice(),
+            places: self.top.places.into_boxed_slice(),
+            parts: self.top.parts.into_boxed_slice(),
             instances: self.instances.into_boxed_slice(),
             trails: self.trails.into_boxed_slice(),
             words,
@@ -50,13 +64,40 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
 impl<N: Node<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
     fn arrays(&self) -> LightTree<'_, N, I, W> {
-        self.words.tree(&self.nodes, &self.instances, &self.trails)
+        let [root, trail_words, live, lights, depth] = self.words;
+        LightTree {
+            nodes: &self.nodes,
+            top: if self.top.is_empty() {
+                &self.nodes
+            } else {
+                &self.top
+            },
+            first: 0,
+            root,
+            instances: &self.instances,
+            trails: &self.trails,
+            links: Links {
+                above: &self.above,
+                places: &self.places,
+                parts: &self.parts,
+            },
+            trail_words,
+            live,
+            lights,
+            depth,
+            importance: core::marker::PhantomData,
+        }
     }
 
     /// All its bytes on the heap.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        size_of_val(&*self.nodes) + size_of_val(&*self.instances) + size_of_val(&*self.trails)
+        let links = size_of_val(&*self.above) + size_of_val(&*self.places) + size_of_val(&*self.parts);
+        size_of_val(&*self.nodes)
+            + size_of_val(&*self.top)
+            + links
+            + size_of_val(&*self.instances)
+            + size_of_val(&*self.trails)
     }
 }
 
@@ -126,7 +167,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
 }
 
 impl<N: Node<W>, I, const W: usize> StaticBvh<N, I, W> {
-    /// The arrays as traversal takes them, on devices too.
+    /// The arrays as traversal takes them.
     #[must_use]
     pub fn tree(&self) -> LightTree<'_, N, I, W> {
         self.arrays()

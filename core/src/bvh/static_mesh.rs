@@ -3,13 +3,9 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::changes::Changes;
 use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId};
-use super::rebuild::{Foreign, Rebuild, RebuildParams, Rebuilt};
-use super::refit::RefitPlan;
 use super::{Added, Bvh, Trails, WithTrails};
 use crate::importance::ImportanceModel;
-use crate::levels::Levels;
 use crate::node::{Holds, Node};
 use crate::point::{Receiver, ShadingPoint};
 #[cfg(feature = "std")]
@@ -18,8 +14,8 @@ use crate::transform::Extent;
 use crate::traverse::{Random64, SampledLight};
 use crate::tree::LightTree;
 
-/// A [`Bvh`] for instances that move, are dimmed, come and go, of meshes that stay as they are. What refits of bottom levels
-/// read is left out: 56 bytes of each triangle, and the lists of their nodes. The caller has the triangles;
+/// A [`Bvh`] whose instances are added, removed, moved and dimmed, and whose meshes do not change. It keeps no triangles, which
+/// only refits of bottom levels read: 56 bytes each. The caller has the triangles;
 /// [`lights_of`](Self::lights_of) says which of them a sample names, [`LightTree::triangle`] brings it into the world.
 ///
 /// Nodes, samples and probabilities are those of the [`Bvh`] that it was made of, frame after frame. It is for the CPU: a
@@ -45,42 +41,23 @@ use crate::tree::LightTree;
 pub struct StaticMeshBvh<N: Holds, I, const W: usize, T = WithTrails>(Bvh<N, I, W, T>);
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// The same light BVH for meshes that stay as they are, refitted. Its ids stay; rebuilds of bottom levels that are under
-    /// way come to nothing.
+    /// Refits, and drops the triangles: meshes can change no more. Ids stay valid.
     #[must_use]
     pub fn into_static_meshes(mut self) -> StaticMeshBvh<N, I, W, T> {
-        for blas in self.handing.clone() {
-            self.hand_over_all(blas);
-        }
         self.refit();
-        // Later than any rebuild that was taken, so that none of a bottom level is installed or asked for.
-        self.epoch += 1;
-        for blas in self.staging.clone() {
-            self.drop_stage(blas);
+        for mesh in self.meshes.iter_mut().filter(|mesh| !mesh.extent.is_exact) {
+            // The triangles, from which an exact extent is computed, are dropped below.
+            let own = mesh.triangles.start as usize..mesh.triangles.end as usize;
+            mesh.extent = Extent::of(&self.triangles[own]);
         }
-        for blas in &mut self.blases {
-            blas.levels = Levels::default();
-            blas.is_unlisted = false;
-            // No triangle will tell it better.
-            if !blas.extent.is_exact {
-                let own = blas.triangles.start as usize..blas.triangles.end as usize;
-                blas.extent = Extent::of(&self.triangles[own]);
-            }
-            blas.created = self.epoch;
-            blas.changed = self.epoch;
-        }
+        self.reshaped.clear();
         self.triangles = Vec::new();
-        self.quality = Vec::new();
-        self.refitted = super::quality::Refitted::default();
-        self.changes = Changes::default();
-        self.planned = RefitPlan::default();
-        self.done = None;
         StaticMeshBvh(self)
     }
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
-    /// As [`Bvh::apply`].
+    /// See [`Bvh::apply`].
     ///
     /// # Errors
     /// [`EditError`] naming the first edit that cannot be done, [`EditReason::StaticMeshes`] for meshes that are added or deformed;
@@ -101,35 +78,26 @@ impl<N: Node<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
         }
     }
 
-    /// As [`Bvh::refit`].
+    /// See [`Bvh::refit`].
     pub fn refit(&mut self) {
         self.0.refit();
     }
 
-    /// As [`Bvh::rebuild`], of the top level: no bottom level loses quality.
-    #[must_use]
-    pub fn rebuild(&self, params: &RebuildParams) -> Rebuild<N, W> {
-        self.0.rebuild(params)
+    /// See [`Bvh::rebuild`].
+    pub fn rebuild(&mut self) {
+        self.0.rebuild();
     }
 
-    /// As [`Bvh::install`].
+    /// See [`Rebuilder::begin_frame`].
     ///
     /// # Errors
-    /// [`Foreign`] where it was taken from another light BVH; this one is as before then.
-    pub fn install(&mut self, rebuilt: Rebuilt<N, W>) -> Result<(), Foreign> {
-        self.0.install(rebuilt)
-    }
-
-    /// As [`Rebuilder::begin_frame`].
-    ///
-    /// # Errors
-    /// [`RebuildError`], once, if the rebuild that was due came to nothing.
+    /// [`RebuildError`], once, if the build that was due failed.
     #[cfg(feature = "std")]
     pub fn begin_frame(&mut self, rebuilder: &mut Rebuilder<N, W>) -> Result<FrameStart, RebuildError> {
         rebuilder.begin_frame(&mut self.0)
     }
 
-    /// As [`Rebuilder::end_frame`].
+    /// See [`Rebuilder::end_frame`].
     #[cfg(feature = "std")]
     pub fn end_frame(&self, rebuilder: &mut Rebuilder<N, W>) {
         rebuilder.end_frame(&self.0);

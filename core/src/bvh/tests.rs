@@ -7,51 +7,29 @@ use std::vec::Vec;
 use super::Bvh;
 use crate::build::{BuildParams, Heuristic};
 use crate::importance::{Eq4, ImportanceModel, Moments};
-use crate::kit::{Random, cross, dot, minus};
+use crate::kit::scenes::sent;
+use crate::kit::{Random, narrow, normalize, triangle, wide};
 use crate::node::{CompactNode, LightNode, MomentNode};
 use crate::{EmissiveTriangle, INVALID, Lights, ShadingPoint};
 
 /// 300 triangles of up to half a metre in a room of 10 m, 20 points among them with normals of any direction.
 fn scene() -> (Lights, Vec<ShadingPoint>) {
     let random = &mut Random(1);
-    let triangle = |_| {
-        let at = random.vector().to_array().map(|x| 5.0 * x);
-        let [b, c] = [0; 2].map(|_| random.vector().to_array().map(|x| 0.5 * x));
+    let light = |_| {
+        let at = random.vector() * 5.0;
+        let [b, c] = [0; 2].map(|_| at + random.vector() * 0.5);
         EmissiveTriangle {
-            p: [
-                at,
-                [0, 1, 2].map(|k| at[k] + b[k]),
-                [0, 1, 2].map(|k| at[k] + c[k]),
-            ],
             radiance: [1.1 + random.signed(); 3],
-            mesh: 0,
-            flags: 0,
+            ..triangle([at, b, c].map(|v| v.to_array()))
         }
     };
-    let lights = Lights::new((0..300).map(triangle).collect()).expect("within the domain");
+    let lights = Lights::new((0..300).map(light).collect()).expect("within the domain");
     let point = |_| {
-        let n = random.vector().to_array();
-        let wide = n.map(f64::from);
-        let length = dot(wide, wide).sqrt();
-        ShadingPoint {
-            p: random.vector().to_array().map(|x| 5.0 * x),
-            n: wide.map(|x| (x / length) as f32),
-        }
+        let n = narrow(normalize(wide(random.vector()))).to_array();
+        let p = (random.vector() * 5.0).to_array();
+        ShadingPoint { p, n }
     };
     (lights, (0..20).map(point).collect())
-}
-
-/// What a triangle sends to a point, from its centroid, unshadowed.
-fn sent(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
-    let p = triangle.p.map(|v| v.map(f64::from));
-    let center = [0, 1, 2].map(|k| (p[0][k] + p[1][k] + p[2][k]) / 3.0);
-    // As long as twice the area.
-    let across = cross(minus(p[1], p[0]), minus(p[2], p[0]));
-    let v = minus(center, point.p.map(f64::from));
-    let d2 = dot(v, v);
-    let received = dot(point.n.map(f64::from), v).max(0.0);
-    let emitted = (-dot(across, v)).max(0.0) / 2.0;
-    f64::from(triangle.radiance[0]) * received * emitted / (d2 * d2)
 }
 
 /// Relative variance of one sample, Σ f²/p / (Σ f)² − 1: the mean over the points.
@@ -162,42 +140,4 @@ fn the_whole_domain_is_followed() {
         bvh.follow(&lights).expect("the same lights");
         bvh.validate().expect("valid");
     }
-}
-
-/// The lights in use as triangles of the world, whatever was removed: another light BVH over them is one over the same lights.
-#[test]
-fn lights_in_use_stand_in_the_world() {
-    let (lights, _) = scene();
-    let triangles = lights.triangles();
-    let mut bvh = crate::LightBvh::default();
-    let mut ids = Vec::new();
-    for mesh in [&triangles[..7], &triangles[7..20], &triangles[20..22]] {
-        let mesh = bvh.add_mesh(mesh.to_vec()).expect("within the domain");
-        for x in [0.0, 100.0] {
-            let at = crate::Transform::at([x, 0.0, 0.0]);
-            ids.push(bvh.add_instance(mesh, at).expect("an instance"));
-        }
-    }
-    bvh.remove_instance(ids[1]).expect("it lives");
-    bvh.remove_instance(ids[2]).expect("it lives");
-    let found = bvh.to_lights().expect("within the domain");
-    let by_mesh: Vec<u32> = found.triangles().iter().map(|t| t.mesh).collect();
-    let expected: Vec<u32> = [(0, 7), (1, 13), (2, 2), (3, 2)]
-        .into_iter()
-        .flat_map(|(mesh, count)| core::iter::repeat_n(mesh, count))
-        .collect();
-    assert_eq!(by_mesh, expected);
-    // The same triangles as by number, but for the numbers not in use and of the meshes.
-    let mut world: Vec<_> = bvh.world_lights();
-    world.retain(|t| t.mesh != INVALID);
-    let positions = |all: &[EmissiveTriangle]| all.iter().map(|t| t.p).collect::<Vec<_>>();
-    assert_eq!(positions(found.triangles()), positions(&world));
-    assert_eq!(found.triangles().len(), bvh.light_count());
-    assert!(
-        crate::LightBvh::default()
-            .to_lights()
-            .expect("none")
-            .triangles()
-            .is_empty()
-    );
 }

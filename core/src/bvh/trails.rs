@@ -83,24 +83,16 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// It is another light BVH only by its type: its ids stay. Devices take light BVHs with trails.
     #[must_use]
     pub fn without_trails(self) -> Bvh<N, I, W, NoTrails> {
-        let (mut changes, mut planned) = (self.changes, self.planned);
-        changes.forget_trails();
-        planned.written_trails.clear();
         Bvh {
             trails: Vec::new(),
-            changes,
-            planned,
             asked: PhantomData,
             id: self.id,
             params: self.params,
             nodes: self.nodes,
             node_ranges: self.node_ranges,
-            parents: self.parents,
             triangles: self.triangles,
             triangle_ranges: self.triangle_ranges,
             trail_words: self.trail_words,
-            blases: self.blases,
-            blas_ranges: self.blas_ranges,
             roots: self.roots,
             meshes: self.meshes,
             mesh_ranges: self.mesh_ranges,
@@ -110,21 +102,18 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             live: self.live,
             lights: self.lights,
             top: self.top,
-            done: self.done,
+            stale: self.stale,
+            dirty: self.dirty,
+            reshaped: self.reshaped,
+            unapplied: self.unapplied,
+            outbox: self.outbox,
+            log: self.log,
             removed_lights: self.removed_lights,
             waiting_lights: self.waiting_lights,
             forgotten: self.forgotten,
             light_count: self.light_count,
             bottom_depth: self.bottom_depth,
-            epoch: self.epoch,
             single: self.single,
-            quality: self.quality,
-            refitted: self.refitted,
-            staging: self.staging,
-            handing: self.handing,
-            retired: self.retired,
-            largest: self.largest,
-            marks: self.marks,
             importance: self.importance,
         }
     }

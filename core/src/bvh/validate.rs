@@ -6,16 +6,17 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 pub(super) use self::walk::Found;
-use self::walk::{bad, listed};
+use self::walk::bad;
 use super::apply::NO_INSTANCE;
 use super::{Bvh, Trails};
 use crate::instance::Instance;
 use crate::light::Light;
 use crate::node::{Node, kind};
 use crate::refit;
-use crate::trail::place;
-use crate::tree::INVALID;
-use crate::validate::{Violation, What, contained, equal, same_words};
+use crate::summary::Summary;
+use crate::trail::{leaf_parts, place};
+use crate::tree::{INVALID, OPENED};
+use crate::validate::{Violation, What, contained, equal, same, same_words};
 
 /// What a valid scene consists of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +26,7 @@ pub struct Stats {
     pub nodes: u32,
     /// Instances in use.
     pub instances: u32,
-    /// Bottom levels in use.
+    /// Meshes in use.
     pub blases: u32,
     /// Lights in the world.
     pub lights: u32,
@@ -35,14 +36,13 @@ pub struct Stats {
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Checks every invariant, after a [`refit`](Self::refit):
-    /// - each node in use is reached once, through links that are in range, and knows its parent;
-    /// - each live instance is a leaf of the top level exactly once, each triangle of a bottom level a leaf of it exactly
-    ///   once, and their trails lead there;
-    /// - the lists of levels are complete and run from the deepest level to the root; heights and counts are those of what is
-    ///   below;
+    /// - each node in use is reached once, through links that are in range, and knows its place in the node above;
+    /// - each live instance, or each of its parts, is a leaf of the top level exactly once, each triangle of a mesh a leaf of its
+    ///   tree exactly once, and their trails lead there;
+    /// - the nodes of a mesh are in depth-first order; heights are those of what is below;
     /// - every node of the top level but its root has two children or more;
     /// - ranges of nodes, triangles and lights in use do not overlap;
-    /// - an instance's words are those of its transform, mesh and bottom level;
+    /// - an instance's words are those of its transform and mesh, and its leaf in the top level is that of a refit;
     /// - every word of every bounds is what refit makes of triangles and instances from scratch;
     /// - where nodes hold bounds (Eq. 4), a child's box, cone and flux lie within its parent's.
     ///
@@ -50,353 +50,253 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The first [`Violation`].
     pub fn validate(&self) -> Result<Stats, Violation> {
         let mut seen = alloc::vec![false; self.nodes.len()];
-        let mut again: Vec<N> = alloc::vec![N::EMPTY; self.nodes.len()];
-        let mut used_triangles: Vec<Range<u32>> = Vec::new();
-        let mut blases = 0;
-        let mut bottom_depth = 0;
-
-        for (index, blas) in self
-            .blases
-            .iter()
-            .enumerate()
-            .filter(|(_, b)| !b.nodes.is_empty())
-        {
-            blases += u32::from(!blas.is_outgoing);
-            let root = self.roots[index].node;
-            equal(root, INVALID, What::Root, blas.nodes.start, root)?;
-            let found = self.walk(root, kind::LIGHT, &mut seen)?;
-            bottom_depth = bottom_depth.max(found.depth);
-            let mut times = alloc::vec![0u32; blas.triangles.len()];
-            for &(link, node, slot, trail) in &found.leaves {
-                if !blas.triangles.contains(&link) {
-                    return Err(bad(node, slot, What::Owner, blas.triangles.start, link));
-                }
-                times[(link - blas.triangles.start) as usize] += 1;
-                if T::KEPT {
-                    let own = self.trail_of(link);
-                    equal(node, slot, What::TrailLow, trail.low, own.low)?;
-                    equal(node, slot, What::TrailHigh, trail.high, own.high)?;
-                }
-                let owner = self.triangles[link as usize].mesh();
-                equal(node, slot, What::Owner, index as u32, owner)?;
-            }
-            self.check_powers(index as u32)?;
-            for (triangle, &count) in (blas.triangles.start..).zip(&times) {
-                equal(INVALID, triangle, What::Triangle, 1, count)?;
-            }
-            self.refit_again(&found, &mut again, false);
-            same_words(
-                INVALID,
-                index as u32,
-                &refit::root(&again, root),
-                &self.roots[index],
-            )?;
-            self.check_parts(index as u32, &again)?;
-            listed(&self.levels_of(index as u32), &found)?;
-            used_triangles.push(blas.triangles.clone());
+        let mut stats = Stats {
+            nodes: 0,
+            instances: 0,
+            blases: 0,
+            lights: 0,
+            depth: 0,
+        };
+        let (mut used_nodes, mut used_triangles, mut used_lights) = (Vec::new(), Vec::new(), Vec::new());
+        for (index, mesh) in (0u32..).zip(&self.meshes).filter(|(_, mesh)| mesh.live) {
+            let found = self.check_mesh(index, &mut seen)?;
+            stats.blases += 1;
+            stats.nodes += found.levels.len() as u32;
+            stats.depth = stats.depth.max(found.depth);
+            used_nodes.push(mesh.nodes.start..mesh.room);
+            used_triangles.push(mesh.triangles.clone());
         }
+        disjoint(used_nodes)?;
         disjoint(used_triangles)?;
-
-        let found = self.walk(self.top.root, kind::MESH, &mut seen)?;
-        let mut times = alloc::vec![0u32; self.placed.len()];
-        for &(link, node, slot, trail) in &found.leaves {
-            if link as usize >= self.placed.len() || !self.is_leaf(link) {
-                return Err(bad(node, slot, What::Mesh, INVALID, link));
-            }
-            times[link as usize] += 1;
-            let placed = &self.placed[link as usize];
-            equal(node, slot, What::Link, node, placed.node)?;
-            equal(node, slot, What::Link, slot, placed.slot)?;
-            let own = self.arrays().path_of(INVALID, link).top;
-            equal(node, slot, What::TrailLow, trail.low, own.low)?;
-            equal(node, slot, What::TrailHigh, trail.high, own.high)?;
-            let at = place::<W>(self.top.number(node), slot);
-            equal(node, slot, What::Place, at, self.instances[link as usize].place)?;
-        }
-        for (index, record) in (0..).zip(&self.instances) {
-            if !self.is_leaf(index) {
-                equal(INVALID, index, What::Place, INVALID, record.place)?;
-            }
-            if index as usize >= self.live.len() {
-                equal(INVALID, index, What::Listed, NO_INSTANCE.listed, record.listed)?;
-            }
-            let placed = &self.placed[index as usize];
-            if !placed.live && placed.part_of == INVALID {
+        for (index, placed) in (0u32..).zip(&self.placed) {
+            if placed.live {
+                stats.instances += 1;
+                stats.lights += placed.lights.end - placed.lights.start;
+                used_lights.push(placed.lights.clone());
+                self.check_instance(index)?;
+            } else {
+                let record = &self.instances[index as usize];
                 let nothing = Instance {
-                    place: record.place,
-                    above: record.above,
                     listed: record.listed,
                     ..NO_INSTANCE
                 };
                 same_words(INVALID, index, &nothing, record)?;
             }
-        }
-        self.refit_again(&found, &mut again, true);
-
-        let mut used_lights = Vec::new();
-        let mut instances = 0;
-        for (index, placed) in (0u32..).zip(&self.placed) {
-            equal(
-                INVALID,
-                index,
-                What::Mesh,
-                u32::from(self.is_leaf(index)),
-                times[index as usize],
-            )?;
-            if placed.live {
-                instances += 1;
-                used_lights.push(placed.lights.clone());
-                self.check_instance(index)?;
+            if index as usize >= self.live.len() {
+                let listed = self.instances[index as usize].listed;
+                equal(INVALID, index, What::Listed, NO_INSTANCE.listed, listed)?;
             }
         }
-        let lights = used_lights
-            .iter()
-            .map(|range: &Range<u32>| range.end - range.start)
-            .sum();
         disjoint(used_lights)?;
-        self.check_top(&found)?;
+        if !self.single || self.meshes.is_empty() {
+            let found = self.check_top()?;
+            stats.nodes += found.levels.len() as u32;
+            stats.depth += found.depth;
+        }
+        Ok(stats)
+    }
 
-        let mut nodes = 0;
-        for (index, (expected, found)) in (0u32..).zip(again.iter().zip(&self.nodes)) {
-            if seen[index as usize] {
-                nodes += 1;
-                crate::validate::same(index, expected, found)?;
-                self.check_children(index)?;
+    /// The tree of a mesh, its trails, and every word of its nodes.
+    fn check_mesh(&self, index: u32, seen: &mut [bool]) -> Result<Found, Violation> {
+        let mesh = &self.meshes[index as usize];
+        let root = self.roots[index as usize].node;
+        equal(root, INVALID, What::Root, mesh.nodes.start, root)?;
+        let found = Found::of(&self.nodes, root, kind::LIGHT, seen)?;
+        found.check_depth_first(&mesh.nodes)?;
+        equal(root, INVALID, What::Level, found.depth, mesh.depth)?;
+        let mut times = alloc::vec![0u32; mesh.triangles.len()];
+        for own in &found.leaves {
+            let (node, slot) = (own.node, own.slot);
+            if !mesh.triangles.contains(&own.link) {
+                return Err(bad(node, slot, What::Owner, mesh.triangles.start, own.link));
+            }
+            times[(own.link - mesh.triangles.start) as usize] += 1;
+            if T::KEPT {
+                let trail = self.trail_of(own.link);
+                equal(node, slot, What::TrailLow, own.trail.low, trail.low)?;
+                equal(node, slot, What::TrailHigh, own.trail.high, trail.high)?;
+            }
+            if let Some(light) = self.triangles.get(own.link as usize) {
+                equal(node, slot, What::Owner, index, light.mesh())?;
             }
         }
-        Ok(Stats {
-            nodes,
-            instances,
-            blases,
-            lights,
-            depth: bottom_depth + if self.single && blases > 0 { 0 } else { found.depth },
-        })
-    }
-
-    /// Bounds from scratch, into `again`, of the nodes found.
-    fn refit_again(&self, found: &Found, again: &mut [N], top: bool) {
-        let mut levels = found.levels.clone();
-        levels.sort_unstable_by_key(|&(level, node)| (core::cmp::Reverse(level), node));
-        for &(_, node) in &levels {
-            let mut bare = N::EMPTY;
-            let own = &self.nodes[node as usize];
-            for slot in 0..W {
-                bare.set_child(slot, own.kind(slot), own.link(slot));
+        for (triangle, &count) in mesh.triangles.clone().zip(&times) {
+            equal(INVALID, triangle, What::Triangle, 1, count)?;
+        }
+        // A BVH of static meshes has no triangles.
+        if !self.triangles.is_empty() {
+            self.check_powers(index)?;
+            let mut again = bare(&self.nodes, &found);
+            for node in found.upward() {
+                again[node as usize] = refit::bottom(&again, &self.triangles, node);
+                same(node, &again[node as usize], &self.nodes[node as usize])?;
+                check_children(&self.nodes, node)?;
             }
-            again[node as usize] = bare;
         }
-        for &(_, node) in &levels {
-            again[node as usize] = if top {
-                refit::top(again, &self.instances, &self.roots, node)
-            } else {
-                refit::bottom(again, &self.triangles, node)
-            };
-        }
+        let expected = refit::root(&self.nodes, root);
+        same_words(INVALID, index, &expected, &self.roots[index as usize])?;
+        Ok(found)
     }
 
-    /// Whether an instance or a part is a leaf of the top level.
-    pub(super) fn is_leaf(&self, index: u32) -> bool {
-        let placed = &self.placed[index as usize];
-        (placed.live && placed.parts.is_empty()) || placed.part_of != INVALID
-    }
-
-    /// What is known of the parts of a bottom level, and how many of its instances have them.
-    fn check_parts(&self, index: u32, again: &[N]) -> Result<(), Violation> {
-        let blas = &self.blases[index as usize];
-        let users = self.meshes[blas.mesh as usize].users.iter();
-        let users = users.filter(|&&user| self.instances[user as usize].blas == index);
-        if let Some(outgoing) = blas.outgoing {
-            let followers = self.meshes[blas.mesh as usize].users.len() - users.clone().count();
-            equal(INVALID, index, What::Blas, followers as u32, outgoing.left)?;
-            equal(INVALID, index, What::Blas, 1, outgoing.left.min(1))?;
-        }
-        let opened = users
-            .filter(|&&user| !self.placed[user as usize].parts.is_empty())
-            .count();
-        let slot = blas.parts.start;
-        equal(INVALID, slot, What::Parts, blas.opened, opened as u32)?;
-        let root = &self.nodes[blas.nodes.start as usize];
-        let count = if opened > 0 {
-            super::opened::parts_below::<N, W>(root)
-        } else {
-            0
-        };
-        equal(INVALID, slot, What::Parts, count, blas.parts.len() as u32)?;
-        for (part, slot) in blas.parts.clone().zip(0..) {
-            let expected = refit::root(again, root.link(slot));
-            same_words(INVALID, part, &expected, &self.roots[part as usize])?;
-        }
-        Ok(())
-    }
-
-    /// An instance's words against its transform, mesh and bottom level.
+    /// An instance's words against its transform and mesh.
     fn check_instance(&self, index: u32) -> Result<(), Violation> {
         let placed = &self.placed[index as usize];
         let found = &self.instances[index as usize];
-        let blas = match self.blas_of(placed).outgoing {
-            Some(outgoing) if outgoing.blas == found.blas => outgoing.blas,
-            _ => self.blas_index(placed),
-        };
-        let own = &self.blases[blas as usize];
-        equal(INVALID, index, What::Blas, blas, found.blas)?;
-        equal(
-            INVALID,
-            index,
-            What::Root,
-            self.roots[blas as usize].node,
-            found.root,
-        )?;
-        equal(INVALID, index, What::First, placed.lights.start, found.first)?;
-        equal(
-            INVALID,
-            index,
-            What::First,
-            own.triangles.start,
-            found.first_triangle,
-        )?;
-        let count = own.triangles.end - own.triangles.start;
-        equal(
-            INVALID,
-            index,
-            What::First,
-            count,
-            placed.lights.end - placed.lights.start,
-        )?;
+        let mesh = &self.meshes[placed.mesh as usize];
+        let count = mesh.triangles.len() as u32;
+        let lights = placed.lights.end - placed.lights.start;
+        equal(INVALID, index, What::First, count, lights)?;
         let expected = Instance {
-            root: found.root,
-            place: found.place,
-            above: found.above,
-            blas: found.blas,
-            first: found.first,
-            first_triangle: found.first_triangle,
+            root: mesh.nodes.start,
+            blas: placed.mesh,
+            first: placed.lights.start,
+            first_triangle: mesh.triangles.start,
             count,
             listed: found.listed,
-            part: if placed.parts.is_empty() {
-                INVALID
-            } else {
-                placed.parts.start
-            },
-            ..self.in_place(blas, placed.transform, placed.radiance)
+            ..self.in_place(placed.mesh, placed.transform, placed.radiance)
         };
         same_words(INVALID, index, &expected, found)?;
-        if !placed.parts.is_empty() {
-            equal(
-                INVALID,
-                index,
-                What::Parts,
-                own.parts.len() as u32,
-                placed.parts.len() as u32,
-            )?;
-        }
-        for (part, blas) in placed.parts.clone().zip(own.parts.clone()) {
-            let found = &self.instances[part as usize];
-            equal(
-                INVALID,
-                part,
-                What::Parts,
-                index,
-                self.placed[part as usize].part_of,
-            )?;
-            let words = Instance {
-                root: self.roots[blas as usize].node,
-                blas,
-                count: 0,
-                part: index,
-                listed: found.listed,
-                place: found.place,
-                above: found.above,
-                ..expected
-            };
-            same_words(INVALID, part, &words, found)?;
-        }
-        equal(
-            INVALID,
-            index,
-            What::Listed,
-            self.live[placed.listed as usize],
-            index,
-        )?;
-        equal(
-            INVALID,
-            index,
-            What::Listed,
-            index,
-            self.instances[placed.listed as usize].listed,
-        )
+        let user = mesh.users.get(placed.user as usize).copied();
+        equal(INVALID, index, What::Listed, index, user.unwrap_or(INVALID))?;
+        let listed = self.live.get(placed.listed as usize).copied();
+        equal(INVALID, index, What::Listed, index, listed.unwrap_or(INVALID))?;
+        let listed = self.instances[placed.listed as usize].listed;
+        equal(INVALID, index, What::Listed, index, listed)
     }
 
-    /// Numbers, heights, counts and links upward of the top level's nodes, as a walk found them. Every node but the root has two
-    /// children or more.
-    fn check_top(&self, found: &Found) -> Result<(), Violation> {
+    /// Leaves, links upward, heights and words of the top level.
+    fn check_top(&self) -> Result<Found, Violation> {
         let top = &self.top;
+        let mut seen = alloc::vec![false; top.nodes.len()];
+        let found = Found::of(&top.nodes, top.root, kind::MESH, &mut seen)?;
+        let mut times = alloc::vec![0u32; self.placed.len()];
+        for own in &found.leaves {
+            let (node, slot) = (own.node, own.slot);
+            let (instance, part) = leaf_parts(own.link);
+            let is_live = self
+                .placed
+                .get(instance as usize)
+                .is_some_and(|placed| placed.live);
+            if !is_live || !top.links_of(instance).contains(&part) {
+                return Err(bad(node, slot, What::Mesh, INVALID, own.link));
+            }
+            times[instance as usize] += 1;
+            let at = place::<W>(node, slot);
+            equal(node, slot, What::Place, at, top.place_of(instance, part))?;
+            let known = top.leaf(own.link);
+            let expected = self.leaf_of(own.link);
+            for (e, f) in expected.summary.to_words().iter().zip(known.summary.to_words()) {
+                equal(node, slot, What::Mesh, e.to_bits(), f.to_bits())?;
+            }
+        }
+        for (index, placed) in (0u32..).zip(&self.placed) {
+            let leaves = if placed.live {
+                top.links_of(index).len() as u32
+            } else {
+                let place = top.places.get(index as usize).copied().unwrap_or(INVALID);
+                equal(INVALID, index, What::Place, INVALID, place)?;
+                0
+            };
+            equal(INVALID, index, What::Mesh, leaves, times[index as usize])?;
+        }
+        for (&instance, own) in top.opened.iter().filter(|(_, own)| own.first != INVALID) {
+            let place = top.places[instance as usize];
+            equal(INVALID, instance, What::Parts, OPENED | own.first, place)?;
+        }
+        let mut again = bare(&top.nodes, &found);
+        for node in found.upward() {
+            again[node as usize] = self.top_node_again(&again, node);
+            same(node, &again[node as usize], &top.nodes[node as usize])?;
+            check_children(&top.nodes, node)?;
+            let own = &top.nodes[node as usize];
+            let inner = (0..W).filter(|&slot| own.kind(slot) == kind::INNER);
+            let height = inner
+                .map(|slot| 1 + top.shapes[own.link(slot) as usize].height)
+                .max();
+            let shape = &top.shapes[node as usize];
+            for (e, f) in again[node as usize].merged().to_words().iter().zip(shape.words) {
+                equal(node, INVALID, What::Mesh, e.to_bits(), f.to_bits())?;
+            }
+            equal(node, INVALID, What::Level, height.unwrap_or(1), shape.height)?;
+            let children = (0..W).filter(|&slot| own.kind(slot) != kind::EMPTY).count() as u32;
+            if node != top.root {
+                equal(node, INVALID, What::Children, children.max(2), children)?;
+            }
+            for slot in (0..W).filter(|&slot| own.kind(slot) == kind::INNER) {
+                let at = place::<W>(node, slot as u32);
+                let above = top.above[own.link(slot) as usize];
+                equal(node, slot as u32, What::Place, at, above)?;
+            }
+        }
+        let root = top.root;
+        equal(root, INVALID, What::Place, INVALID, top.above[root as usize])?;
+        let used = top.shapes.iter().filter(|shape| shape.height > 0).count();
+        let listed = top.nodes.len() - top.free.len();
         equal(
             INVALID,
             INVALID,
             What::Listed,
             found.levels.len() as u32,
-            top.len() as u32,
+            used as u32,
         )?;
-        let mut levels = found.levels.clone();
-        levels.sort_unstable_by_key(|&(level, node)| (core::cmp::Reverse(level), node));
-        let mut measured = alloc::vec![(0, 0); top.nodes.len()];
-        for &(_, node) in &levels {
-            let number = top.number(node);
-            let listed = top.nodes.get(number as usize).copied().unwrap_or(INVALID);
-            equal(node, INVALID, What::Listed, node, listed)?;
-            let own = &self.nodes[node as usize];
-            let (mut height, mut count, mut children) = (1, 0, 0);
-            for slot in 0..W {
-                let link = own.link(slot);
-                if own.kind(slot) == kind::INNER {
-                    let (below, instances): (u32, u32) = measured[top.number(link) as usize];
-                    (height, count) = (height.max(below + 1), count + instances);
-                    let above = place::<W>(number, slot as u32);
-                    let record = self.instances.get(top.number(link) as usize);
-                    equal(
-                        node,
-                        slot as u32,
-                        What::Place,
-                        above,
-                        record.map_or(0, |record| record.above),
-                    )?;
-                } else if own.kind(slot) == kind::MESH {
-                    count += 1;
-                }
-                children += u32::from(own.kind(slot) != kind::EMPTY);
-            }
-            measured[number as usize] = (height, count);
-            equal(
-                node,
-                INVALID,
-                What::ListedLevel,
-                height,
-                top.heights[number as usize],
-            )?;
-            equal(node, INVALID, What::Listed, count, top.counts[number as usize])?;
-            if node != top.root {
-                equal(node, INVALID, What::Children, children.max(2), children)?;
-            }
-        }
-        for (number, record) in (0..).zip(&self.instances) {
-            let node = top.nodes.get(number as usize).copied().unwrap_or(INVALID);
-            if node == INVALID || node == top.root {
-                equal(INVALID, number, What::Place, INVALID, record.above)?;
-            }
-        }
-        Ok(())
+        equal(INVALID, INVALID, What::Listed, used as u32, listed as u32)?;
+        Ok(found)
     }
 
-    /// The children of what `node` links to lie within what it holds of them.
-    fn check_children(&self, node: u32) -> Result<(), Violation> {
-        let own = &self.nodes[node as usize];
+    /// A node of the top level from scratch, as refit defines it.
+    fn top_node_again(&self, again: &[N], node: u32) -> N {
+        let mut own = again[node as usize];
+        let mut lanes = crate::summary::Lanes::<W>::all(&N::Summary::EMPTY);
+        let mut limits = [crate::beam::Limits::NONE; W];
         for slot in 0..W {
-            if own.kind(slot) == kind::INNER {
-                let child = own.link(slot);
-                contained(&own.summary(slot), child, &self.nodes[child as usize])?;
-            }
+            let child = match own.kind(slot) {
+                kind::MESH => self.leaf_of(own.link(slot)),
+                kind::INNER => refit::top_child(again, 0, &[], &[], node, slot),
+                _ => refit::Child::EMPTY,
+            };
+            lanes.set(slot, &child.summary);
+            limits[slot] = child.limits;
         }
-        Ok(())
+        own.set_lanes(&lanes);
+        own.set_limits(&limits);
+        own
     }
+
+    /// Live instances that are not in the tree. A BVH that was read from words may have some before its next edit.
+    pub(super) fn unplaced(&self) -> Vec<u32> {
+        let live = (0u32..).zip(&self.placed).filter(|(_, placed)| placed.live);
+        let is_out = |index: u32| {
+            let mut links = self.top.links_of(index);
+            links.any(|part| self.top.place_of(index, part) == INVALID)
+        };
+        live.map(|(index, _)| index)
+            .filter(|&index| is_out(index))
+            .collect()
+    }
+}
+
+/// The nodes found, with kinds and links alone.
+fn bare<N: Node<W>, const W: usize>(nodes: &[N], found: &Found) -> Vec<N> {
+    let mut again = alloc::vec![N::EMPTY; nodes.len()];
+    for &(_, node) in &found.levels {
+        let own = &nodes[node as usize];
+        for slot in 0..W {
+            again[node as usize].set_child(slot, own.kind(slot), own.link(slot));
+        }
+    }
+    again
+}
+
+/// Checks that each inner child of `node` has its children within the child's summary in `node`.
+fn check_children<N: Node<W>, const W: usize>(nodes: &[N], node: u32) -> Result<(), Violation> {
+    let own = &nodes[node as usize];
+    for slot in 0..W {
+        if own.kind(slot) == kind::INNER {
+            let child = own.link(slot);
+            contained(&own.summary(slot), child, &nodes[child as usize])?;
+        }
+    }
+    Ok(())
 }
 
 fn disjoint(mut ranges: Vec<Range<u32>>) -> Result<(), Violation> {

@@ -3,17 +3,13 @@
 //! A weight need not be accurate. It is positive wherever there is flux, so that no light is ever lost, and it has the same
 //! bits on both processors. What is approximate about it costs variance.
 
-mod cycles;
 mod eq4;
-mod falcor;
 mod flux;
-mod gaussian;
 mod glossy;
 mod leveled;
 mod linked;
 mod math;
 mod moments;
-mod pbrt;
 mod phi;
 mod sight;
 mod subtended;
@@ -21,11 +17,8 @@ mod subtended;
 mod tests;
 mod transmissive;
 
-pub use cycles::Cycles;
 pub use eq4::{Cluster, Eq4};
-pub use falcor::Falcor;
 pub use flux::FluxOverDistance;
-pub use gaussian::SphericalGaussian;
 pub use glossy::Glossy;
 pub use leveled::Leveled;
 pub use linked::Linked;
@@ -34,7 +27,6 @@ pub use math::NativeMath;
 pub use math::{ExactMath, Math};
 pub use moments::Moments;
 pub(crate) use moments::{Lobe, dot_by, frame, side, weight};
-pub use pbrt::Pbrt;
 pub use phi::Flux;
 pub use subtended::Subtended;
 pub use transmissive::Transmissive;
@@ -121,17 +113,26 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
 
 /// A weight `significand · 2^exponent`. The exponent is kept apart because Φ/d² of the accepted domain spans 2^±300.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Scaled {
+pub struct Scaled {
     /// Zero without any flux, else in `[2^-24, 8)`.
     pub significand: f32,
     /// Exponent of two; −1024 without any flux.
     pub exponent: i32,
 }
 
+impl Scaled {
+    /// Of a child without flux.
+    pub const ZERO: Self = Self {
+        significand: 0.0,
+        exponent: -1024,
+    };
+}
+
 /// Brings the weights of a node's children to one scale: that of the greatest exponent. A weight below 2^-60 of the scale
 /// counts as that much, so a positive weight stays positive.
 #[inline(always)]
-pub(crate) fn on_one_scale<const W: usize>(scaled: &[Scaled; W]) -> [f32; W] {
+#[must_use]
+pub fn on_one_scale<const W: usize>(scaled: &[Scaled; W]) -> [f32; W] {
     let mut greatest = -1024;
     for slot in 0..W {
         let e = scaled[slot].exponent;

@@ -95,7 +95,7 @@ pub(crate) fn frame(origin: Vec3, unit_exponent: i32, p: Vec3) -> Frame {
 /// The receiver as the weight needs it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side {
-    /// Twice the normal; a zero normal, in a volume, gives all children the same factor (on lean nodes, one that falls with breadth).
+    /// Twice the normal; a zero normal, in a volume, gives all children the same factor.
     pub n: Vec3,
     /// The normal by the unit of the children's mean normals, and minus twice that unit.
     pub for_m: Vec3,

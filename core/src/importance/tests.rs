@@ -3,10 +3,8 @@
 //! What is compared is the weight of a child over that of a sibling whose weight the formula gives at sight: the scale that
 //! the children of a node share cancels.
 
-mod bounds;
 mod eq4;
 mod flux;
-mod gaussian;
 #[cfg(feature = "alloc")]
 mod glossy;
 mod linked;
@@ -20,10 +18,6 @@ use crate::exact::pow2;
 use crate::kit::{Random, Wide, cross, dot, minus, narrow, normalize, times, wide};
 
 impl Random {
-    fn below(&mut self, count: u32) -> u32 {
-        (self.unit() * count as f32) as u32
-    }
-
     /// Half extents of about `size`.
     fn extents(&mut self, size: f32) -> Vec3 {
         Vec3::new(self.unit(), self.unit(), self.unit()) * size

@@ -10,66 +10,16 @@ use std::vec::Vec;
 use glam::Vec3;
 
 use super::*;
+use crate::kit::lights::{SHINE, disc, glow, rectangle, sphere, spot};
 use crate::kit::{Random, Wide, cross, dot, minus, narrow, normalize, times, wide};
 use crate::point::ShadingPoint;
 use crate::transform::Transform;
 use crate::vector::length_squared;
 
 const PI: f64 = core::f64::consts::PI;
-const SHINE: [f32; 3] = [2.0, 3.0, 5.0];
 
 fn luminance() -> f64 {
     0.2126 * 2.0 + 0.7152 * 3.0 + 0.0722 * 5.0
-}
-
-fn spot(cos_inner: f32, cos_outer: f32) -> SpotLight {
-    SpotLight {
-        p: [1.0, 2.0, -1.0],
-        intensity: SHINE,
-        range: 0.0,
-        axis: [0.36, -0.8, 0.48],
-        cos_inner,
-        cos_outer,
-        mesh: 0,
-    }
-}
-
-fn sphere() -> SphereLight {
-    SphereLight {
-        p: [1.0, 2.0, -1.0],
-        radius: 0.75,
-        radiance: SHINE,
-        mesh: 0,
-    }
-}
-
-fn rectangle(flags: u32) -> RectangleLight {
-    RectangleLight {
-        p: [1.0, 2.0, -1.0],
-        half: [[1.5, 0.0, 0.5], [0.1, 0.25, -0.3]],
-        radiance: SHINE,
-        mesh: 0,
-        flags,
-    }
-}
-
-fn disc(flags: u32) -> DiscLight {
-    DiscLight {
-        p: [1.0, 2.0, -1.0],
-        half: [[0.6, 0.0, 0.8], [0.0, 1.0, 0.0]],
-        radiance: SHINE,
-        mesh: 0,
-        flags,
-    }
-}
-
-fn glow() -> BoxLight {
-    BoxLight {
-        p: [1.0, 2.0, -1.0],
-        half: [[0.5, 0.1, 0.0], [0.0, 0.75, 0.0], [0.2, 0.0, 0.25]],
-        radiance: SHINE,
-        mesh: 0,
-    }
 }
 
 /// A table of one half up to 60°: axis and across as words say, flux and mean direction as of a spot with a sharp edge there.

@@ -6,21 +6,15 @@
 mod beam_row;
 mod codes;
 mod compact;
-mod full;
 mod lit;
 mod moment;
-mod moment_full;
-mod moment_lean;
 
 pub(crate) use codes::BREADTH_BIAS;
 pub use compact::CompactNode;
-pub use full::FullNode;
 pub use lit::Lit;
 pub use moment::{
     LinkedMomentNode, LinkedSpotMomentNode, MomentNode, PackedMomentNode, SpotMomentNode, TwoSidedMomentNode,
 };
-pub use moment_full::FullMomentNode;
-pub use moment_lean::LeanMomentNode;
 
 use bytemuck::Pod;
 use glam::Vec3;

@@ -1,8 +1,10 @@
-//! The hand-over between a frame and its worker: one job goes in, one result comes out, and either side may go away.
+//! The queue between a frame and its worker: one job goes in, messages follow it while it runs, one result comes out, and
+//! either side may end.
 //!
 //! Everything lies behind one lock that is held for a few moves of a value only, never while a job runs or a value is
 //! dropped. All interleavings are model-checked with loom (`tests/handover.rs`).
 
+use alloc::vec::Vec;
 use std::sync::PoisonError;
 
 // The model replaces the primitives where it runs, which is in the test that includes this file.
@@ -28,11 +30,21 @@ enum State<J, R> {
     Closed,
 }
 
+/// The state under the lock.
+#[derive(Debug)]
+struct Shared<J, R, M> {
+    state: State<J, R>,
+    /// Messages that the job under way has not read.
+    messages: Vec<M>,
+    /// Whether the frame waits for the result: no message follows.
+    is_awaited: bool,
+}
+
 /// One job at a time on its way to a worker and back.
 #[derive(Debug)]
-pub(super) struct Handover<J, R> {
-    state: Mutex<State<J, R>>,
-    /// Told of every change; there are two sides, and each waits for what the other does.
+pub(super) struct Handover<J, R, M> {
+    shared: Mutex<Shared<J, R, M>>,
+    /// Signals every change: each of the two sides waits for the other.
     changed: Condvar,
 }
 
@@ -47,16 +59,20 @@ pub(super) enum Outcome<R> {
 
 /// A job with the worker, who owes a result: dropped without one, the job counts as lost.
 #[derive(Debug)]
-pub(super) struct Task<'a, J, R> {
-    handover: &'a Handover<J, R>,
+pub(super) struct Task<'a, J, R, M> {
+    handover: &'a Handover<J, R, M>,
     pub(super) job: Option<J>,
     owes: bool,
 }
 
-impl<J, R> Handover<J, R> {
+impl<J, R, M> Handover<J, R, M> {
     pub fn new() -> Self {
         Self {
-            state: Mutex::new(State::Idle),
+            shared: Mutex::new(Shared {
+                state: State::Idle,
+                messages: Vec::new(),
+                is_awaited: false,
+            }),
             changed: Condvar::new(),
         }
     }
@@ -64,23 +80,35 @@ impl<J, R> Handover<J, R> {
     /// Hands a job to the worker; gives it back where one is under way, its outcome has not been taken, or the worker was
     /// told to end.
     pub fn submit(&self, job: J) -> Result<(), J> {
-        let mut state = self.lock();
-        if matches!(*state, State::Idle) {
-            *state = State::Waiting(job);
-            self.changed.notify_all();
-            Ok(())
-        } else {
-            Err(job)
+        let mut shared = self.lock();
+        if !matches!(shared.state, State::Idle) {
+            return Err(job);
         }
+        shared.state = State::Waiting(job);
+        shared.is_awaited = false;
+        // Messages that the last job did not read.
+        let unread = core::mem::take(&mut shared.messages);
+        self.changed.notify_all();
+        drop(shared);
+        drop(unread);
+        Ok(())
+    }
+
+    /// Sends a message to the job under way; if the job does not read it, it is dropped.
+    pub fn send(&self, message: M) {
+        self.lock().messages.push(message);
+        self.changed.notify_all();
     }
 
     /// The outcome of the job under way, waited for; `None` where there is no job.
     pub fn take(&self) -> Option<Outcome<R>> {
-        let mut state = self.lock();
-        while matches!(*state, State::Waiting(_) | State::Running) {
-            state = self.wait(state);
+        let mut shared = self.lock();
+        shared.is_awaited = true;
+        self.changed.notify_all();
+        while matches!(shared.state, State::Waiting(_) | State::Running) {
+            shared = self.wait(shared);
         }
-        Self::taken(&mut state)
+        Self::taken(&mut shared)
     }
 
     /// The outcome of the job under way, if it is there by now.
@@ -88,12 +116,12 @@ impl<J, R> Handover<J, R> {
         Self::taken(&mut self.lock())
     }
 
-    fn taken(state: &mut State<J, R>) -> Option<Outcome<R>> {
-        match core::mem::replace(state, State::Idle) {
+    fn taken(shared: &mut Shared<J, R, M>) -> Option<Outcome<R>> {
+        match core::mem::replace(&mut shared.state, State::Idle) {
             State::Done(result) => Some(Outcome::Done(result)),
             State::Lost => Some(Outcome::Lost),
             other => {
-                *state = other;
+                shared.state = other;
                 None
             }
         }
@@ -102,16 +130,16 @@ impl<J, R> Handover<J, R> {
     /// Tells the worker to end after the job that it runs; one that it has not begun is dropped, as is a result that was
     /// not taken.
     pub fn close(&self) {
-        let old = core::mem::replace(&mut *self.lock(), State::Closed);
+        let old = core::mem::replace(&mut self.lock().state, State::Closed);
         self.changed.notify_all();
         drop(old);
     }
 
     /// The worker's next job, waited for; `None` once closed.
-    pub fn next(&self) -> Option<Task<'_, J, R>> {
-        let mut state = self.lock();
+    pub fn next(&self) -> Option<Task<'_, J, R, M>> {
+        let mut shared = self.lock();
         loop {
-            match core::mem::replace(&mut *state, State::Running) {
+            match core::mem::replace(&mut shared.state, State::Running) {
                 State::Waiting(job) => {
                     return Some(Task {
                         handover: self,
@@ -120,53 +148,66 @@ impl<J, R> Handover<J, R> {
                     });
                 }
                 State::Closed => {
-                    *state = State::Closed;
+                    shared.state = State::Closed;
                     return None;
                 }
                 other => {
-                    *state = other;
-                    state = self.wait(state);
+                    shared.state = other;
+                    shared = self.wait(shared);
                 }
             }
         }
     }
 
+    /// The messages to the running job that it has not read. If `waits`, waits for one, unless none follow.
+    fn messages(&self, waits: bool) -> Vec<M> {
+        let mut shared = self.lock();
+        while waits
+            && shared.messages.is_empty()
+            && !shared.is_awaited
+            && matches!(shared.state, State::Running)
+        {
+            shared = self.wait(shared);
+        }
+        core::mem::take(&mut shared.messages)
+    }
+
     /// The worker's last word on its job.
     fn settle(&self, settled: State<J, R>) {
-        let mut state = self.lock();
+        let mut shared = self.lock();
         // Closed meanwhile, nobody asks any more.
-        let unwanted = if matches!(*state, State::Running) {
-            core::mem::replace(&mut *state, settled)
+        let unwanted = if matches!(shared.state, State::Running) {
+            core::mem::replace(&mut shared.state, settled)
         } else {
             settled
         };
         self.changed.notify_all();
-        drop(state);
+        drop(shared);
         drop(unwanted);
     }
 
     /// No code that could panic runs under the lock, so what a poisoned one holds is whole.
-    fn lock(&self) -> MutexGuard<'_, State<J, R>> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> MutexGuard<'_, Shared<J, R, M>> {
+        self.shared.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn wait<'a>(&self, state: MutexGuard<'a, State<J, R>>) -> MutexGuard<'a, State<J, R>> {
-        self.changed.wait(state).unwrap_or_else(PoisonError::into_inner)
+    fn wait<'a>(&self, shared: MutexGuard<'a, Shared<J, R, M>>) -> MutexGuard<'a, Shared<J, R, M>> {
+        self.changed.wait(shared).unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl<J, R> Task<'_, J, R> {
-    /// Does the job by `work` and hands the result back.
-    pub fn run(mut self, work: impl FnOnce(J) -> R) {
+impl<J, R, M> Task<'_, J, R, M> {
+    /// Runs the job by `work`, which may ask for messages, and passes the result to the frame.
+    pub fn run(mut self, work: impl FnOnce(J, &dyn Fn(bool) -> Vec<M>) -> R) {
         if let Some(job) = self.job.take() {
-            let result = work(job);
+            let result = work(job, &|waits| self.handover.messages(waits));
             self.handover.settle(State::Done(result));
         }
         self.owes = false;
     }
 }
 
-impl<J, R> Drop for Task<'_, J, R> {
+impl<J, R, M> Drop for Task<'_, J, R, M> {
     fn drop(&mut self) {
         if self.owes {
             self.handover.settle(State::Lost);

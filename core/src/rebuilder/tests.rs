@@ -1,472 +1,286 @@
-//! Rebuilds beside the frame.
+//! Builds in the background: which trees are swapped in, when, and the scene then.
+
+use alloc::vec::Vec;
 
 use super::*;
-use crate::bvh::RebuildParams;
-use crate::kit::{line, triangle};
-use crate::{CompactNode, Edit, EmissiveTriangle, LightBvh, Transform};
-use alloc::vec;
+use crate::kit::Random;
+use crate::kit::scenes::{edits, lamps, scattered, sound, sound_samples, with_one_far};
+use crate::{EmissiveTriangle, InstanceId, LightBvh, Transform};
 
-#[test]
-fn without_threads_the_same_trees_come_at_the_same_frames() {
-    let triangle = triangle([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
-    let run = |threads: bool| {
-        let mut scene = Bvh::<CompactNode<4>, crate::Eq4, 4>::default();
-        let triangles = vec![triangle];
-        let mesh = scene
-            .apply(vec![Edit::AddMesh { triangles }])
-            .expect("a mesh")
-            .meshes[0];
-        let mut rebuilder = Rebuilder::new(RebuilderParams {
-            after: 2,
-            swap: Swap::Deterministic,
-            rebuild: RebuildParams::eager(),
-            ..RebuilderParams::default()
-        });
-        if !threads {
-            rebuilder.start = || Err(std::io::Error::other("no more threads"));
-        }
-        let frames = (0..20u16).map(|frame| {
-            let start = rebuilder.begin_frame(&mut scene).expect("no panic");
-            assert_eq!(start.swapped, frame >= 2 && frame % 2 == 0);
-            assert_eq!(start.inline, start.swapped && !threads);
-            let add = |k: u16| Edit::AddInstance {
-                mesh,
-                transform: Transform::at([f32::from(frame * k % 7), f32::from(k), f32::from(frame)]),
-                radiance: 1.0,
-            };
-            scene.apply((0..5).map(add).collect()).expect("instances");
-            scene.refit();
-            scene.validate().expect("valid");
-            rebuilder.end_frame(&scene);
-            scene.nodes().to_vec()
-        });
-        frames.collect::<alloc::vec::Vec<_>>()
-    };
-    assert!(run(true) == run(false));
-}
-
-type Own = Rebuilder<crate::MomentNode<8>, 8>;
-
-/// A mesh, and a rebuilder that has seen it.
-fn seen() -> (crate::LightBvh, crate::MeshId, Own) {
-    let mut bvh = crate::LightBvh::default();
-    let mesh = bvh
-        .add_mesh((0..200).map(|k| line(k, 1.0)).collect())
-        .expect("a mesh");
-    bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
-    bvh.refit();
-    let mut rebuilder = Own::new(RebuilderParams {
-        swap: Swap::Deterministic,
-        rebuild: RebuildParams {
-            top: f64::INFINITY,
-            drift: 1.5,
-        },
-        ..RebuilderParams::default()
-    });
-    rebuilder.end_frame(&bvh);
-    assert!(!rebuilder.is_busy(), "as it was built");
-    (bvh, mesh, rebuilder)
-}
-
-fn scrambled() -> alloc::vec::Vec<EmissiveTriangle> {
-    (0..200).map(|k| line(k * 77 % 200, 10.0)).collect()
-}
-
-#[test]
-fn other_refits_and_plans_hide_nothing() {
-    let (mut bvh, mesh, mut rebuilder) = seen();
-    bvh.set_triangles(mesh, scrambled()).expect("as many");
-    bvh.refit();
-    bvh.refit();
-    bvh.plan();
-    bvh.plan();
-    rebuilder.end_frame(&bvh);
-    assert!(rebuilder.is_busy());
-    assert!(rebuilder.begin_frame(&mut bvh).expect("its own").swapped);
-}
-
-#[test]
-fn a_scene_at_rest_is_built_once() {
-    let (mut bvh, ..) = seen();
-    let mut rebuilder = Own::new(RebuilderParams {
-        swap: Swap::Deterministic,
-        rebuild: RebuildParams::eager(),
-        ..RebuilderParams::default()
-    });
-    let mut swapped = 0;
-    for _ in 0..20 {
-        swapped += u32::from(rebuilder.begin_frame(&mut bvh).expect("its own").swapped);
-        bvh.refit();
-        rebuilder.end_frame(&bvh);
-    }
-    assert_eq!(swapped, 1);
-}
-
-#[test]
-fn what_was_built_for_another_is_built_again() {
-    let (mut bvh, mesh, mut rebuilder) = seen();
-    bvh.set_triangles(mesh, scrambled()).expect("as many");
-    bvh.refit();
-    rebuilder.end_frame(&bvh);
-    let mut other = crate::LightBvh::default();
-    assert_eq!(rebuilder.begin_frame(&mut other), Err(RebuildError::Foreign));
-    rebuilder.end_frame(&bvh);
-    assert!(rebuilder.begin_frame(&mut bvh).expect("its own").swapped);
-    // Once is enough.
-    bvh.refit();
-    rebuilder.end_frame(&bvh);
-    assert!(!rebuilder.is_busy());
-}
-
-/// A large mesh under way is of one light BVH, and another is told so.
-#[test]
-fn a_large_mesh_of_another_is_an_error() {
-    let mut bvh = LightBvh::default();
-    let mesh = bvh
-        .add_mesh((0..3000).map(|k| line(k, 1.0)).collect())
-        .expect("a mesh");
-    bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
-    let mixed = (0..3000)
-        .map(|k: u32| line((k * 1009 % 3000) as u16, 1.0))
-        .collect();
-    bvh.set_triangles(mesh, mixed).expect("as many");
-    bvh.refit();
+fn rebuilder(after: u32, swap: Swap, threads: bool) -> Rebuilder {
     let mut rebuilder = Rebuilder::new(RebuilderParams {
-        swap: Swap::Deterministic,
-        rebuild: RebuildParams {
-            top: f64::INFINITY,
-            ..RebuildParams::default()
-        },
+        after,
+        swap,
+        idle: 0.0,
         ..RebuilderParams::default()
     });
-    rebuilder.end_frame(&bvh);
-    assert_eq!(rebuilder.begin_frame(&mut bvh).expect("its own").under_way, 1);
-    let mut copy = bvh.clone();
-    assert_eq!(rebuilder.begin_frame(&mut copy), Err(RebuildError::Foreign));
-    assert_eq!(rebuilder.begin_frame(&mut copy).expect("once").dropped, 0);
-    // With nobody to wait for.
-    copy.refit();
-    rebuilder.end_frame(&copy);
-    assert_eq!(rebuilder.begin_frame(&mut copy).expect("its own").under_way, 1);
-    // The first is not forgotten.
-    assert_eq!(rebuilder.begin_frame(&mut bvh), Err(RebuildError::Foreign));
-    let mut adopted = 0;
-    for _ in 0..200 {
-        bvh.refit();
-        rebuilder.end_frame(&bvh);
-        adopted += rebuilder.begin_frame(&mut bvh).expect("its own").adopted;
+    if !threads {
+        rebuilder.start = || Err(std::io::Error::other("no more threads"));
     }
-    assert_eq!(adopted, 1);
-    bvh.validate().expect("valid");
-    rebuilder.end_frame(&copy);
-    rebuilder.detach();
-    copy.validate().expect("valid");
+    rebuilder
 }
 
-/// Part after part is built anew while instances move, come and go, and none again once nothing changes.
-#[test]
-fn large_top_levels_are_built_in_parts() {
+/// `count` instances of a mesh of `lights` lights.
+fn scene(count: u32, lights: u32) -> (LightBvh, Vec<InstanceId>) {
+    let random = &mut Random(3);
+    let mesh = lamps(random, lights);
+    scattered(mesh, count, |_| (random.vector() * 100.0).to_array())
+}
+
+/// A frame without edits; returns whether anything was swapped in.
+fn frame(bvh: &mut LightBvh, rebuilder: &mut Rebuilder) -> bool {
+    let start = rebuilder.begin_frame(bvh).expect("its own");
+    bvh.refit();
+    bvh.validate().expect("valid");
+    rebuilder.end_frame(bvh);
+    start.swapped || start.meshes > 0
+}
+
+/// Frames without edits until nothing is left to be built; returns how many swapped something in.
+fn converge(bvh: &mut LightBvh, rebuilder: &mut Rebuilder) -> usize {
+    let count = (0..20).filter(|_| frame(bvh, rebuilder)).count();
+    assert!(!rebuilder.is_busy());
+    count
+}
+
+fn shift(bvh: &mut LightBvh, id: InstanceId) {
+    let at = bvh.instances()[id.index() as usize].translation;
+    let by_one = Transform::at(at.map(|x| x + 1.0));
+    bvh.set_transform(id, by_one).expect("there");
+}
+
+fn deform(bvh: &mut LightBvh, mesh: u32) {
+    let mesh = bvh.mesh_id(mesh).expect("there");
+    let count = bvh.mesh_triangles(mesh).expect("there").len() as u32;
+    bvh.set_triangles(mesh, lamps(&mut Random(9), count))
+        .expect("as many");
+}
+
+/// The words of the scene with rebuilt trees.
+fn rebuilt(bvh: &LightBvh) -> Vec<u32> {
+    let mut bvh = bvh.clone();
+    bvh.rebuild();
+    bvh.to_words()
+}
+
+/// Edits of every kind, frames without a refit or without their end among them; the words of each frame.
+fn run(mut rebuilder: Rebuilder, is_first: bool, wait: fn(u32)) -> Vec<Vec<u32>> {
+    let random = &mut Random(2);
     let mut bvh = LightBvh::default();
-    let mesh = bvh
-        .add_mesh((0..2).map(|k| line(k, 1.0)).collect())
-        .expect("a mesh");
-    let random = &mut crate::kit::Random(7);
-    let place = |random: &mut crate::kit::Random| Transform::at((random.vector() * 100.0).to_array());
-    let add = |random: &mut crate::kit::Random| Edit::AddInstance {
-        mesh,
-        transform: place(random),
-        radiance: 1.0,
-    };
-    let all = (0..18_000).map(|_| add(random)).collect();
-    let mut ids = bvh.apply(all).expect("instances").instances;
-    bvh.refit();
-    let mut rebuilder = Own::new(RebuilderParams {
-        swap: Swap::Deterministic,
-        ..RebuilderParams::default()
-    });
-    let drift = |bvh: &LightBvh| bvh.rebuild_drift();
-    // All change places, more than one batch puts in elsewhere.
-    let scramble = |bvh: &mut LightBvh, ids: &[crate::InstanceId], random: &mut crate::kit::Random| {
-        let moves = ids.iter().map(|&instance| Edit::SetTransform {
-            instance,
-            transform: place(random),
-        });
-        bvh.apply(moves.collect()).expect("there");
-        bvh.refit();
-    };
-    scramble(&mut bvh, &ids, random);
-    let before = drift(&bvh);
-    assert!(before > 1.2, "{before}");
-    let mut swapped = 0;
-    for frame in 0..60 {
-        swapped += u32::from(rebuilder.begin_frame(&mut bvh).expect("its own").swapped);
-        let at = frame * 97 % ids.len();
-        bvh.remove_instance(ids[at]).expect("there");
-        bvh.take_removed_lights();
-        ids[at] = bvh.apply(alloc::vec![add(random)]).expect("one more").instances[0];
-        bvh.refit();
-        if frame % 7 == 0 {
-            bvh.validate().expect("valid");
-        }
-        rebuilder.end_frame(&bvh);
-    }
-    // What parts can mend: the levels above them stay as they are.
-    let after = drift(&bvh);
-    assert!(
-        swapped > 5 && after < 1.0 + (before - 1.0) / 2.0,
-        "{swapped} swaps: {before} to {after}"
-    );
-    let mut last = 0;
-    for frame in 0..200 {
-        if rebuilder.begin_frame(&mut bvh).expect("its own").swapped {
-            last = frame;
-        }
-        bvh.refit();
-        rebuilder.end_frame(&bvh);
-    }
-    bvh.validate().expect("valid");
-    assert!(last < 150 && !rebuilder.is_busy(), "{last}");
-    // The levels above parts are mended, too.
-    let end = drift(&bvh);
-    assert!(end < 1.0 + (before - 1.0) / 8.0, "{before} to {end}");
-}
-
-/// What a light BVH's nodes cost, by Ward's criterion.
-fn cost(bvh: &LightBvh) -> f64 {
-    use crate::node::{Node, kind};
-    use crate::summary::Summary;
-    let (mut cost, mut nodes) = (0.0, alloc::vec![bvh.tree().root]);
-    while let Some(node) = nodes.pop() {
-        let own = &bvh.nodes()[node as usize];
-        for slot in (0..8).filter(|&slot| own.kind(slot) == kind::INNER) {
-            let child = own.summary(slot);
-            cost += f64::from(child.phi()) * f64::from(child.spread());
-            nodes.push(own.link(slot));
-        }
-    }
-    cost
-}
-
-/// Clusters that change places carry whole subtrees past each other, more than a part holds: the levels above are built anew.
-#[test]
-fn clusters_that_change_places_are_put_in_order() {
-    let (side, clusters) = (100.0, 32_u16);
-    let random = &mut crate::kit::Random(3);
-    let mut points = || (random.vector() * side).to_array();
-    let (from, to): (alloc::vec::Vec<_>, alloc::vec::Vec<_>) =
-        (0..clusters).map(|_| (points(), points())).unzip();
-    let within: alloc::vec::Vec<_> = (0..clusters * 200)
-        .map(|_| (random.vector() * 2.0).to_array())
-        .collect();
-    let place = |k: usize, t: f32| {
-        let own = k % usize::from(clusters);
-        let at = |axis: usize| from[own][axis] + (to[own][axis] - from[own][axis]) * t + within[k][axis];
-        Transform::at([at(0), at(1), at(2)])
-    };
-    let mut bvh = LightBvh::default();
-    let mesh = bvh.add_mesh(vec![line(0, 1.0)]).expect("a mesh");
-    let all = (0..within.len()).map(|k| Edit::AddInstance {
-        mesh,
-        transform: place(k, 0.0),
-        radiance: 1.0,
-    });
-    let ids = bvh.apply(all.collect()).expect("instances").instances;
-    bvh.refit();
-    let mut rebuilder = Own::new(RebuilderParams {
-        swap: Swap::Deterministic,
-        ..RebuilderParams::default()
-    });
-    let mut last = 0;
-    for frame in 1..=100_u16 {
-        if rebuilder.begin_frame(&mut bvh).expect("its own").swapped {
-            last = frame;
-        }
-        if frame <= 20 {
-            let moves = ids.iter().enumerate().map(|(k, &instance)| Edit::SetTransform {
-                instance,
-                transform: place(k, f32::from(frame) / 20.0),
-            });
-            bvh.apply(moves.collect()).expect("there");
-        }
-        bvh.refit();
-        rebuilder.end_frame(&bvh);
-    }
-    bvh.validate().expect("valid");
-    assert!(last < 80 && !rebuilder.is_busy(), "{last}");
-    let mended = cost(&bvh);
-    let rebuilt = bvh.rebuild(&RebuildParams::eager()).run();
-    bvh.install(rebuilt).expect("its own");
-    bvh.refit();
-    assert!(mended < 1.1 * cost(&bvh), "{mended} against {}", cost(&bvh));
-}
-
-/// Instances that fly together are opened a few in a frame, however many a rebuilt top level wants open.
-#[test]
-fn a_frame_opens_few_instances() {
-    let mut bvh = LightBvh::default();
-    let spread = |k: u32| line(((k * 7919) % 800) as u16, 0.02);
-    let mesh = bvh.add_mesh((0..800).map(spread).collect()).expect("a mesh");
-    let at = |k: u32, scale: f32| {
-        let x = (k % 17) as f32 * scale;
-        Transform::at([x, (k / 17) as f32 * scale, (k % 5) as f32 * scale])
-    };
-    let add = |k: u32| Edit::AddInstance {
-        mesh,
-        transform: at(k, 400.0),
-        radiance: 1.0,
-    };
-    let ids = bvh
-        .apply((0..300).map(add).collect())
-        .expect("instances")
-        .instances;
-    bvh.refit();
-    let opened = |bvh: &LightBvh| -> alloc::vec::Vec<bool> {
-        let own = ids.iter().map(|id| bvh.instances()[id.index() as usize]);
-        own.map(|own| own.part != u32::MAX).collect()
-    };
-    let mut rebuilder = Own::new(RebuilderParams {
-        swap: Swap::Deterministic,
-        ..RebuilderParams::default()
-    });
-    let (mut most, mut all, mut scale) = (0, 0, 400.0);
-    for frame in 0..240 {
-        let before = opened(&bvh);
-        rebuilder.begin_frame(&mut bvh).expect("no panic");
-        let changed = before.iter().zip(opened(&bvh)).filter(|(a, b)| **a != *b).count();
-        (most, all) = (most.max(changed), all + changed);
-        if frame < 30 {
-            scale *= 0.7;
-            let edits = ids.iter().zip(0..).map(|(&instance, k)| Edit::SetTransform {
-                instance,
-                transform: at(k, scale),
-            });
-            bvh.apply(edits.collect()).expect("moved");
-        }
-        bvh.refit();
-        rebuilder.end_frame(&bvh);
-    }
-    bvh.validate().expect("valid");
-    assert!(all > 20, "{all}: nothing is tested");
-    assert!(most <= REOPENED, "{most} in one frame");
-}
-
-/// Large meshes come in piece by piece: without threads as many frames pass for room and for the builder as with them.
-#[test]
-fn without_threads_large_meshes_come_at_the_same_frames() {
-    let lamp = |k: u32| {
-        let [x, y, z] = [1, 2, 3].map(|axis| 10.0 * crate::exact::unit_f32(crate::exact::hash(7 * k + axis)));
-        triangle([[x, y, z], [x + 0.02, y, z], [x, y + 0.02, z]])
-    };
-    let run = |threads: bool| {
-        let mut bvh = LightBvh::default();
-        let mesh = bvh.add_mesh((0..3000).map(lamp).collect()).expect("a mesh");
-        let small = bvh.add_mesh(vec![lamp(1)]).expect("a mesh");
-        let add = [mesh, small, mesh].into_iter().zip([0.0, 20.0, 40.0]);
-        let add = add.map(|(mesh, x)| Edit::AddInstance {
-            mesh,
-            transform: Transform::at([x, 0.0, 0.0]),
-            radiance: 1.0,
-        });
-        bvh.apply(add.collect()).expect("instances");
-        bvh.set_triangles(mesh, (5000..8000).map(lamp).collect())
-            .expect("as many");
-        bvh.refit();
-        let mut rebuilder = Own::new(RebuilderParams {
-            after: 3,
-            swap: Swap::Deterministic,
-            bytes: 1 << 14,
-            ..RebuilderParams::default()
-        });
-        if !threads {
-            rebuilder.start = || Err(std::io::Error::other("no more threads"));
-        }
-        rebuilder.end_frame(&bvh);
-        let mut adopted = None;
-        let mut words = alloc::vec::Vec::new();
-        for frame in 0..150_u32 {
-            let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
-            if start.adopted > 0 {
-                adopted.get_or_insert(frame);
+    let mut swapped = [0; 2];
+    let frames = (0..80).map(|frame| {
+        let count = random.below(12);
+        for begins in [is_first, !is_first] {
+            if begins {
+                let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
+                swapped = [swapped[0] + u32::from(start.swapped), swapped[1] + start.meshes];
+                sound_samples(&bvh);
+            } else {
+                // A refused batch changes nothing.
+                let _ = bvh.apply(edits(random, &bvh, count, 60));
             }
-            bvh.refit();
-            rebuilder.end_frame(&bvh);
-            words.push(bvh.to_words());
         }
-        (adopted.expect("a new tree"), words)
-    };
-    let (with, without) = (run(true), run(false));
-    assert_eq!(with.0, without.0);
-    let first = with.1.iter().zip(&without.1).position(|(a, b)| a != b);
-    assert_eq!(first, None, "the first frame that differs");
-}
-
-/// Parts are built of a mesh with few instances. Of one with many each part would have all of them refitted, so none is.
-#[test]
-fn meshes_of_many_instances_are_built_as_a_whole_alone() {
-    for (count, has_parts) in [(2, true), (300, false)] {
-        let lamp = |k: u32| {
-            let [x, y, z] =
-                [1, 2, 3].map(|axis| 10.0 * crate::exact::unit_f32(crate::exact::hash(7 * k + axis)));
-            triangle([[x, y, z], [x + 0.02, y, z], [x, y + 0.02, z]])
-        };
-        let mut bvh = LightBvh::default();
-        let mesh = bvh.add_mesh((0..6000).map(lamp).collect()).expect("a mesh");
-        let add = (0..count as u16).map(|k| Edit::AddInstance {
-            mesh,
-            transform: Transform::at([f32::from(k), 0.0, 0.0]),
-            radiance: 1.0,
-        });
-        let add = add.collect();
-        bvh.apply(add).expect("instances");
-        bvh.set_triangle_range(mesh, 0, (9000..9300).map(lamp).collect())
-            .expect("in the mesh");
-        bvh.refit();
-        let mut rebuilder = Own::new(RebuilderParams {
-            swap: Swap::WhenReady,
-            rebuild: RebuildParams {
-                top: f64::INFINITY,
-                drift: 1.009,
-            },
-            ..RebuilderParams::default()
-        });
-        // As though only a part were worn.
-        let strained = vec![0];
-        rebuilder
-            .meshes
-            .await_turn([vec![], strained, vec![]], 0, &bvh, &rebuilder.params);
-        assert_eq!(rebuilder.meshes.is_busy(), has_parts, "{count}");
-        let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
-        assert_eq!(start.waited, core::time::Duration::ZERO, "it never waits");
-    }
-}
-
-/// A mesh of which each light goes round in a time of its own, so that a new tree is worn before it comes in: it was begun
-/// twice each time, as it was and as it had come in, and one of them dropped.
-#[test]
-fn a_tree_that_is_worn_as_it_comes_in_is_begun_once() {
-    let lights = |turn: u32| {
-        let light = |k: u32| {
-            let along = (turn * (k % 7 + 1) + 13 * k) % 400;
-            line(along as u16, 1.0 + (k % 5) as f32)
-        };
-        (0..2000).map(light).collect::<alloc::vec::Vec<_>>()
-    };
-    let mut bvh = LightBvh::default();
-    let mesh = bvh.add_mesh(lights(0)).expect("a mesh");
-    bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
-    bvh.refit();
-    let mut rebuilder = Own::new(RebuilderParams {
-        swap: Swap::Deterministic,
-        ..RebuilderParams::default()
+        wait(count);
+        if frame % 9 != 4 {
+            bvh.refit();
+            sound(&bvh);
+        }
+        if frame % 7 != 5 {
+            rebuilder.end_frame(&bvh);
+        }
+        bvh.to_words()
     });
-    let (mut adopted, mut dropped) = (0, 0);
-    for turn in 1..200 {
-        let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
-        adopted += start.adopted;
-        dropped += start.dropped;
-        bvh.set_triangles(mesh, lights(turn)).expect("as many");
-        bvh.refit();
-        rebuilder.end_frame(&bvh);
+    let words = frames.collect();
+    assert!(swapped.iter().all(|&count| count > 3), "{swapped:?}");
+    words
+}
+
+#[test]
+fn deterministic_trees_depend_on_no_thread() {
+    for (after, is_first) in [1, 2, 3].into_iter().flat_map(|k| [(k, true), (k, false)]) {
+        let run = |threads| run(rebuilder(after, Swap::Deterministic, threads), is_first, |_| {});
+        let (with, without) = (run(true), run(false));
+        let first = with.iter().zip(&without).position(|(a, b)| a != b);
+        assert_eq!(first, None, "{after} {is_first}: the first frame that differs");
     }
-    assert!(adopted > 20 && dropped == 0, "{adopted}, {dropped}");
+}
+
+#[test]
+fn every_frame_is_sound_whenever_builds_come_in() {
+    for is_first in [true, false] {
+        let wait = |k| std::thread::sleep(Duration::from_micros(150 * u64::from(k)));
+        run(rebuilder(1, Swap::WhenReady, true), is_first, wait);
+        // Built on the frame's thread; the frame that swaps applies later batches.
+        run(rebuilder(3, Swap::WhenReady, false), is_first, |_| {});
+    }
+}
+
+#[test]
+fn a_scene_at_rest_is_a_fresh_build() {
+    let (mut bvh, ids) = scene(300, 200);
+    let mut own = rebuilder(1, Swap::Deterministic, true);
+    frame(&mut bvh, &mut own);
+    for k in 0..20 {
+        shift(&mut bvh, ids[7 * k]);
+        frame(&mut bvh, &mut own);
+    }
+    deform(&mut bvh, 0);
+    bvh.refit();
+    let expected = rebuilt(&bvh);
+    assert!(bvh.to_words() != expected);
+    // The top level, the mesh, and the top level that knows of it.
+    let count = converge(&mut bvh, &mut own);
+    assert!((2..=4).contains(&count), "{count}");
+    assert!(bvh.to_words() == expected && rebuilt(&bvh) == expected);
+    // A single level is one mesh.
+    let lights = crate::Lights::new(lamps(&mut Random(2), 300)).expect("lights");
+    let mut bvh = LightBvh::single_level(&lights, &crate::BuildParams::default());
+    deform(&mut bvh, 0);
+    bvh.refit();
+    let expected = rebuilt(&bvh);
+    assert_eq!(converge(&mut bvh, &mut own), 1);
+    assert!(bvh.to_words() == expected);
+}
+
+/// Builds of the top level, or of a mesh.
+#[test]
+fn builds_of_another_scene_are_dropped() {
+    for (deforms, frames) in [(false, 1), (true, 1), (true, 2)] {
+        let (mut bvh, ids) = scene(50, 100);
+        let mut other = bvh.clone();
+        deform(&mut other, 0);
+        other.refit();
+        let words = other.to_words();
+        let mut own = rebuilder(1, Swap::Deterministic, true);
+        converge(&mut bvh, &mut own);
+        let begin_build = |bvh: &mut LightBvh, own: &mut Rebuilder| {
+            shift(bvh, ids[3]);
+            if deforms {
+                deform(bvh, 0);
+            }
+            (0..frames).for_each(|_| _ = frame(bvh, own));
+            assert!(own.is_busy());
+        };
+        begin_build(&mut bvh, &mut own);
+        let start = own.begin_frame(&mut other).expect("no panic");
+        assert_eq!((start.swapped, start.meshes), (false, 0));
+        // The scene that lost its build gets another.
+        own.end_frame(&bvh);
+        converge(&mut bvh, &mut own);
+        assert!(bvh.to_words() == rebuilt(&bvh));
+        // A build under way is dropped if another scene follows.
+        begin_build(&mut bvh, &mut own);
+        own.end_frame(&other);
+        let start = own.begin_frame(&mut other).expect("nothing is due");
+        assert_eq!((start.swapped, start.meshes), (false, 0));
+        assert!(other.to_words() == words);
+        own.end_frame(&other);
+        converge(&mut other, &mut own);
+        assert!(other.to_words() == rebuilt(&other));
+    }
+}
+
+/// Batches that the first tree misses when the second is swapped in reach the next build, which is of the first.
+#[test]
+fn swaps_without_a_refit_between_lose_no_edit() {
+    let (mut bvh, ids) = scene(100, 10);
+    let mut own = rebuilder(2, Swap::WhenReady, false);
+    frame(&mut bvh, &mut own);
+    for round in 0..12 {
+        shift(&mut bvh, ids[round]);
+        frame(&mut bvh, &mut own);
+        for _ in 0..round % 4 * 3 {
+            own.begin_frame(&mut bvh).expect("its own");
+            own.end_frame(&bvh);
+            sound_samples(&bvh);
+        }
+    }
+    converge(&mut bvh, &mut own);
+    assert!(bvh.to_words() == rebuilt(&bvh));
+}
+
+/// A light is a child of the new tree's root, so its subtrees can be no leaves of the top level.
+#[test]
+fn walks_find_their_way_where_a_mesh_has_other_subtrees() {
+    let (mut bvh, _) = scene(5, 200);
+    let mut own = rebuilder(1, Swap::Deterministic, true);
+    converge(&mut bvh, &mut own);
+    let mesh = bvh.mesh_id(0).expect("there");
+    let other = with_one_far(&mut Random(4), 200);
+    bvh.set_triangles(mesh, other).expect("as many");
+    let mut meshes = 0;
+    for _ in 0..4 {
+        bvh.refit();
+        own.end_frame(&bvh);
+        meshes += own.begin_frame(&mut bvh).expect("its own").meshes;
+        sound_samples(&bvh);
+    }
+    assert_eq!(meshes, 1);
+}
+
+#[test]
+fn a_scene_left_alone_for_long_is_followed_again() {
+    let (mut bvh, ids) = scene(200, 1);
+    let mut own = rebuilder(1, Swap::Deterministic, true);
+    frame(&mut bvh, &mut own);
+    for _ in 0..200 {
+        ids.iter().for_each(|&id| shift(&mut bvh, id));
+        bvh.refit();
+    }
+    for round in 0..50 {
+        shift(&mut bvh, ids[round]);
+        frame(&mut bvh, &mut own);
+        // Batches that the rebuilder has seen are dropped.
+        assert!(bvh.batches_from(0).len() <= 2, "{round}");
+    }
+    converge(&mut bvh, &mut own);
+    assert!(bvh.to_words() == rebuilt(&bvh));
+}
+
+#[test]
+fn meshes_beyond_the_bytes_keep_their_trees() {
+    let (mut bvh, _) = scene(3, 100);
+    bvh.add_mesh(lamps(&mut Random(7), 200)).expect("lights");
+    (0..2).for_each(|mesh| deform(&mut bvh, mesh));
+    bvh.refit();
+    for (lights, meshes) in [(0, 0), (150, 1), (200, 1), (200, 0)] {
+        let mut own = rebuilder(1, Swap::Deterministic, true);
+        own.params.bytes = lights * size_of::<EmissiveTriangle>();
+        own.end_frame(&bvh);
+        let mut count = 0;
+        for _ in 0..9 {
+            count += own.begin_frame(&mut bvh).expect("its own").meshes;
+            bvh.refit();
+            own.end_frame(&bvh);
+        }
+        assert_eq!(count, meshes, "{lights}");
+    }
+}
+
+/// A build is swapped in every `after` frames plus the whole frames of the pause, `idle` times `after`.
+#[test]
+fn pauses_are_frames_where_trees_depend_on_frames_alone() {
+    let endless = f64::INFINITY;
+    let cases = [
+        (1, 0.0, 1),
+        (1, 1.0, 2),
+        (2, 1.0, 4),
+        (3, 0.5, 4),
+        (2, 3.0, 8),
+        (0, 2.0, 3),
+    ];
+    for (after, idle, period) in cases.into_iter().chain([(1, f64::NAN, 1), (1, endless, 99)]) {
+        let (mut bvh, ids) = scene(50, 1);
+        let mut own = rebuilder(after, Swap::Deterministic, true);
+        own.params.idle = idle;
+        let swaps = (0..40).filter(|&frame| {
+            let start = own.begin_frame(&mut bvh).expect("its own");
+            shift(&mut bvh, ids[frame]);
+            bvh.refit();
+            own.end_frame(&bvh);
+            start.swapped
+        });
+        let first = after.max(1) as usize;
+        assert!(swaps.eq((first..40).step_by(period)), "{after} {idle}");
+    }
 }

@@ -1,88 +1,90 @@
 //! The thread that builds.
 
+use alloc::boxed::Box;
 use alloc::string::String;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::any::Any;
 use core::time::Duration;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 
 use super::clock::Clock;
 use super::handover::{Handover, Outcome};
-use crate::bvh::{MeshJob, MeshTree, Rebuild, Rebuilt};
-use crate::levels::Levels;
+use crate::build::BuildParams;
+use crate::bvh::{Batch, MeshTree, Top};
 use crate::node::{Holds, Node};
 
-/// What is to be built.
+/// Trees to build.
 #[derive(Debug)]
-pub(super) enum Job<N: Holds, const W: usize> {
-    /// The top level, and small bottom levels.
-    Frame(Rebuild<N, W>),
-    /// A bottom level that is put in place piece by piece.
-    Mesh(MeshJob<N>),
-    /// Memory for the triangles of such a bottom level.
-    Room(MeshJob<N>),
-    /// What is not needed any more: giving its memory back takes longer than a frame may.
-    Free(Vec<Waste<N>>),
+pub(super) enum Work<N: Holds> {
+    /// The top level, whose leaves are up to date.
+    Top(Box<Top<N>>),
+    /// Trees of meshes.
+    Meshes(Vec<MeshTree<N>>),
 }
 
-/// What is not needed any more, and is only dropped.
+/// Work, and how it is done.
 #[derive(Debug)]
-#[expect(dead_code, reason = "its memory is all that matters")]
-pub(super) enum Waste<N: Holds> {
-    /// Copied triangles that nobody wants built.
-    Job(MeshJob<N>),
-    /// A tree that is in place, or not wanted.
-    Tree(MeshTree<N>),
-    /// Lists of bottom levels that were replaced.
-    Lists(Vec<Levels>),
+pub(super) struct Job<N: Holds> {
+    pub work: Work<N>,
+    pub params: BuildParams,
+    /// Whether it applies edits until the frame waits for it, so that its result depends on no clock.
+    pub waits: bool,
 }
 
-/// What was.
+/// Work that was done.
 #[derive(Debug)]
-pub(super) enum Product<N: Holds, const W: usize> {
-    /// Of [`Job::Frame`].
-    Frame(Rebuilt<N, W>),
-    /// Of [`Job::Mesh`].
-    Mesh(MeshTree<N>),
-    /// Of [`Job::Room`].
-    Room(MeshJob<N>),
-    /// Of [`Job::Free`].
-    Nothing,
+pub(super) struct Built<N: Holds> {
+    pub work: Work<N>,
+    /// Number of batches of edits applied to the top level.
+    pub batches: usize,
+    pub time: Duration,
 }
 
-impl<N: Holds, const W: usize> Product<N, W> {
-    /// What nobody wants any more, if it is large.
-    pub fn waste(self) -> Option<Waste<N>> {
-        match self {
-            Self::Mesh(tree) => Some(Waste::Tree(tree)),
-            Self::Room(job) => Some(Waste::Job(job)),
-            Self::Frame(_) | Self::Nothing => None,
-        }
-    }
-}
+/// Finished work, or the message of the panic that ended it.
+pub(super) type Outcomes<N> = Result<Built<N>, String>;
 
-/// What was built and the time it took, or what the panic said that ended it.
-pub(super) type Built<N, const W: usize> = Result<(Product<N, W>, Duration), String>;
+type Shared<N> = Arc<Handover<Job<N>, Outcomes<N>, Arc<Batch>>>;
 
-type Shared<N, const W: usize> = Arc<Handover<Job<N, W>, Built<N, W>>>;
-
-/// Builds, here and now.
-pub(super) fn build<N: Node<W>, const W: usize>(job: Job<N, W>) -> Built<N, W> {
+/// Builds on this thread, then applies the edits made meanwhile.
+pub(super) fn build<N: Node<W>, const W: usize>(
+    job: Job<N>,
+    edits: &dyn Fn(bool) -> Vec<Arc<Batch>>,
+) -> Outcomes<N> {
     let began = Clock::start();
     // The job is all that building touches, and a panic ends it.
-    let rebuilt = catch_unwind(AssertUnwindSafe(|| match job {
-        Job::Frame(rebuild) => Product::Frame(rebuild.run()),
-        Job::Mesh(mesh) => Product::Mesh(mesh.run::<W>()),
-        Job::Room(mesh) => Product::Room(mesh.with_room()),
-        Job::Free(waste) => {
-            drop(waste);
-            Product::Nothing
+    let built = catch_unwind(AssertUnwindSafe(|| {
+        let Job {
+            mut work,
+            params,
+            waits,
+        } = job;
+        let mut batches = 0;
+        match &mut work {
+            Work::Top(top) => {
+                top.build(&params);
+                loop {
+                    let more = edits(waits);
+                    batches += more.len();
+                    // Together they are edited sooner; one by one the result does not depend on when they were read.
+                    let together = if waits { 1 } else { more.len().max(1) };
+                    more.chunks(together).for_each(|some| top.edit(some, &params));
+                    if !waits || more.is_empty() {
+                        break;
+                    }
+                }
+            }
+            Work::Meshes(meshes) => meshes.iter_mut().for_each(|mesh| mesh.build(&params)),
         }
+        (work, batches)
     }));
-    rebuilt
-        .map(|rebuilt| (rebuilt, began.elapsed()))
+    built
+        .map(|(work, batches)| Built {
+            work,
+            batches,
+            time: began.elapsed(),
+        })
         .map_err(|panic| message(&*panic))
 }
 
@@ -96,23 +98,26 @@ fn message(panic: &(dyn Any + Send)) -> String {
     }
 }
 
-/// A thread that builds what is handed over until it is dropped, which waits for its end.
+/// A thread that builds submitted jobs. Dropping it waits for its end.
 #[derive(Debug)]
-pub(super) struct Worker<N: Holds, const W: usize> {
-    handover: Shared<N, W>,
+pub(super) struct Worker<N: Holds> {
+    handover: Shared<N>,
     thread: Option<JoinHandle<()>>,
 }
 
-impl<N: Node<W>, const W: usize> Worker<N, W> {
+impl<N: Holds> Worker<N> {
     /// Starts the thread.
-    pub fn start() -> std::io::Result<Self> {
-        let handover: Shared<N, W> = Arc::new(Handover::new());
+    pub fn start<const W: usize>() -> std::io::Result<Self>
+    where
+        N: Node<W>,
+    {
+        let handover: Shared<N> = Arc::new(Handover::new());
         let own = handover.clone();
         let thread = thread::Builder::new()
             .name(String::from("lightbvh-rebuild"))
             .spawn(move || {
                 while let Some(task) = own.next() {
-                    task.run(build);
+                    task.run(build::<N, W>);
                 }
             })?;
         Ok(Self {
@@ -121,12 +126,18 @@ impl<N: Node<W>, const W: usize> Worker<N, W> {
         })
     }
 
-    pub fn handover(&self) -> &Handover<Job<N, W>, Built<N, W>> {
-        &self.handover
+    /// Submits a job; returns it if one is under way.
+    pub fn submit(&self, job: Job<N>) -> Result<(), Job<N>> {
+        self.handover.submit(job)
+    }
+
+    /// Sends a batch that was edited while the top level is built.
+    pub fn send(&self, batch: Arc<Batch>) {
+        self.handover.send(batch);
     }
 
     /// The outcome of the job under way, waited for where `waits`; `None` where it is not there yet.
-    pub fn outcome(&self, waits: bool) -> Option<Built<N, W>> {
+    pub fn outcome(&self, waits: bool) -> Option<Outcomes<N>> {
         let outcome = match waits {
             true => self.handover.take(),
             false => self.handover.try_take(),
@@ -138,18 +149,11 @@ impl<N: Node<W>, const W: usize> Worker<N, W> {
     }
 }
 
-impl<N: Holds, const W: usize> Worker<N, W> {
-    /// Lets the thread end by itself.
-    pub fn detach(&mut self) {
-        self.thread = None;
-    }
-}
-
-impl<N: Holds, const W: usize> Drop for Worker<N, W> {
+impl<N: Holds> Drop for Worker<N> {
     fn drop(&mut self) {
         self.handover.close();
         if let Some(thread) = self.thread.take() {
-            // Panics while building are results; one beyond them has left its job lost, which was told.
+            // A panic in a build is a result; any other leaves its job lost, which is reported.
             drop(thread.join());
         }
     }

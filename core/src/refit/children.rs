@@ -7,11 +7,12 @@
 use glam::Vec3;
 
 use super::limits::{has_limits, limits_of_instance};
-use super::{BlasRoot, Instance};
+use super::{BlasRoot, Instance, root};
 use crate::beam::{Beam, Limits};
 use crate::light::Light;
 use crate::node::{Node, kind};
 use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
+use crate::trail::leaf_parts;
 use crate::unroll::each;
 
 /// Rows of [`Children`] of layouts without limits: those of a summary in full.
@@ -109,30 +110,51 @@ pub fn bottom_child<N: Node<W>, const W: usize>(
     child
 }
 
-/// Child `slot` of node `index` of the top level: of its instance, or of the node below.
+/// Child `slot` of node `index` of the top level, whose nodes begin at `first`: of its instance, or of the node below.
 #[inline(always)]
 #[must_use]
 pub fn top_child<N: Node<W>, const W: usize>(
     nodes: &[N],
+    first: u32,
     instances: &[Instance],
     roots: &[BlasRoot],
     index: u32,
     slot: usize,
 ) -> Child<N::Summary> {
     let (to, link) = (nodes[index as usize].kind(slot), nodes[index as usize].link(slot));
+    let below = link.wrapping_add(first);
     let mut child = Child::EMPTY;
-    if to == kind::MESH && link < instances.len() as u32 {
-        let instance = &instances[link as usize];
+    if to == kind::MESH {
+        child = leaf_child(nodes, instances, roots, link);
+    } else if to == kind::INNER && below < nodes.len() as u32 {
+        child = inner_child(nodes, below);
+    }
+    child
+}
+
+/// Summary and limits of the [leaf](crate::trail::leaf) `link` of the top level: an instance, or a part of one.
+#[inline(always)]
+pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
+    nodes: &[N],
+    instances: &[Instance],
+    roots: &[BlasRoot],
+    link: u32,
+) -> Child<N::Summary> {
+    let (index, part) = leaf_parts(link);
+    let mut child = Child::EMPTY;
+    if index < instances.len() as u32 {
+        let instance = &instances[index as usize];
         let blas = instance.blas;
         if blas < roots.len() as u32 {
-            let local = roots[blas as usize].summary::<N::Summary>();
-            child.summary = local.to_world::<N::Light>(instance);
+            let mut local = roots[blas as usize];
+            if part > 0 && local.node < nodes.len() as u32 {
+                local = root(nodes, nodes[local.node as usize].link((part as usize - 1) % W));
+            }
+            child.summary = local.summary::<N::Summary>().to_world::<N::Light>(instance);
             if has_limits::<N, W>() {
-                child.limits = limits_of_instance(nodes, &roots[blas as usize], instance);
+                child.limits = limits_of_instance(nodes, &local, instance);
             }
         }
-    } else if to == kind::INNER && link < nodes.len() as u32 {
-        child = inner_child(nodes, link);
     }
     child
 }

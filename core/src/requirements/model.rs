@@ -14,40 +14,17 @@ pub enum Layout {
     Moments,
     /// [`TwoSidedMomentNode`](crate::TwoSidedMomentNode), 20 bytes: no mean normal.
     TwoSidedMoments,
-    /// [`LeanMomentNode`](crate::LeanMomentNode), 20 bytes: no box and one deviation. No scene is told to take it.
-    LeanMoments,
-    /// [`FullMomentNode`](crate::FullMomentNode), 60 bytes. No scene is told to take it.
-    FullMoments,
 }
 
 impl Layout {
     /// All layouts.
-    pub const ALL: [Self; 4] = [
-        Self::Moments,
-        Self::TwoSidedMoments,
-        Self::LeanMoments,
-        Self::FullMoments,
-    ];
+    pub const ALL: [Self; 2] = [Self::Moments, Self::TwoSidedMoments];
 
     /// Name for options.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Moments => "moments",
-            Self::TwoSidedMoments => "two-sided",
-            Self::LeanMoments => "lean",
-            Self::FullMoments => "full",
-        }
+        ["moments", "two-sided"][self as usize]
     }
-}
-
-/// How many levels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Structure {
-    /// One tree over triangles that stand in the world ([`Bvh::single_level`](crate::Bvh::single_level)).
-    SingleLevel,
-    /// A tree over instances, and one over the triangles of each mesh.
-    TwoLevel,
 }
 
 /// What a light BVH keeps to be changed by. Each serves what the one before it does.
@@ -65,11 +42,7 @@ impl Updates {
     /// Name for options.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Nothing => "nothing",
-            Self::Instances => "instances",
-            Self::Meshes => "meshes",
-        }
+        ["nothing", "instances", "meshes"][self as usize]
     }
 }
 
@@ -78,11 +51,13 @@ impl Updates {
 pub struct Model {
     /// What nodes store.
     pub layout: Layout,
-    /// How many levels.
-    pub structure: Structure,
+    /// One tree over triangles that stand in the world ([`Bvh::single_level`](crate::Bvh::single_level)), instead of one over instances
+    /// and one over the triangles of each mesh.
+    pub single_level: bool,
     /// Children of a node.
     pub width: usize,
-    /// Share of uniform choice as the number of times that 1 is halved; 0 for none ([`Defensive`](crate::Defensive)).
+    /// Share of uniform choice as the number of times that 1 is halved; 0 for none ([`Defensive`](crate::Defensive)). Its lights are
+    /// found by trails.
     pub uniform_halvings: u32,
     /// Whether trails are kept, by which a given light's probability is found ([`NoTrails`](crate::bvh::NoTrails)).
     pub trails: bool,
@@ -94,44 +69,20 @@ impl Model {
     /// What serves any scene: [`LightBvh`](crate::LightBvh) in two levels.
     pub const DEFAULT: Self = Self {
         layout: Layout::Moments,
-        structure: Structure::TwoLevel,
+        single_level: false,
         width: 8,
         uniform_halvings: 6,
         trails: true,
         updates: Updates::Meshes,
     };
 
-    /// Says what of the model makes no sense or what is missing of what `requirements` ask for.
-    ///
-    /// # Errors
-    /// [`ModelError`], the first.
-    pub fn check(&self, requirements: &Requirements) -> Result<(), ModelError> {
-        let declared = requirements.declared;
-        if self.uniform_halvings > 0 && !self.trails {
-            return Err(ModelError::UniformWithoutTrails);
-        }
-        if declared.pmf && !self.trails {
-            return Err(ModelError::PmfWithoutTrails);
-        }
-        if self.updates < requirements.updates() {
-            return Err(ModelError::Updates(requirements.updates()));
-        }
-        if self.structure == Structure::SingleLevel && !requirements.one_level_is_enough() {
-            return Err(ModelError::SingleLevel);
-        }
-        Ok(())
-    }
-
     /// The type of a node, as Rust has it.
     #[must_use]
     pub fn node_type(&self) -> String {
-        let layout = match self.layout {
-            Layout::Moments => "MomentNode",
-            Layout::TwoSidedMoments => "TwoSidedMomentNode",
-            Layout::LeanMoments => "LeanMomentNode",
-            Layout::FullMoments => "FullMomentNode",
-        };
-        format!("{layout}<{}>", self.width)
+        match self.layout {
+            Layout::Moments => format!("MomentNode<{}>", self.width),
+            Layout::TwoSidedMoments => format!("TwoSidedMomentNode<{}>", self.width),
+        }
     }
 
     /// The type of the importance, as Rust has it.
@@ -146,11 +97,7 @@ impl Model {
     /// The type of the light BVH, as Rust has it.
     #[must_use]
     pub fn type_name(&self) -> String {
-        let owner = match self.updates {
-            Updates::Nothing => "StaticBvh",
-            Updates::Instances => "StaticMeshBvh",
-            Updates::Meshes => "Bvh",
-        };
+        let owner = ["StaticBvh", "StaticMeshBvh", "Bvh"][self.updates as usize];
         let trails = if self.trails { "" } else { ", NoTrails" };
         let (node, importance, width) = (self.node_type(), self.importance_type(), self.width);
         format!("{owner}<{node}, {importance}, {width}{trails}>")
@@ -160,49 +107,42 @@ impl Model {
 /// The type, and how it is built.
 impl fmt::Display for Model {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let structure = match self.structure {
-            Structure::SingleLevel => "one level",
-            Structure::TwoLevel => "two levels",
+        let levels = if self.single_level {
+            "one level"
+        } else {
+            "two levels"
         };
-        write!(f, "{}, {structure}", self.type_name())
+        write!(f, "{}, {levels}", self.type_name())
     }
 }
 
-/// Why a model is not sufficient.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum ModelError {
-    /// A share of uniform choice finds its lights by trails.
-    UniformWithoutTrails,
-    /// Probabilities of given lights are found by trails.
-    PmfWithoutTrails,
-    /// So much changes, and less is kept to change it by.
-    Updates(Updates),
-    /// Instances move, are dimmed, come, go or share meshes, or several meshes change.
-    SingleLevel,
-}
-
-impl fmt::Display for ModelError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::UniformWithoutTrails => {
-                "a share of uniform choice finds its lights by trails; keep the trails or take no share"
-            }
-            Self::PmfWithoutTrails => {
-                "probabilities of given lights are asked for, and found by trails; keep the trails or declare that none is asked for"
-            }
-            Self::Updates(Updates::Meshes) => {
-                "meshes deform, vary in emission or come, which takes their triangles; keep updates of meshes or declare that meshes stay"
-            }
-            Self::Updates(_) => {
-                "instances change, and nothing is kept to refit them by; keep updates of instances or declare that nothing changes"
-            }
-            Self::SingleLevel => {
-                "instances move, are dimmed, come, go or share a mesh, or several meshes change, which one level cannot follow; take two \
-                 levels"
-            }
-        })
+impl Requirements {
+    /// The smallest model that is sufficient. Layout, trails and updates keep the bits of probabilities. One level in place of
+    /// several, or of a mesh that stands elsewhere than at the identity, is another tree, and without uniform choice
+    /// probabilities are others too: what that does to the variance depends on the scene, and `lightbvh inspect` measures it.
+    #[must_use]
+    pub fn model(&self) -> Model {
+        let d = self.declared;
+        Model {
+            layout: if self.one_sided == 0 && !d.meshes {
+                Layout::TwoSidedMoments
+            } else {
+                Layout::Moments
+            },
+            // Of one mesh that stays where it is, or of several that stay as they are, without another copy of a triangle.
+            single_level: !(d.transforms || d.radiance || d.instances || d.meshes)
+                && (!d.triangles || self.meshes.max(self.instances) < 2)
+                && self.most_instances < 2,
+            uniform_halvings: if d.pmf { Model::DEFAULT.uniform_halvings } else { 0 },
+            trails: d.pmf,
+            updates: if d.triangles || d.meshes {
+                Updates::Meshes
+            } else if d.transforms || d.radiance || d.instances {
+                Updates::Instances
+            } else {
+                Updates::Nothing
+            },
+            ..Model::DEFAULT
+        }
     }
 }
-
-impl core::error::Error for ModelError {}

@@ -5,7 +5,6 @@ use super::sample::{SampledLight, Started, begin};
 use crate::importance::ImportanceModel;
 use crate::node::Node;
 use crate::point::Receiver;
-use crate::prefetch::fetch;
 use crate::tree::LightTree;
 
 /// Walks that take turns: enough to hide the latency of memory behind the others' arithmetic, few enough to stay in the first
@@ -52,7 +51,7 @@ fn turns<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
             if !walk.walk.done {
                 walk.walk.step(tree, point);
                 left |= !walk.walk.done;
-                fetch(tree.nodes, walk.walk.index);
+                walk.walk.fetch_node(tree);
             }
         }
     }

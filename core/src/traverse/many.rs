@@ -7,7 +7,6 @@ use super::walk::{leading, narrowed};
 use crate::importance::ImportanceModel;
 use crate::node::Node;
 use crate::point::Receiver;
-use crate::prefetch::fetch;
 use crate::tree::LightTree;
 
 /// Walks that have come the same way.
@@ -161,7 +160,7 @@ fn in_rows<
                     let sampled = child.started.end(tree);
                     out[child.first..k].fill(sampled);
                 } else {
-                    fetch(tree.nodes, child.started.walk.index);
+                    child.started.walk.fetch_node(tree);
                     next[left] = child;
                     left += 1;
                 }

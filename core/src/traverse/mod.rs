@@ -13,8 +13,6 @@ mod choose;
 mod many;
 mod random;
 mod sample;
-#[cfg(not(target_arch = "spirv"))]
-mod split;
 #[cfg(test)]
 mod tests;
 mod walk;
@@ -81,24 +79,6 @@ impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N, I, W
         widest::sample_spaced(self, point, random.into(), first, count, sampled);
     }
 
-    /// Chooses up to `MOST` lights for `point`, one out of each of as many subtrees, and returns how many there are: adaptive
-    /// splitting (Conty Estevez & Kulla 2018, section 5.4). Again and again the subtree is split whose part of the weight, times the
-    /// spread of its lights against their distance, is greatest, until there would be more than `MOST`.
-    ///
-    /// `pmf` is the probability of a light within its subtree, and the *sum* of f / pmf over the lights has the sum of f over all
-    /// lights as its expectation: each needs its own shadow ray. No share of the numbers chooses among all lights alike. On the CPU,
-    /// for comparison: with as many lights [`sample_many`](Self::sample_many) has less variance (`docs/walk.md`).
-    #[cfg(not(target_arch = "spirv"))]
-    #[must_use]
-    pub fn sample_split<const MOST: usize>(
-        &self,
-        point: &ShadingPoint,
-        random: impl Into<Random64>,
-    ) -> ([SampledLight; MOST], usize) {
-        const { assert!(MOST > 0 && MOST <= 256, "1 to 256") };
-        split::sample_split(self, point, random.into())
-    }
-
     /// The probability with which [`sample`](Self::sample) returns light `light` of instance `instance`
     /// at `point`: 0 if there is no such light. A single level has one instance, whichever is named.
     #[inline(always)]
@@ -146,21 +126,6 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
     {
         const { assert!(COUNT > 0 && COUNT <= 256, "1 to 256") };
         many::sample_many(self, receiver, random.into())
-    }
-
-    /// [`sample_spaced`](Self::sample_spaced) for such a receiver, to the words of [`sample_for`](Self::sample_for).
-    #[inline]
-    pub fn sample_spaced_for<P: Receiver>(
-        &self,
-        receiver: &P,
-        random: impl Into<Random64>,
-        first: u32,
-        count: u32,
-        sampled: &mut [SampledLight],
-    ) where
-        I: ImportanceModel<N, W, P>,
-    {
-        many::sample_spaced(self, receiver, random.into(), first, count, sampled);
     }
 
     /// The probability with which [`sample_for`](Self::sample_for) returns light `light` of instance `instance`: as

@@ -102,12 +102,9 @@ impl<P: Receiver> Started<P> {
     ) -> SampledLight {
         let walk = &self.walk;
         let chosen = self.light != INVALID;
-        let reached = walk.triangle != INVALID;
-        let instance = if chosen {
-            self.instance
-        } else {
-            tree.instance_of(walk.instance)
-        };
+        // The path of an instance that is not in the tree yet leads to another one.
+        let reached = (walk.triangle != INVALID) & (!chosen | (walk.instance == self.instance));
+        let instance = if chosen { self.instance } else { walk.instance };
         let light = if chosen {
             self.light
         } else {
@@ -143,8 +140,7 @@ pub(super) fn pmf<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W:
         walk.step(tree, point);
         done = walk.done;
     }
-    let found =
-        (walk.triangle == triangle) & (tree.instance_of(walk.instance) == instance) & (triangle != INVALID);
+    let found = (walk.triangle == triangle) & (walk.instance == instance) & (triangle != INVALID);
     let by_tree = if found { walk.probability() } else { 0.0 };
     let uniform = uniform_probability::<N, I, P, W>(tree, instance);
     if is_light(tree, light, instance) {

@@ -8,18 +8,24 @@ use core::marker::PhantomData;
 use super::*;
 use crate::importance::{Defensive, ImportanceModel};
 use crate::instance::Instance;
-use crate::node::{FullMomentNode, kind};
+use crate::node::{MomentNode, kind};
 use crate::point::ShadingPoint;
 use crate::trail::{BitTrail, max_levels};
-use crate::tree::{INVALID, LightTree};
+use crate::tree::{INVALID, LightTree, Links};
 
-type Node = FullMomentNode<4>;
+type Node = MomentNode<4>;
+
+/// Words of a node: rows of kinds and links, and one that takes the weights.
+type Words = [[u32; 4]; 6];
+const KIND: usize = 1;
+const WEIGHT: usize = 2;
+const LINK: usize = 5;
 
 std::thread_local! {
     static NODES: Cell<u32> = const { Cell::new(0) };
 }
 
-/// The flux alone, whatever it is; counts its calls.
+/// The weights as they are in the words; counts its calls.
 struct Flux;
 
 impl ImportanceModel<Node, 4> for Flux {
@@ -29,8 +35,8 @@ impl ImportanceModel<Node, 4> for Flux {
         let calls = NODES.get() + 1;
         NODES.set(calls);
         assert!(calls < 1000, "the walk does not end");
-        let words: [[u32; 4]; 15] = bytemuck::cast(*node);
-        words[0].map(f32::from_bits)
+        let words: Words = bytemuck::cast(*node);
+        words[WEIGHT].map(f32::from_bits)
     }
 }
 
@@ -41,11 +47,11 @@ const POINT: ShadingPoint = ShadingPoint {
 
 /// A node of (weight, kind, link).
 fn node(children: &[(f32, u32, u32)]) -> Node {
-    let mut words = [[0; 4]; 15];
+    let mut words = Words::default();
     for (slot, &(weight, kind, link)) in children.iter().enumerate() {
-        words[0][slot] = weight.to_bits();
-        words[13][slot] = link;
-        words[14][slot] = kind;
+        words[WEIGHT][slot] = weight.to_bits();
+        words[LINK][slot] = link;
+        words[KIND][slot] = kind;
     }
     bytemuck::cast(words)
 }
@@ -58,9 +64,12 @@ fn tree<'a>(
 ) -> LightTree<'a, Node, Flux, 4> {
     LightTree {
         nodes,
+        top: nodes,
+        first: 0,
         root: 0,
         instances,
         trails,
+        links: Links::default(),
         trail_words: 2,
         live: instances.len() as u32,
         lights: (trails.len() / 2) as u32,
@@ -238,9 +247,12 @@ fn uniform_probabilities_hold_for_any_counts() {
     }];
     let tree = LightTree::<Node, Defensive<Flux, 1>, 4> {
         nodes: &nodes,
+        top: &nodes,
+        first: 0,
         root: 0,
         instances: &instances,
         trails: &[],
+        links: Links::default(),
         trail_words: 2,
         live: 1 << 16,
         lights: 0,

@@ -6,7 +6,7 @@ use crate::exact;
 use crate::importance::ImportanceModel;
 use crate::node::{Node, kind};
 use crate::point::{Receiver, ShadingPoint};
-use crate::trail::{Path, max_levels};
+use crate::trail::{Path, leaf_parts, max_levels};
 use crate::tree::{INVALID, LightTree};
 
 /// Number of halvings after which a probability falls no further: it is never below 2^-99 where it is positive. Such a light
@@ -24,7 +24,7 @@ pub(super) struct Walk<P = ShadingPoint> {
     pub index: u32,
     /// The triangle reached, or [`INVALID`].
     pub triangle: u32,
-    /// The leaf of the top level passed, an instance or a part of one, or [`INVALID`].
+    /// The instance passed, or [`INVALID`].
     pub instance: u32,
     /// Whether the walk has ended.
     pub done: bool,
@@ -55,7 +55,7 @@ impl<P: Receiver> Walk<P> {
         path: Path,
     ) -> Self {
         let mut walk = Self {
-            index: tree.root,
+            index: tree.root.wrapping_add(tree.first),
             triangle: INVALID,
             instance: INVALID,
             done: tree.depth == 0,
@@ -95,8 +95,28 @@ impl<P: Receiver> Walk<P> {
     /// The node to look at. An index out of range (hostile words) reads node 0.
     #[inline(always)]
     pub fn node<'a, N, I, const W: usize>(&self, tree: &LightTree<'a, N, I, W>) -> &'a N {
-        let valid = self.index < tree.nodes.len() as u32;
-        &tree.nodes[if valid { self.index as usize } else { 0 }]
+        tree.node(self.is_above::<W>(), self.index)
+    }
+
+    /// Whether it is in the tree that it started in.
+    #[inline(always)]
+    pub fn is_above<const W: usize>(&self) -> bool {
+        self.position < max_levels(W)
+    }
+
+    /// Asks for the node to look at early.
+    #[inline(always)]
+    pub fn fetch_node<N: Node<W>, I, const W: usize>(&self, tree: &LightTree<'_, N, I, W>) {
+        #[cfg(not(target_arch = "spirv"))]
+        crate::prefetch::fetch(
+            if self.is_above::<W>() {
+                tree.top
+            } else {
+                tree.nodes
+            },
+            self.index,
+        );
+        let _ = tree;
     }
 
     /// The child that the path to follow takes.
@@ -114,7 +134,8 @@ impl<P: Receiver> Walk<P> {
         node: &N,
         share: Share,
     ) -> u32 {
-        let valid = self.index < tree.nodes.len() as u32;
+        let is_above = self.is_above::<W>();
+        let valid = tree.has_node(is_above, self.index);
         let slot = share.slot as usize;
         let (to, link) = (node.kind(slot), node.link(slot));
         let passes = valid & (share.count > 0) & (share.count <= self.range);
@@ -124,25 +145,30 @@ impl<P: Receiver> Walk<P> {
         let levels = max_levels(W);
         // Running off the end of a tree's levels (hostile words only) must not look like the next tree's first level.
         let last_of_tree = self.position + 1 == levels || self.position + 1 == 2 * levels;
-        let enters =
-            passes & (to == kind::MESH) & (self.position < levels) & (link < tree.instances.len() as u32);
+        let (leaf, part) = leaf_parts(link);
+        let enters = passes & (to == kind::MESH) & is_above & (leaf < tree.instances.len() as u32);
         let descends = passes & (to == kind::INNER) & !last_of_tree;
         let at_light = passes & (to == kind::LIGHT);
         self.triangle = if at_light { link } else { INVALID };
         self.steps = self.steps.wrapping_sub(1);
         self.done = !(enters | descends) | (self.steps == 0);
         if enters {
-            let instance = &tree.instances[link as usize];
-            self.instance = link;
+            let instance = &tree.instances[leaf as usize];
+            self.instance = leaf;
             self.index = instance.root;
-            // A part begins one level below the root.
-            self.position = levels + u32::from(instance.is_part());
+            self.position = levels;
+            if part > 0 {
+                // A part begins one level below the root.
+                self.index = tree.node(false, self.index).link((part as usize - 1) % W);
+                self.position += 1;
+            }
             self.point = world.to_local(instance);
             if N::HAS_BEAMS {
                 self.slack = instance.slack();
             }
         } else {
-            self.index = if descends { link } else { self.index };
+            let below = link.wrapping_add(if is_above { tree.first } else { 0 });
+            self.index = if descends { below } else { self.index };
             self.position += u32::from(descends);
         }
         doublings

@@ -54,10 +54,8 @@ pub enum What {
     TrailLow,
     /// High word of the trail of a leaf.
     TrailHigh,
-    /// How often a node is in the list of levels: once.
+    /// How often a record stands in its list: once.
     Listed,
-    /// Level of a node in the list: that of its range, and below the range before.
-    ListedLevel,
     /// The place of a node of the top level in the node above it, in the record of its number.
     Place,
     /// Number of children of a node of the top level, at least two below the root.
@@ -98,8 +96,7 @@ impl fmt::Display for What {
             Self::Place => write!(f, "place in the node above"),
             Self::Children => write!(f, "number of children"),
             Self::Parts => write!(f, "parts"),
-            Self::Listed => write!(f, "times in the list of levels"),
-            Self::ListedLevel => write!(f, "level in the list of levels"),
+            Self::Listed => write!(f, "times in its list"),
             Self::Word(word) => write!(f, "word {word} of the node"),
             Self::Bounds(component) => write!(f, "{component} after a refit"),
             Self::Containment(component) => write!(f, "{component} within the parent's"),

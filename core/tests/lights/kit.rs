@@ -1,7 +1,8 @@
-//! Numbers that look random and are the same in every run, vectors in `f64`, a room.
+//! Numbers that look random and are the same in every run, vectors in `f64`, a room, variances in it.
 
 use lightbvh::exact::{hash, unit_f32};
-use lightbvh::{EmissiveTriangle, Lights};
+use lightbvh::importance::{ImportanceModel, Receiver};
+use lightbvh::{BuildParams, Bvh, EmissiveTriangle, LightNode, Lights, Transform};
 
 /// Hashes of 1, 2, 3 and so on after its seed.
 pub struct Random(pub u32);
@@ -83,4 +84,68 @@ pub fn room(random: &mut Random) -> Lights {
         }
     };
     Lights::new((0..200).map(triangle).collect()).expect("in the domain")
+}
+
+/// The first `lights` of a room, in `count` instances that turn, stretch and mirror.
+pub fn rooms<N: LightNode<W>, I, const W: usize>(
+    random: &mut Random,
+    lights: usize,
+    count: u32,
+) -> Bvh<N, I, W> {
+    let mut bvh = Bvh::default();
+    let own = room(random).triangles()[..lights].to_vec();
+    let mesh = bvh.add_mesh(own).expect("in the domain");
+    for k in 0..count {
+        let s = if k % 2 == 0 { 1.0 } else { -1.0 };
+        let map = Transform {
+            columns: [[0.0, 1.5, 0.0], [-0.7, 0.0, 0.2], [0.0, 0.1, s]],
+            translation: random.vector(6.0),
+        };
+        bvh.add_instance(mesh, map).expect("in the domain");
+    }
+    bvh.refit();
+    bvh
+}
+
+/// Mean relative variance of one sample in a room, by enumeration of all lights. `query` returns a
+/// receiver as the importance takes it, and the light that arrives there; receivers without light do not count.
+pub fn variance<N, I, P, F, const W: usize>(
+    two: bool,
+    count: u32,
+    query: impl Fn(&mut Random) -> (P, F),
+) -> f64
+where
+    N: LightNode<W>,
+    P: Receiver,
+    I: ImportanceModel<N, W, P>,
+    F: Fn(&EmissiveTriangle) -> f64,
+{
+    let random = &mut Random(4);
+    let lights = room(random);
+    let bvh: Bvh<N, I, W> = if two {
+        Bvh::two_level(&lights, &BuildParams::default())
+    } else {
+        Bvh::single_level(&lights, &BuildParams::default())
+    };
+    let (mut all, mut reached) = (0.0, 0.0);
+    for index in 0..count {
+        let (told, received) = query(random);
+        let (mut mean, mut square, mut sum) = (0.0, 0.0, 0.0);
+        for (light, triangle) in (0..).zip(lights.triangles()) {
+            let instance = if two { triangle.mesh } else { 0 };
+            let pmf = f64::from(bvh.tree().pmf_for(&told, light, instance));
+            let f = received(triangle);
+            assert!(pmf > 0.0 || f == 0.0, "{light} is lost at receiver {index}");
+            mean += f;
+            square += if f > 0.0 { f * f / pmf } else { 0.0 };
+            sum += pmf;
+        }
+        assert!((sum - 1.0).abs() < 1e-5, "{sum}");
+        if mean > 0.0 {
+            all += square / (mean * mean) - 1.0;
+            reached += 1.0;
+        }
+    }
+    assert!(reached > 0.9 * f64::from(count), "{reached}");
+    all / reached
 }

@@ -1,14 +1,14 @@
 //! A surface that light reaches from both sides, against sums over all lights in `f64`.
 
-use crate::kit::{Random, Wide, cross, dot, minus, room, wide};
+use crate::kit::{self, Random, Wide, cross, dot, minus, room, rooms, wide};
 use lightbvh::error::PointError;
 use lightbvh::exact::hash;
 use lightbvh::importance::{ImportanceModel, Linked, LinkedPoint, Transmissive, TransmissivePoint};
 use lightbvh::light::LinkedTriangle;
 use lightbvh::node::{LinkedMomentNode, Lit};
 use lightbvh::{
-    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, FullMomentNode, FullNode, LightNode,
-    Lights, MomentNode, Moments, Receiver, ShadingPoint, Transform,
+    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, LightNode, Lights, MomentNode, Moments,
+    Receiver, ShadingPoint,
 };
 
 /// Irradiance, W/m², of both sides of a surface at `p` by a triangle: the integral over it, by `N`² pieces.
@@ -98,9 +98,7 @@ fn weights_are_sums<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>()
 #[test]
 fn weights_are_the_sum_of_both_sides() {
     weights_are_sums::<MomentNode<8>, Moments, 8>();
-    weights_are_sums::<FullMomentNode<8>, Moments, 8>();
     weights_are_sums::<CompactNode<4>, Eq4, 4>();
-    weights_are_sums::<FullNode<4>, Eq4, 4>();
 }
 
 #[test]
@@ -153,50 +151,17 @@ fn no_part_at_all_counts_both_alike() {
     }
 }
 
-/// Mean relative variance of one sample, by enumeration of all lights, of `I` as told, and the greatest deviation of a sum of
-/// pmfs from 1.
-fn variance<N: LightNode<W>, I, P, const W: usize>(
+/// Mean relative variance of one sample by `I`, for surfaces.
+fn variance<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     two: bool,
     parts: [f32; 2],
     told: impl Fn(&TransmissivePoint) -> P,
-) -> f64
-where
-    P: Receiver,
-    I: ImportanceModel<N, W, P>,
-{
-    const POINTS: u32 = 60;
-    let random = &mut Random(4);
-    let lights = room(random);
-    let bvh: Bvh<N, I, W> = if two {
-        Bvh::two_level(&lights, &BuildParams::default())
-    } else {
-        Bvh::single_level(&lights, &BuildParams::default())
-    };
-    let (mut all, mut count) = (0.0, 0.0);
-    for _ in 0..POINTS {
+) -> f64 {
+    kit::variance::<N, I, P, _, W>(two, 60, |random| {
         let receiver = surface(random, parts);
-        let query = told(&receiver);
-        let (mut mean, mut square, mut sum) = (0.0, 0.0, 0.0);
-        for (light, triangle) in (0..).zip(lights.triangles()) {
-            let pmf = f64::from(
-                bvh.tree()
-                    .pmf_for(&query, light, if two { triangle.mesh } else { 0 }),
-            );
-            let f = received::<6>(triangle, &receiver);
-            assert!(pmf > 0.0 || f == 0.0, "{light} is lost at {receiver:?}");
-            mean += f;
-            square += if f > 0.0 { f * f / pmf } else { 0.0 };
-            sum += pmf;
-        }
-        assert!((sum - 1.0).abs() < 1e-5, "{sum}");
-        // Near the walls of the room nothing may be in front.
-        if mean > 0.0 {
-            all += square / (mean * mean) - 1.0;
-            count += 1.0;
-        }
-    }
-    assert!(count > 0.9 * f64::from(POINTS), "{count}");
-    all / count
+        let of = move |light: &EmissiveTriangle| received::<6>(light, &receiver);
+        (told(&receiver), of)
+    })
 }
 
 /// Against a point in a volume at the same place, which is all that could be said of such a surface before.
@@ -217,8 +182,8 @@ fn both_sides_pay() {
         }
     }
     let (without, with) = (
-        variance::<FullNode<4>, Eq4, _, 4>(false, [0.8, 0.1], volume),
-        variance::<FullNode<4>, Transmissive<Eq4>, _, 4>(false, [0.8, 0.1], |t| *t),
+        variance::<CompactNode<4>, Eq4, _, 4>(false, [0.8, 0.1], volume),
+        variance::<CompactNode<4>, Transmissive<Eq4>, _, 4>(false, [0.8, 0.1], |t| *t),
     );
     println!("Eq. 4: {without:.3} in a volume, {with:.3} told");
     assert!(with < without, "{with} of {without}");
@@ -229,20 +194,7 @@ fn both_sides_pay() {
 fn estimates_converge() {
     const SAMPLES: u32 = 40_000;
     let random = &mut Random(6);
-    let mut bvh: Bvh<MomentNode<8>, Defensive<Transmissive<Moments>, 6>, 8> = Bvh::default();
-    let own = room(random);
-    let mesh = bvh
-        .add_mesh(own.triangles()[..60].to_vec())
-        .expect("in the domain");
-    for k in 0..4 {
-        let s = if k % 2 == 0 { 1.0 } else { -1.0 };
-        let map = Transform {
-            columns: [[0.0, 1.5, 0.0], [-0.7, 0.0, 0.2], [0.0, 0.1, s]],
-            translation: random.vector(6.0),
-        };
-        bvh.add_instance(mesh, map).expect("in the domain");
-    }
-    bvh.refit();
+    let bvh: Bvh<MomentNode<8>, Defensive<Transmissive<Moments>, 6>, 8> = rooms(random, 60, 4);
     let world = bvh.world_lights();
     for parts in PARTS {
         let receiver = surface(random, parts).checked().expect("in the domain");

@@ -4,6 +4,7 @@ mod staged;
 
 use arbitrary::{Result, Unstructured};
 use lightbvh::bvh::{Added, EditReason};
+use lightbvh::exact::hash;
 use lightbvh::{Bvh, Edit, EmissiveTriangle, InstanceId, LightNode, MeshId, Transform};
 
 use super::model::{Mesh, Model, Placed, within};
@@ -56,60 +57,38 @@ struct Staged {
     added: Vec<(MeshId, Transform, f32)>,
 }
 
-/// What a batch changes, as far as its work may grow with it.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Touched {
-    /// Instances added, moved, dimmed, removed, or of a mesh that bends.
-    pub instances: usize,
-    /// Triangles of meshes added or bent as a whole.
-    pub triangles: usize,
-    /// Triangles that alone changed in theirs.
-    pub single: usize,
-    /// Meshes added or bent.
-    pub meshes: usize,
-}
-
-impl Touched {
-    fn by(edits: &[Edit], model: &Model) -> Self {
-        let mut touched = Self::default();
-        for edit in edits {
-            match edit {
-                Edit::AddMesh { triangles } => {
-                    touched.triangles += triangles.len();
-                    touched.meshes += 1;
-                }
-                Edit::SetTriangles { mesh, triangles } | Edit::SetTriangleRange { mesh, triangles, .. } => {
-                    match edit {
-                        Edit::SetTriangleRange { .. } => touched.single += triangles.len(),
-                        _ => touched.triangles += triangles.len(),
-                    }
-                    touched.meshes += 1;
-                    // Those added or removed by the same batch count themselves.
-                    let users = model.instances.iter().filter(|placed| placed.mesh == *mesh);
-                    touched.instances += users.count();
-                }
-                _ => touched.instances += 1,
-            }
-        }
-        touched
-    }
-}
-
-/// Does a batch to the scene, and to the model if it is not refused; returns what it changed.
+/// Applies a batch to the scene and its twin, and to the model if it is not refused; returns whether it was applied.
 pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
     u: &mut Unstructured<'_>,
     model: &mut Model,
     scene: &mut Bvh<N, (), W>,
+    twin: Option<&mut Bvh<N, (), W>>,
     first: bool,
     thorough: bool,
-) -> Result<Touched> {
+) -> Result<bool> {
     let mut staged = Staged {
         model: model.clone(),
         meshes: Vec::new(),
         added: Vec::new(),
     };
     let (mut edits, mut verdicts) = (Vec::new(), Vec::new());
-    for _ in 0..1 + u.arbitrary::<u8>()? % 5 {
+    let bits: u8 = u.arbitrary()?;
+    if let Some(mesh) = staged
+        .model
+        .meshes
+        .get(usize::from(bits >> 3 & 3))
+        .filter(|_| bits & 0x80 != 0)
+    {
+        // Enough instances that a single one is less than a quarter.
+        let (mesh, seed) = (mesh.id, u.arbitrary::<u8>()?);
+        for k in 0..4 + seed % 32 {
+            let axis = |axis: u32| f32::from(hash(u32::from(seed) << 16 | u32::from(k) << 8 | axis) as i8);
+            let (edit, verdict) = staged.add_instance(mesh, Transform::at([0, 1, 2].map(axis)), 1.0);
+            edits.push(edit);
+            verdicts.push(verdict);
+        }
+    }
+    for _ in 0..1 + bits % 5 {
         let (edit, verdict) = one(u, &mut staged, first)?;
         edits.push(edit);
         verdicts.push(verdict);
@@ -127,19 +106,29 @@ pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
         .filter(|placed| staged.model.gone_instances.contains(&placed.id))
         .map(|placed| placed.lights.clone())
         .collect();
-    let mut touched = Touched::by(&edits, model);
-    match scene.apply(edits) {
+    let same = twin.map(|twin| {
+        let edits = edits.iter().map(|edit| named(edit, scene, twin)).collect();
+        let done = twin.apply(edits).map(|_| ()).map_err(|error| error.edit);
+        (done, twin.take_removed_lights())
+    });
+    let done = scene.apply(edits);
+    let told = scene.take_removed_lights();
+    if let Some(same) = same {
+        let done = done.as_ref().map(|_| ()).map_err(|error| error.edit);
+        assert_eq!(same, (done, told.clone()));
+    }
+    match done {
         Ok(updated) => {
             assert!(
                 verdicts.iter().all(|verdict| verdict.done),
                 "a wrong edit was done"
             );
-            let mut told = scene.take_removed_lights();
+            let (mut told, mut removed) = (told, removed);
             told.sort_unstable_by_key(|range| range.start);
-            let mut removed = removed;
             removed.sort_unstable_by_key(|range| range.start);
             assert_eq!(told, removed);
             *model = staged.done(&updated, scene);
+            Ok(true)
         }
         Err(error) => {
             let verdict = verdicts[error.edit];
@@ -147,10 +136,33 @@ pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
             assert!(!error.to_string().is_empty());
             let before = before.expect("refused, so not all were sound");
             assert_same(&before, scene, thorough);
-            touched = Touched::default();
+            Ok(false)
         }
     }
-    Ok(touched)
+}
+
+/// An edit of a scene by the ids of its twin.
+fn named<N: LightNode<W>, const W: usize>(edit: &Edit, scene: &Bvh<N, (), W>, twin: &Bvh<N, (), W>) -> Edit {
+    let mut edit = edit.clone();
+    match &mut edit {
+        Edit::AddInstance { mesh, .. }
+        | Edit::SetTriangles { mesh, .. }
+        | Edit::SetTriangleRange { mesh, .. }
+        | Edit::RemoveMesh(mesh)
+            if scene.mesh_id(mesh.index()) == Some(*mesh) =>
+        {
+            *mesh = twin.mesh_id(mesh.index()).expect("as in the scene");
+        }
+        Edit::SetTransform { instance, .. }
+        | Edit::SetRadiance { instance, .. }
+        | Edit::RemoveInstance(instance)
+            if scene.instance_id(instance.index()) == Some(*instance) =>
+        {
+            *instance = twin.instance_id(instance.index()).expect("as in the scene");
+        }
+        _ => {}
+    }
+    edit
 }
 
 /// A refused batch changes nothing.
@@ -163,6 +175,7 @@ fn assert_same<N: LightNode<W> + std::fmt::Debug, const W: usize>(
         bytemuck::cast_slice(list)
     }
     assert_eq!(words(before.nodes()), words(after.nodes()));
+    assert_eq!(words(before.top_nodes()), words(after.top_nodes()));
     assert_eq!(words(before.instances()), words(after.instances()));
     assert_eq!(words(before.triangles()), words(after.triangles()));
     assert_eq!(words(before.roots()), words(after.roots()));

@@ -1,7 +1,6 @@
 //! The passes on the CPU, over all cores of the current rayon pool.
 
-use bytemuck::cast_slice;
-use lightbvh::{Lights, SampledLight};
+use lightbvh::SampledLight;
 use lightbvh_kernels::bvh::{Choice, Standard, TreeOf, WIDTH};
 use lightbvh_kernels::query::{Query, pmf_query, sample_query};
 use lightbvh_kernels::render::RenderParams;
@@ -46,13 +45,6 @@ impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
 impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for CpuBackend<C, W> {
     fn node_record(&self) -> Record {
         node_record::<C::Node, W>()
-    }
-
-    fn refit(&mut self, lights: &Lights<C::Light>) -> Result<Timed<Vec<u32>>, BackendError> {
-        let Timed { value, time } = Timed::of(|| self.bvh.follow(lights));
-        value?;
-        let value = self.words();
-        Ok(Timed { value, time })
     }
 
     fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
@@ -163,7 +155,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> CpuBackend<C, W> {
 
     /// The words of all nodes.
     fn words(&self) -> Vec<u32> {
-        cast_slice(self.bvh.tree().nodes).to_vec()
+        super::node_words(&self.bvh)
     }
 
     /// What `answer` says to each query.

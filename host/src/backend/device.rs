@@ -4,25 +4,24 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::bytes_of;
-use lightbvh::bvh::MeshCounts;
+use lightbvh::SampledLight;
 use lightbvh::refit::BlasRoot;
-use lightbvh::{Lights, SampledLight};
-use lightbvh_gpu::{Buffer as Array, Mirror, Refit};
+use lightbvh_gpu::{Buffer as Array, Mirror};
 use lightbvh_kernels::WORKGROUP;
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
-use lightbvh_kernels::path::PathPush;
 use lightbvh_kernels::query::{Query, QueryPush};
 use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
+use lightbvh_kernels::shading::pick::by;
 
 use super::batches::{all_candidates, in_batches};
-use super::device_arrays::{DeviceEmitters, DeviceTree, HeldScene, device_time, kernel_name};
+use super::device_arrays::{DeviceEmitters, DeviceTree, HeldScene, choosing, device_time};
 use super::restir::device::resample;
 use super::{
     Backend, BackendError, Bvh, Integrator, Restir, RestirFrame, Sampler, SceneArrays, Timed, node_record,
 };
 use crate::scene::SceneLight;
-use crate::vulkan::{Binding, Buffer, Device, Kernel, Pass, Submission};
+use crate::vulkan::{Binding, Buffer, Device, Kernel, Pass};
 use crate::words::Record;
 
 /// Queries per dispatch: 28 MiB of them, within the smallest storage buffer range seen (128 MiB).
@@ -41,9 +40,6 @@ pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) list: Buffer<u32>,
     /// By which a refit's passes hand over from children to nodes.
     pub(super) children: Buffer<u32>,
-    /// The refit of everything, and of how many triangles the meshes are then; none after edits.
-    pub(super) refit: Option<Refit>,
-    pub(super) counts: MeshCounts,
     /// By which edits are followed.
     pub(super) mirror: Mirror,
     /// What was followed and is not yet submitted.
@@ -58,41 +54,30 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// # Errors
     /// [`BackendError`] when it does not fit, or the device fails.
     pub fn new(device: &'d Device, bvh: &Bvh<C, W>) -> Result<Self, BackendError> {
-        let mut new = Self::as_built(device, bvh)?;
-        new.refit_all(Pass::new())?;
+        let mut new = Self {
+            device,
+            tree: DeviceTree::new(device)?,
+            roots: Arc::new(device.buffer(0, 1)?),
+            list: device.buffer(0, 1)?,
+            children: device.buffer(0, 1)?,
+            mirror: Mirror::default(),
+            pending: None,
+            scene: HeldScene::default(),
+        };
+        // The copies of the first frame are the upload.
+        new.follow_ahead(bvh)?;
+        new.flush()?;
         Ok(new)
     }
 
-    /// Uploads a BVH whose own nodes wait for nothing, as of one that was built a moment ago: choices without kernels of a
-    /// refit have such.
-    ///
-    /// # Errors
-    /// [`BackendError`] when it does not fit, or the device fails.
-    pub(crate) fn as_built(device: &'d Device, bvh: &Bvh<C, W>) -> Result<Self, BackendError> {
-        // The copies of the first frame are the upload.
-        let mut mirror = Mirror::default();
-        let refit = mirror.follow(bvh).refit;
-        Ok(Self {
-            device,
-            tree: DeviceTree::upload::<C, W>(device, &bvh.tree(), bvh.triangles())?,
-            roots: Arc::new(device.upload(bvh.roots())?),
-            list: device.buffer(0, refit.list.len())?,
-            children: device.buffer(0, refit.children as usize / size_of::<u32>())?,
-            refit: Some(refit),
-            counts: bvh.mesh_counts(),
-            mirror,
-            pending: None,
-            scene: HeldScene::default(),
-        })
-    }
-
-    /// Overwrites the device's nodes, so that a refit has something to change.
+    /// Overwrites the device's nodes, those of bottom levels and of the top level, so that a refit has something to change.
     ///
     /// # Errors
     /// [`BackendError`] from the device.
-    pub fn write_nodes(&mut self, nodes: &[C::Node]) -> Result<(), BackendError> {
+    pub fn write_nodes(&mut self, nodes: &[C::Node], top: &[C::Node]) -> Result<(), BackendError> {
         let mut pass = self.led();
         pass.write(&self.tree.nodes, 0, nodes)?;
+        pass.write(&self.tree.nodes, self.tree.top.start, top)?;
         self.submit(&pass)?;
         Ok(())
     }
@@ -105,19 +90,6 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// The kernel of this choice.
     pub(super) fn kernel(&self, name: &str) -> Result<Arc<Kernel>, BackendError> {
         Ok(self.device.kernel(&format!("{name}{}", C::SUFFIX))?)
-    }
-
-    /// Refits everything after what `pass` does, without a wait.
-    fn refit_all(&mut self, pass: Pass<'_>) -> Result<Submission, BackendError> {
-        // The list is large and seldom changes hands.
-        let refit = self.refit.take().ok_or(BackendError::Edited)?;
-        let submitted = {
-            let mut pass: Pass<'_> = pass;
-            let listed = self.refit_by(&refit, &mut pass);
-            listed.and_then(|()| self.submit(&pass))
-        };
-        self.refit = Some(refit);
-        submitted
     }
 
     /// What a kernel of a refit takes, by the names of its bindings.
@@ -186,29 +158,9 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
         node_record::<C::Node, W>()
     }
 
-    fn refit(&mut self, lights: &Lights<C::Light>) -> Result<Timed<Vec<u32>>, BackendError> {
-        if self.refit.is_none() {
-            return Err(BackendError::Edited);
-        }
-        self.counts.check(lights)?;
-        self.flush()?;
-        let triangles = lights.triangles();
-        let held = &mut self.tree.emitters.triangles;
-        if Arc::get_mut(held).is_none() {
-            *held = Arc::new(self.device.buffer(triangles.len(), held.room())?);
-        }
-        let mut pass = Pass::new();
-        pass.write(held, 0, triangles)?;
-        let time = device_time(&self.refit_all(pass)?.wait()?);
-        Ok(Timed {
-            value: self.tree.nodes.read_words()?,
-            time,
-        })
-    }
-
     fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
         self.flush()?;
-        Ok(self.tree.nodes.read_words()?)
+        Ok(self.tree.node_words()?)
     }
 
     fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError> {
@@ -231,28 +183,27 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
         let candidates = all_candidates(params.candidates, params.scattered);
         let most = integrator.samples_per_invocation(candidates);
         let samples = params.samples.clamp(1, most) as usize;
-        let (pass, per_pass) = match integrator {
-            Integrator::Direct => {
-                // Eight candidates take about as long as the sample's ray.
-                (
-                    "render",
-                    SAMPLES_PER_PASS / (samples * candidates.div_ceil(8) as usize),
-                )
-            }
+        let (paths, bounces, per_pass) = match integrator {
+            // Eight candidates take about as long as the sample's ray.
+            Integrator::Direct => (
+                0,
+                0,
+                SAMPLES_PER_PASS / (samples * candidates.div_ceil(8) as usize),
+            ),
             Integrator::Path { bounces } => {
-                let surfaces = bounces.min(MAX_BOUNCES) as usize + 1;
-                ("path", SURFACES_PER_PASS / (samples * surfaces))
+                let bounces = bounces.min(MAX_BOUNCES);
+                let surfaces = bounces as usize + 1;
+                (by::PATHS, bounces, SURFACES_PER_PASS / (samples * surfaces))
             }
         };
         let per_pass = per_pass.max(WORKGROUP as usize);
-        let kernel = device.kernel(&kernel_name::<C, W>(pass, sampler))?;
+        let kernel = device.kernel_with(&format!("render{}", C::SUFFIX), choosing(sampler) | paths)?;
         let mut pass = self.led();
         let mut followed = pass.len();
         let emitters = self.emitters(sampler);
         let scene = self.scene.bring(device, scene, sampler, emitters, &mut pass);
         let scene = scene.inspect_err(|_| self.scene = HeldScene::default())?;
-        let inputs = scene.with_lights(sampler, &self.tree);
-        let surroundings = scene.surroundings();
+        let inputs = scene.with_lights(&self.tree);
         let pixels = params.width as usize * params.height as usize;
         // The first part comes with the scene.
         let mut first_pass = Some(pass);
@@ -265,28 +216,17 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
             for first in (0..pixels).step_by(per_pass) {
                 let count = usize::min(per_pass, pixels - first) as u32;
                 let output = device.buffer::<[f32; 3]>(count as usize, 0)?;
-                let bindings = [inputs.as_slice(), &[output.bind()], &surroundings].concat();
-                let first = first as u32;
-                let push = match integrator {
-                    Integrator::Direct => bytes_of(&RenderPush {
-                        params,
-                        first,
-                        count,
-                        tree,
-                    })
-                    .to_vec(),
-                    Integrator::Path { bounces } => bytes_of(&PathPush {
-                        params,
-                        bounces: bounces.min(MAX_BOUNCES),
-                        first,
-                        count,
-                        tree,
-                    })
-                    .to_vec(),
+                let bindings = [inputs.as_slice(), &[output.bind()]].concat();
+                let push = RenderPush {
+                    params,
+                    bounces,
+                    first: first as u32,
+                    count,
+                    tree,
                 };
                 let mut pass = first_pass.take().unwrap_or_default();
                 pass.clear(&output);
-                pass.dispatch(&kernel, &bindings, &push, count);
+                pass.dispatch(&kernel, &bindings, bytes_of(&push), count);
                 parts.push((self.submit(&pass)?, output, std::mem::take(&mut followed)));
             }
             for (submitted, output, followed) in parts {

@@ -1,5 +1,6 @@
 //! A frame of a scene, and what its lights are chosen by, on a device.
 
+use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -7,10 +8,9 @@ use bytemuck::Pod;
 use lightbvh::Instance;
 use lightbvh::TreeWords;
 use lightbvh::light::infinite::DistantLight;
-use lightbvh_kernels::bvh::{Choice, TreeOf};
 use lightbvh_kernels::shading::camera::Camera;
-use lightbvh_kernels::shading::emitter::Emitter;
 use lightbvh_kernels::shading::material::Material;
+use lightbvh_kernels::shading::pick::by;
 use lightbvh_kernels::shading::skin::Corner;
 use lightbvh_kernels::shading::trace::{RayNode, TriangleBlock};
 
@@ -33,8 +33,8 @@ pub(super) struct DeviceScene<L> {
     materials: Arc<Buffer<Material>>,
     emitters: DeviceEmitters<L>,
     pub camera: Arc<Buffer<Camera>>,
-    /// Where lights are chosen by power.
-    thresholds: Option<Arc<Buffer<u32>>>,
+    /// Empty where lights are not chosen by power.
+    thresholds: Arc<Buffer<u32>>,
     /// What is beyond all surfaces, for kernels that know of it.
     sky: Option<DeviceSky>,
     /// What is painted on them, for the same.
@@ -126,8 +126,8 @@ impl<L: SceneLight> HeldScene<L> {
                 .camera
                 .bring(device, std::slice::from_ref(&scene.camera), pass)?,
             thresholds: match sampler {
-                Sampler::Power => Some(self.thresholds.bring(device, &scene.thresholds, pass)?),
-                _ => None,
+                Sampler::Power => self.thresholds.bring(device, &scene.thresholds, pass)?,
+                _ => self.thresholds.bring(device, &[], pass)?,
             },
             sky: match L::IS_ANY {
                 true => {
@@ -179,18 +179,17 @@ impl<L: SceneLight> DeviceScene<L> {
         ]
     }
 
-    /// What a kernel that chooses lights by `sampler` takes from the scene on: the scene, who looks, and what lights are
-    /// chosen by.
-    pub fn with_lights<N: Pod>(&self, sampler: Sampler, tree: &DeviceTree<N, L>) -> Vec<Binding> {
+    /// What a kernel that chooses lights takes from the scene on: the scene, who looks, what lights are chosen by, and what is beyond
+    /// surfaces and painted on them.
+    pub fn with_lights<N: Pod>(&self, tree: &DeviceTree<N, L>) -> Vec<Binding> {
         let mut bindings = self.view().to_vec();
-        bindings.push(self.camera.bind());
-        match sampler {
-            Sampler::Uniform => {}
-            Sampler::Power => bindings.extend(self.thresholds.as_ref().map(|buffer| buffer.bind())),
-            Sampler::SingleLevel | Sampler::TwoLevel => {
-                bindings.extend([tree.nodes.bind(), tree.trails.bind()]);
-            }
-        }
+        bindings.extend([
+            self.camera.bind(),
+            tree.nodes.bind(),
+            tree.trails.bind(),
+            self.thresholds.bind(),
+        ]);
+        bindings.extend(self.surroundings());
         bindings
     }
 }
@@ -198,26 +197,36 @@ impl<L: SceneLight> DeviceScene<L> {
 /// The arrays of a light BVH on the device.
 pub(super) struct DeviceTree<N, L> {
     pub nodes: Arc<Buffer<N>>,
+    /// How many of them are of bottom levels, and which are of the top level.
+    pub bottoms: usize,
+    pub top: Range<usize>,
     pub emitters: DeviceEmitters<L>,
     pub trails: Arc<Buffer<u32>>,
     pub push: TreeWords,
 }
 
 impl<N: Pod, L: Pod> DeviceTree<N, L> {
-    pub fn upload<C: Choice<W, Node = N, Light = L>, const W: usize>(
-        device: &Device,
-        tree: &TreeOf<'_, C, W>,
-        triangles: &[L],
-    ) -> Result<Self, VulkanError> {
+    /// Empty arrays on `device`.
+    pub fn new(device: &Device) -> Result<Self, VulkanError> {
         Ok(Self {
-            nodes: Arc::new(device.upload(tree.nodes)?),
+            nodes: Arc::new(device.buffer(0, 1)?),
+            bottoms: 0,
+            top: 0..0,
             emitters: DeviceEmitters {
-                triangles: Arc::new(device.upload(triangles)?),
-                instances: Arc::new(device.upload(tree.instances)?),
+                triangles: Arc::new(device.buffer(0, 1)?),
+                instances: Arc::new(device.buffer(0, 1)?),
             },
-            trails: Arc::new(device.upload(tree.trails)?),
-            push: TreeWords::of(tree),
+            trails: Arc::new(device.buffer(0, 1)?),
+            push: TreeWords::default(),
         })
+    }
+
+    /// The words of all nodes: those of bottom levels, then of the top level.
+    pub fn node_words(&self) -> Result<Vec<u32>, VulkanError> {
+        let words = self.nodes.read_words()?;
+        let own = size_of::<N>() / size_of::<u32>();
+        let top = &words[self.top.start * own..self.top.end * own];
+        Ok([&words[..self.bottoms * own], top].concat())
     }
 
     /// What the passes of queries take.
@@ -230,12 +239,12 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
     }
 }
 
-/// The name of the kernel of `pass` that chooses lights by `sampler`.
-pub(super) fn kernel_name<C: Choice<W>, const W: usize>(pass: &str, sampler: Sampler) -> String {
+/// What says in kernels that lights are chosen by `sampler`.
+pub(super) fn choosing(sampler: Sampler) -> u32 {
     match sampler {
-        Sampler::Uniform => format!("{pass}_uniform{}", C::Light::SUFFIX),
-        Sampler::Power => format!("{pass}_power{}", C::Light::SUFFIX),
-        Sampler::SingleLevel | Sampler::TwoLevel => format!("{pass}_bvh{}", C::SUFFIX),
+        Sampler::Uniform => by::UNIFORM,
+        Sampler::Power => by::POWER,
+        Sampler::SingleLevel | Sampler::TwoLevel => by::TREE,
     }
 }
 

@@ -10,11 +10,6 @@ pub enum BackendError {
     /// The device.
     #[error(transparent)]
     Vulkan(#[from] VulkanError),
-    /// A refit of everything after edits that changed what everything is.
-    #[error(
-        "the light BVH was edited since its refit was listed; list everything anew, by `list_everything`, then refit"
-    )]
-    Edited,
     /// The lights are not those that the BVH was built over.
     #[error(transparent)]
     Lights(#[from] FollowError),

@@ -4,9 +4,9 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use bytemuck::{Pod, bytes_of};
-use lightbvh::TreeWords;
-use lightbvh_gpu::{Buffer as Array, Copy, Frame, Mirror, Refit};
+use bytemuck::{Pod, bytes_of, cast_slice};
+use lightbvh::node::Node;
+use lightbvh_gpu::{Buffer as Array, Frame, Mirror, Refit};
 use lightbvh_kernels::bvh::Choice;
 
 use super::device::DeviceBackend;
@@ -45,12 +45,6 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
         self.stage(bvh).map(drop)
     }
 
-    /// Lists a refit of everything anew, for [`Backend::refit`](super::Backend::refit) after edits: of what was followed last.
-    pub fn list_everything(&mut self, bvh: &Bvh<C, W>) {
-        self.refit = Some(Refit::new::<C::Node, W>(&bvh.plan_of_everything()));
-        self.counts = bvh.mesh_counts();
-    }
-
     /// Submits what was followed and is not yet; waits for nothing.
     ///
     /// # Errors
@@ -81,7 +75,7 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     /// Makes the frame's work the pending one, or submits it.
     fn stage(&mut self, bvh: &Bvh<C, W>) -> Result<Option<Submission>, BackendError> {
         self.flush()?;
-        let frame = self.mirror.follow(bvh);
+        let frame = self.mirror.frame(bvh);
         let staged = self.stage_frame(bvh, &frame);
         if staged.is_err() {
             // The mirror believes that the frame was followed.
@@ -93,11 +87,6 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     fn stage_frame(&mut self, bvh: &Bvh<C, W>, frame: &Frame) -> Result<Option<Submission>, BackendError> {
         let mut pass = Pass::new();
         self.copy_changes(bvh, frame, &mut pass)?;
-        let is_rewired = |copy: &Copy| matches!(copy.buffer, Array::Nodes | Array::Trails);
-        if !frame.resizes.is_empty() || frame.copies.iter().any(is_rewired) {
-            // Listing everything takes as long as everything is large, which no frame waits for.
-            self.refit = None;
-        }
         self.refit_by(&frame.refit, &mut pass)?;
         if pass.bytes() > KEPT {
             return Ok(Some(self.device.submit(&pass)?));
@@ -128,67 +117,70 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     }
 
     /// Makes the device's arrays those of `bvh`, but for the summaries that are refitted.
-    fn copy_changes<'a>(
+    pub(super) fn copy_changes<'a>(
         &mut self,
         bvh: &'a Bvh<C, W>,
         frame: &Frame,
         pass: &mut Pass<'a>,
     ) -> Result<(), BackendError> {
-        let (device, tree, own) = (self.device, bvh.tree(), &mut self.tree);
+        let (device, own) = (self.device, &mut self.tree);
         let emitters = &mut own.emitters;
-        renew(device, &mut own.nodes, tree.nodes, frame, Array::Nodes, pass)?;
+        renew(device, &mut own.nodes, bvh, frame, Array::Nodes, pass)?;
         renew(
             device,
             &mut emitters.instances,
-            tree.instances,
+            bvh,
             frame,
             Array::Instances,
             pass,
         )?;
-        renew(device, &mut own.trails, tree.trails, frame, Array::Trails, pass)?;
-        renew(device, &mut self.roots, bvh.roots(), frame, Array::Roots, pass)?;
+        renew(device, &mut own.trails, bvh, frame, Array::Trails, pass)?;
+        renew(device, &mut self.roots, bvh, frame, Array::Roots, pass)?;
         renew(
             device,
             &mut emitters.triangles,
-            bvh.triangles(),
+            bvh,
             frame,
             Array::Triangles,
             pass,
         )?;
-        self.tree.push = TreeWords::of(&tree);
+        let top = self.mirror.top::<C::Node>() as usize;
+        own.bottoms = bvh.nodes().len();
+        own.top = top..top + bvh.top_nodes().len();
+        own.push = frame.words;
         Ok(())
     }
 }
 
-/// Does a frame's copies of one array. Another buffer takes its place where it needs more room, or where something else reads
-/// it as it is; what stays is carried over by the device.
-fn renew<'a, T: Pod>(
+/// Does a frame's copies of one buffer. If it needs more capacity, or something else still reads it, another buffer replaces it;
+/// the device copies the rest.
+fn renew<'a, T: Pod, N: Node<W>, I, const W: usize>(
     device: &Device,
     buffer: &mut Arc<Buffer<T>>,
-    data: &'a [T],
+    bvh: &'a lightbvh::Bvh<N, I, W>,
     frame: &Frame,
     array: Array,
     pass: &mut Pass<'a>,
 ) -> Result<(), VulkanError> {
     let copies = || frame.copies.iter().filter(|copy| copy.buffer == array);
-    let is_resized = buffer.len() != data.len();
-    if !is_resized && copies().next().is_none() {
+    let resized = frame.resizes.iter().find(|(resized, _)| *resized == array);
+    let len = resized.map_or(buffer.len(), |(_, bytes)| *bytes as usize / size_of::<T>());
+    if len == buffer.len() && copies().next().is_none() {
         return Ok(());
     }
-    if !Arc::get_mut(buffer).is_some_and(|own| own.set_len(data.len())) {
-        let room = if data.len() > buffer.room() {
-            roomy(data.len())
+    if !Arc::get_mut(buffer).is_some_and(|own| own.set_len(len)) {
+        let room = if len > buffer.room() {
+            roomy(len)
         } else {
             buffer.room()
         };
-        let new = device.buffer(data.len(), room)?;
+        let new = device.buffer(len, room)?;
         pass.carry(buffer, &new);
         *buffer = Arc::new(new);
     }
     for copy in copies() {
-        let element = |byte: u64| byte as usize / size_of::<T>();
-        let first = element(copy.bytes.start);
-        pass.write(buffer, first, &data[first..element(copy.bytes.end)])?;
+        let first = copy.bytes.start as usize / size_of::<T>();
+        pass.write(buffer, first, cast_slice(copy.source(bvh)))?;
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable, cast_slice, cast_slice_mut};
 use lightbvh::node::Node;
 use lightbvh::refit::BlasRoot;
-use lightbvh::{Bvh, Instance};
+use lightbvh::{Bvh, Instance, TreeWords};
 use lightbvh_gpu::{Buffer as Array, Frame, KernelSet, Mirror};
 
 use super::BackendError;
@@ -22,6 +22,9 @@ pub struct Mirrored<'d, N: Node<W>, const W: usize> {
     instances: Buffer<Instance>,
     roots: Buffer<BlasRoot>,
     trails: Buffer<u32>,
+    words: TreeWords,
+    /// Numbers of nodes of bottom levels, and of the top level.
+    counts: [usize; 2],
 }
 
 impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
@@ -39,6 +42,8 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
             instances: device.upload(&[Instance::zeroed()])?,
             roots: device.upload(&[BlasRoot::zeroed()])?,
             trails: device.upload(&[0])?,
+            words: TreeWords::default(),
+            counts: [0; 2],
         })
     }
 
@@ -47,18 +52,20 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
         self.device
     }
 
-    /// Brings the arrays to what `bvh` is, after [`Bvh::plan`]: copies as the plan says, then the passes of a refit.
+    /// Updates the arrays to `bvh` as of its last refit: the plan's copies, then the passes of a refit.
     ///
     /// # Errors
     /// [`BackendError`] from the device.
     pub fn follow<I>(&mut self, bvh: &Bvh<N, I, W>) -> Result<(), BackendError> {
-        let frame = self.mirror.follow(bvh);
+        let frame = self.mirror.frame(bvh);
         let device = self.device;
         self.nodes = updated(device, &self.nodes, Array::Nodes, &frame, bvh)?;
         self.lights = updated(device, &self.lights, Array::Triangles, &frame, bvh)?;
         self.instances = updated(device, &self.instances, Array::Instances, &frame, bvh)?;
         self.roots = updated(device, &self.roots, Array::Roots, &frame, bvh)?;
         self.trails = updated(device, &self.trails, Array::Trails, &frame, bvh)?;
+        self.words = frame.words;
+        self.counts = [bvh.nodes().len(), bvh.top_nodes().len()];
         if frame.refit.dispatches.is_empty() {
             return Ok(());
         }
@@ -83,12 +90,20 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
         Ok(())
     }
 
-    /// The words of all nodes.
+    /// All nodes: those of bottom levels, then those of the top level.
     ///
     /// # Errors
     /// [`BackendError`] from the device.
     pub fn nodes(&self) -> Result<Vec<N>, BackendError> {
-        Ok(self.nodes.read()?)
+        let nodes = self.nodes.read()?;
+        let top = self.mirror.top::<N>() as usize;
+        let [bottoms, count] = self.counts;
+        Ok([&nodes[..bottoms], &nodes[top..top + count]].concat())
+    }
+
+    /// Push constants of kernels that walk the tree.
+    pub fn words(&self) -> TreeWords {
+        self.words
     }
 
     /// The roots of bottom levels.

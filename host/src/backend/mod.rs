@@ -29,7 +29,9 @@ pub use words::DeviceArrays;
 
 use std::time::{Duration, Instant};
 
-use lightbvh::{EmissiveTriangle, Lights, SampledLight};
+use bytemuck::cast_slice;
+use lightbvh::node::Node;
+use lightbvh::{EmissiveTriangle, SampledLight};
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
 use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
@@ -40,6 +42,19 @@ use crate::words::Record;
 /// The light BVH of a choice.
 pub type Bvh<C = Standard, const W: usize = WIDTH> =
     lightbvh::Bvh<<C as Choice<W>>::Node, <C as Choice<W>>::Importance, W>;
+
+/// The words of all nodes: those of bottom levels, then those of the top level.
+pub fn node_words<N: Node<W>, I, const W: usize>(bvh: &lightbvh::Bvh<N, I, W>) -> Vec<u32> {
+    [cast_slice::<N, u32>(bvh.nodes()), cast_slice(bvh.top_nodes())].concat()
+}
+
+/// The nodes in use, by their order in [`node_words`].
+pub fn nodes_in_use<N: Node<W>, I, const W: usize>(bvh: &lightbvh::Bvh<N, I, W>) -> Vec<u32> {
+    let plan = bvh.plan_of_everything();
+    let top = bvh.nodes().len() as u32;
+    let of_top = plan.top.nodes().iter().map(|node| node + top);
+    plan.bottom.nodes().iter().copied().chain(of_top).collect()
+}
 
 /// A result and how long it took: on a device the kernels' own time, where it can tell.
 #[derive(Clone, Debug)]
@@ -65,13 +80,7 @@ pub trait Backend<L: Emitter = EmissiveTriangle> {
     /// Words of a node.
     fn node_record(&self) -> Record;
 
-    /// Refits a BVH that was built over [`Lights`] to `lights`, the same ones moved or changed, and returns the words of all nodes.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device, or where they are not the same lights.
-    fn refit(&mut self, lights: &Lights<L>) -> Result<Timed<Vec<u32>>, BackendError>;
-
-    /// The words of all nodes as they are.
+    /// The words of all nodes as they are, as [`node_words`] orders them.
     ///
     /// # Errors
     /// [`BackendError`] from a device.
@@ -118,8 +127,7 @@ pub trait Backend<L: Emitter = EmissiveTriangle> {
 
 /// A backend that follows a BVH through its edits.
 pub trait Follow<C: Choice<W> = Standard, const W: usize = WIDTH>: Backend<C::Light> {
-    /// Takes over what [`plan`](lightbvh::Bvh::plan) says has changed in `bvh`, and refits it here. Planned frames must be followed
-    /// without gaps, each before it is refitted in `bvh` itself.
+    /// Copies the changes in `bvh` as of its last refit, and refits here.
     ///
     /// # Errors
     /// [`BackendError`] from a device.

@@ -95,7 +95,7 @@ pub const PIXEL_RECORD: Record = Record {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lightbvh::FullNode;
+    use lightbvh::node::TwoSidedMomentNode;
     use lightbvh_kernels::bvh::{Choice, Kinds, Paper, Standard};
     use lightbvh_kernels::receivers::LinkedNode;
 
@@ -112,6 +112,6 @@ mod tests {
         // Of lights of any kind too: without a name for it, a code of ones looks as if no kernel had written it.
         covers::<<Kinds as Choice<8>>::Node, 8>("origin[0]");
         covers::<LinkedNode, 8>("origin[0]");
-        covers::<FullNode<2>, 2>("word[0]");
+        covers::<TwoSidedMomentNode<8>, 8>("word[0]");
     }
 }

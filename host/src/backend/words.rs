@@ -9,7 +9,7 @@ use crate::vulkan::{Buffer, VulkanError};
 /// The words of all arrays of a light BVH, as a device holds them.
 #[derive(Clone, Debug)]
 pub struct DeviceArrays {
-    /// Of [`lightbvh::Bvh::nodes`].
+    /// In the order of [`node_words`](super::node_words).
     pub nodes: Vec<u32>,
     /// Of [`lightbvh::Bvh::roots`].
     pub roots: Vec<u32>,
@@ -17,7 +17,7 @@ pub struct DeviceArrays {
     pub instances: Vec<u32>,
     /// Of [`lightbvh::Bvh::triangles`].
     pub triangles: Vec<u32>,
-    /// Of the trails of a [`lightbvh::LightTree`].
+    /// Trails and links of a [`lightbvh::LightTree`], as the device has them.
     pub trails: Vec<u32>,
 }
 
@@ -29,7 +29,7 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     pub fn arrays(&mut self) -> Result<DeviceArrays, BackendError> {
         self.flush()?;
         Ok(DeviceArrays {
-            nodes: words(&self.tree.nodes)?,
+            nodes: self.tree.node_words()?,
             roots: words(&self.roots)?,
             instances: words(&self.tree.emitters.instances)?,
             triangles: words(&self.tree.emitters.triangles)?,

@@ -8,17 +8,19 @@ use lightbvh::BuildParams;
 use serde::Serialize;
 use serde_json::json;
 
+use super::measure::times::{ms, spread_ms};
 use super::range::{self, MAX_SIDE, given};
 use super::verify::tally::{Kind, Tally};
-use super::{Context, Outcome, devices, table, target, times};
+use super::{Context, Outcome, devices, table, target};
 use crate::backend::{
-    Backend, Bvh, CpuBackend, DeviceBackend, Integrator, SAMPLED_RECORD, Sampler, SceneArrays,
+    Backend, BackendError, Bvh, CpuBackend, DeviceBackend, Follow, Integrator, SAMPLED_RECORD, Sampler,
+    SceneArrays, Timed,
 };
 use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::render::Film;
 use crate::scene::Scene;
-use crate::workload::{RenderSettings, arrays_at, build, lights_at, queries};
+use crate::workload::{RenderSettings, arrays_at, build, lights_at, queries, words_in_use};
 
 const SCENE: &str = "street";
 /// Frames shown: those of the paper's Table 1.
@@ -86,10 +88,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let bvh: Bvh = build(&lights, Sampler::TwoLevel, &BuildParams::default());
     let build_time = start.elapsed();
 
-    let mut cpu: CpuBackend = CpuBackend::new(bvh.clone());
+    let (nodes, depth) = (bvh.nodes().len() + bvh.top_nodes().len(), bvh.depth());
+
+    let mut cpu: CpuBackend = CpuBackend::new(bvh);
     let mut on_devices = opened
         .iter()
-        .map(|o| DeviceBackend::new(&o.device, &bvh))
+        .map(|o| DeviceBackend::new(&o.device, cpu.bvh()))
         .collect::<Result<Vec<_>, _>>()?;
     let mut records: Vec<Run> = (0..=opened.len()).map(|_| Run::default()).collect();
     let mut written = Vec::new();
@@ -153,12 +157,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 scene: SCENE,
                 lights: lights.triangles().len(),
                 triangles: scene.triangle_count(),
-                nodes: bvh.nodes().len(),
-                depth: bvh.depth(),
-                build_ms: times::ms(build_time),
-                refit_ms: times::median_ms(&record.refit),
-                sample_ms: times::median_ms(&record.sample),
-                render_ms: times::median_ms(&record.render),
+                nodes,
+                depth,
+                build_ms: ms(build_time),
+                refit_ms: spread_ms(&record.refit).median,
+                sample_ms: spread_ms(&record.sample).median,
+                render_ms: spread_ms(&record.render).median,
                 compared: record.tally.compared,
                 different: record.tally.different,
                 mse: Film::new(width, height, record.image.clone())?.mean_squared_error(&reference)?,
@@ -182,23 +186,30 @@ fn frame_on_all(
 ) -> Result<(), HostError> {
     let asked = queries(arrays, settings.frame, 0, QUERIES);
     let params = settings.params(scene.frame(settings.frame).background);
+    let refitted = Timed::of(|| cpu.bvh_mut().follow(&arrays.lights));
+    refitted.value.map_err(BackendError::from)?;
+    let mut refits = vec![refitted.time];
+    for device in devices.iter_mut() {
+        refits.push(device.follow(cpu.bvh())?.time);
+    }
+    let bvh = cpu.bvh().clone();
     let mut expected = None;
     let backends =
         std::iter::once(cpu as &mut dyn Backend).chain(devices.iter_mut().map(|d| d as &mut dyn Backend));
-    for (backend, record) in backends.zip(records) {
-        let nodes = backend.refit(&arrays.lights)?;
+    for ((backend, record), refit) in backends.zip(records).zip(refits) {
+        let nodes = words_in_use(&bvh, &backend.nodes()?);
         let sampled = backend.sample(&asked)?;
         let image = backend.render(arrays, &params, Sampler::TwoLevel, Integrator::Direct)?;
-        record.refit.push(nodes.time);
+        record.refit.push(refit);
         record.sample.push(sampled.time);
         record.render.push(image.time);
         record.image.clone_from(&image.value);
         match &expected {
-            None => expected = Some((nodes.value, sampled.value, image.value)),
+            None => expected = Some((nodes, sampled.value, image.value)),
             Some((cpu_nodes, cpu_sampled, cpu_image)) => {
                 let tally = &mut record.tally;
                 let nodes_record = backend.node_record();
-                tally.take(Kind::Nodes, "refit", &nodes_record, cpu_nodes, &nodes.value)?;
+                tally.take(Kind::Nodes, "refit", &nodes_record, cpu_nodes, &nodes)?;
                 let (expected, found) = (cast_slice(cpu_sampled), cast_slice(&sampled.value));
                 tally.take(Kind::Samples, "sample", &SAMPLED_RECORD, expected, found)?;
                 tally.take_pixels("render", cpu_image, &image.value)?;

@@ -1,22 +1,27 @@
 //! `lightbvh export`: a scene as a `.glb` file.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
-use super::{Context, Outcome, target};
+use super::reading::Reading;
+use super::{Outcome, target};
 use crate::cli::table::news;
 use crate::error::HostError;
-use crate::scene::{AnalyticKind, Scene, SceneError};
+use crate::render::write_whole;
+use crate::scene::{AnalyticKind, SceneError};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .pbrt, .obj or .ply file.
-    scene: String,
+    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .obj or .ply file.
+    scene: OsString,
+    #[command(flatten)]
+    reading: Reading,
     /// The .glb file to write.
     #[arg(short, long, value_name = "FILE.glb")]
     output: PathBuf,
 }
 
-pub(super) fn run(_: &Context, args: &Args) -> Result<Outcome, HostError> {
+pub(super) fn run(args: &Args) -> Result<Outcome, HostError> {
     if !target::ends_in(&args.output, &["glb"]) {
         return Err(HostError::Refused {
             option: "--output",
@@ -24,11 +29,12 @@ pub(super) fn run(_: &Context, args: &Args) -> Result<Outcome, HostError> {
             problem: String::from("is not what is written: expected a file that ends in .glb, binary glTF"),
         });
     }
-    target::check(&args.output).map_err(|source| SceneError::Write {
+    let unwritten = |source| SceneError::Write {
         path: args.output.clone(),
         source,
-    })?;
-    let scene = Scene::open(&args.scene)?;
+    };
+    target::check(&args.output).map_err(unwritten)?;
+    let scene = args.reading.open(&args.scene)?;
     for warning in scene.warnings() {
         news!("{}: {warning}", scene.name());
     }
@@ -62,6 +68,6 @@ pub(super) fn run(_: &Context, args: &Args) -> Result<Outcome, HostError> {
             scene.name()
         );
     }
-    scene.write_glb(&args.output)?;
+    write_whole(&args.output, &scene.to_glb()?).map_err(unwritten)?;
     Ok(Outcome::Good)
 }

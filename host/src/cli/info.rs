@@ -31,9 +31,6 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
                     ("keeps denormals", |o| {
                         table::yes(o.device.probe().float_controls.denorm_preserve_32)
                     }),
-                    ("fused sums", |o| {
-                        table::yes(o.device.probe().features.shader_fma_32)
-                    }),
                     ("exact", |o| table::yes(o.exactness.exact)),
                 ],
             )?;

@@ -1,5 +1,6 @@
 //! The command line. Tables go to standard output, or one JSON object with `--json`; progress and notes go to standard
-//! error. Exit status: 0 done, 1 results differ or an invariant is violated, 2 the input or the machine is at fault.
+//! error. Exit status: 0 done, 1 results differ or an invariant is violated, 2 the input or the machine is at fault,
+//! 130 after an interrupt.
 
 mod bench;
 mod compare;
@@ -7,29 +8,26 @@ mod demo;
 mod devices;
 mod export;
 mod frames;
-mod gallery;
 mod info;
 mod inspect;
-mod numbers;
+mod measure;
 mod progress;
 mod range;
+mod reading;
 mod render;
-mod soak;
 mod stability;
 mod table;
 mod target;
-mod times;
 mod trade;
-mod validate;
-mod variance;
 mod verify;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::cli::table::news;
 use crate::error::HostError;
+use crate::render::uninterrupted;
 
 /// A two-level light BVH on the CPU and on Vulkan devices, compared bit for bit.
 #[derive(Debug, Parser)]
@@ -37,68 +35,70 @@ use crate::error::HostError;
 struct Args {
     #[command(subcommand)]
     command: Command,
-    /// Print one JSON object instead of tables.
-    #[arg(long, global = true)]
-    json: bool,
-    /// Use only the Vulkan device of this index or name (a part of it is enough).
-    #[arg(long, global = true, value_name = "INDEX|NAME")]
-    device: Option<String>,
-    /// Run devices under the Khronos validation layer; any message of it is an error.
-    #[arg(long, global = true)]
-    validation: bool,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Build, animate, refit, sample and render a street on the CPU and every device, and compare.
-    Demo(demo::Args),
-    /// Render a frame of a scene.
-    Render(render::Args),
-    /// Compare refit, sample, pmf, render and ReSTIR on every device with the CPU, word for word. Without a device there is
-    /// nothing to compare: a note says so, or with LIGHTBVH_REQUIRE_VULKAN=1 an error.
-    Verify(verify::Args),
-    /// Time build, refit, sample and pmf, and measure what accuracy costs.
-    Bench(bench::Args),
-    /// Compute the variance of one light sample exactly, scene by scene. Columns `of 8` and `of 32` are the squared error of
-    /// the mean of so many candidates by one number, `split 8` and `split 32` that of adaptive splitting, over the square of
-    /// what there is; `nothing` is the share of samples that contribute nothing. Means are those of a few points where variance
-    /// is great: compare them by thousands of points.
-    Variance(variance::Args),
-    /// Measure speed against accuracy for each choice: structure, importance, width, builder, candidates.
-    Trade(trade::Args),
-    /// Say what a scene requires and the smallest model that is sufficient, and check that it is.
-    Inspect(inspect::Args),
-    /// Compare stratified and low-discrepancy numbers with independent ones.
-    Numbers(numbers::Args),
-    /// Compare the methods over an animation as the paper does: errors, times, graphs and close-ups.
-    Compare(compare::Args),
-    /// Render scenes by every method in equal time, next to references: a page with a sheet of pictures for each scene. Exit
-    /// status 1: a scene could not be rendered, and the page says which.
-    Gallery(gallery::Args),
-    /// Check every extreme that the light BVH must survive, on the CPU and every device, against stated bounds.
-    Stability(stability::Args),
-    /// Run many frames of random edits beside rebuilds, each held against its bound, and compare every device with the CPU.
-    Soak(soak::Args),
-    /// List the Vulkan devices and whether their arithmetic is exact.
-    Info,
-    /// Check every invariant of the light BVHs of a scene, over its lights as they stand in the world. No instances share a
-    /// mesh there, so a light takes more bytes than in the tables of `inspect` and `trade`.
-    Validate(validate::Args),
-    /// Write a scene as a .glb file.
+    /// Build, animate, refit, sample and render a street on the CPU and every device
+    Demo(OnDevices<demo::Args>),
+    /// Render a frame or an animation of a scene
+    Render(OnDevices<render::Args>),
+    /// Write a scene as a .glb file
     Export(export::Args),
+    /// Compare every device with the CPU, bit for bit, and check every invariant of the trees
+    ///
+    /// Without a device only invariants are checked: a note says so, or with LIGHTBVH_REQUIRE_VULKAN=1 an error.
+    Verify(OnDevices<verify::Args>),
+    /// Check every extreme that the light BVH must survive against stated bounds
+    Stability(OnDevices<stability::Args>),
+    /// Report what a scene requires and the smallest model that is sufficient, and check it
+    Inspect(Json<inspect::Args>),
+    /// List the Vulkan devices and whether their arithmetic is exact
+    Info(OnDevices<Nothing>),
+    /// Compare all methods over an animation as the paper does: errors, times, graphs, crops
+    Compare(OnDevices<compare::Args>),
+    /// Measure speed against accuracy for importances, builders, levels and candidates
+    Trade(OnDevices<trade::Args>),
+    /// Time build, refit, sample and pmf, or frames of moving lights, or the worst scenes
+    Bench(OnDevices<bench::Args>),
 }
 
-impl Command {
-    /// Whether it ever runs a device.
-    fn runs_devices(&self) -> bool {
-        !matches!(
-            self,
-            Self::Variance(_) | Self::Inspect(_) | Self::Numbers(_) | Self::Validate(_) | Self::Export(_)
-        )
-    }
+/// The commands by what they are for, as `--help` lists them.
+const GROUPS: [(&str, &[&str]); 3] = [
+    ("Scenes", &["demo", "render", "export"]),
+    ("Checks", &["verify", "stability", "inspect", "info"]),
+    ("Measurements", &["compare", "trade", "bench"]),
+];
+
+/// A command that prints a table or one JSON object.
+#[derive(Debug, clap::Args)]
+struct Json<A: clap::Args> {
+    #[command(flatten)]
+    own: A,
+    /// Print one JSON object instead of tables.
+    #[arg(long)]
+    json: bool,
 }
+
+/// The same of a command that runs devices.
+#[derive(Debug, clap::Args)]
+struct OnDevices<A: clap::Args> {
+    #[command(flatten)]
+    own: Json<A>,
+    /// Use only the Vulkan device of this index or name (a part of it is enough).
+    #[arg(long, value_name = "INDEX|NAME")]
+    device: Option<String>,
+    /// Run devices under the Khronos validation layer; any message of it is an error.
+    #[arg(long)]
+    validation: bool,
+}
+
+/// No options of its own.
+#[derive(Debug, clap::Args)]
+struct Nothing {}
 
 /// What all commands share.
+#[derive(Default)]
 struct Context {
     json: bool,
     device: Option<String>,
@@ -120,9 +120,67 @@ impl Outcome {
     }
 }
 
+/// What a command does with its options.
+type Run<A> = fn(&Context, &A) -> Result<Outcome, HostError>;
+
+impl<A: clap::Args> OnDevices<A> {
+    fn run(self, run: Run<A>) -> (bool, Result<Outcome, HostError>) {
+        let context = Context {
+            json: self.own.json,
+            device: self.device,
+            validation: self.validation,
+        };
+        (context.json, run(&context, &self.own.own))
+    }
+}
+
+impl Command {
+    /// Whether JSON was asked for, and what came of it.
+    fn run(self) -> (bool, Result<Outcome, HostError>) {
+        match self {
+            Self::Demo(args) => args.run(demo::run),
+            Self::Render(args) => args.run(render::run),
+            Self::Export(args) => (false, export::run(&args)),
+            Self::Verify(args) => args.run(verify::run),
+            Self::Stability(args) => args.run(stability::run),
+            Self::Inspect(Json { own, json }) => {
+                let context = Context {
+                    json,
+                    ..Context::default()
+                };
+                (json, inspect::run(&context, &own))
+            }
+            Self::Info(args) => args.run(|context, Nothing {}| info::run(context)),
+            Self::Compare(args) => args.run(compare::run),
+            Self::Trade(args) => args.run(trade::run),
+            Self::Bench(args) => args.run(bench::run),
+        }
+    }
+}
+
+/// The program's help: its commands in their groups, a line each.
+fn command() -> clap::Command {
+    let own = Args::command();
+    let mut list = String::new();
+    for (group, names) in GROUPS {
+        list += &format!("{group}:\n");
+        for command in names.iter().filter_map(|name| own.find_subcommand(name)) {
+            let about = command.get_about().map(ToString::to_string).unwrap_or_default();
+            list += &format!("  {:<10} {about}\n", command.get_name());
+        }
+        list += "\n";
+    }
+    own.help_template(format!(
+        "{{about}}\n\n{{usage-heading}} {{usage}}\n\n{list}Options:\n{{options}}\n\n`lightbvh COMMAND --help` lists the options of a command."
+    ))
+}
+
 /// Runs the program.
 pub fn main() -> ExitCode {
-    let args = match Args::try_parse() {
+    // 128 and the number of the signal, as shells have it. Without the handler, a signal may leave a temporary file.
+    let _ = ctrlc::set_handler(|| uninterrupted(|| std::process::exit(130)));
+    let parsed = command().try_get_matches();
+    let args = match parsed.and_then(|matches| Args::from_arg_matches(&matches)) {
         Ok(args) => args,
         Err(error) => {
             // clap's own exit code for wrong usage is 2, as ours.
@@ -131,49 +189,39 @@ pub fn main() -> ExitCode {
             return ExitCode::from(u8::try_from(code).unwrap_or(2));
         }
     };
-    let named = [
-        ("--device", args.device.is_some()),
-        ("--validation", args.validation),
-    ];
-    if let Some((option, _)) = named
-        .iter()
-        .find(|(_, is_given)| *is_given && !args.command.runs_devices())
-    {
-        news!(
-            "lightbvh: {option} is for commands that run devices, and this one runs on the CPU alone; leave it out"
-        );
-        return ExitCode::from(2);
-    }
-    let context = Context {
-        json: args.json,
-        device: args.device,
-        validation: args.validation,
-    };
-    let result = match &args.command {
-        Command::Demo(args) => demo::run(&context, args),
-        Command::Render(args) => render::run(&context, args),
-        Command::Verify(args) => verify::run(&context, args),
-        Command::Bench(args) => bench::run(&context, args),
-        Command::Variance(args) => variance::run(&context, args),
-        Command::Trade(args) => trade::run(&context, args),
-        Command::Inspect(args) => inspect::run(&context, args),
-        Command::Numbers(args) => numbers::run(&context, args),
-        Command::Compare(args) => compare::run(&context, args),
-        Command::Gallery(args) => gallery::run(&context, args),
-        Command::Stability(args) => stability::run(&context, args),
-        Command::Soak(args) => soak::run(&context, args),
-        Command::Info => info::run(&context),
-        Command::Validate(args) => validate::run(&context, args),
-        Command::Export(args) => export::run(&context, args),
-    };
+    let (is_json, result) = args.command.run();
     match result {
         Ok(Outcome::Good) => ExitCode::SUCCESS,
         Ok(Outcome::Bad) => ExitCode::from(1),
-        // The reader of our output has closed it, as `head` does.
-        Err(HostError::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        // The reader of a table has closed it, as `head` does; an object that is cut is none.
+        Err(HostError::Output(error)) if !is_json && error.kind() == std::io::ErrorKind::BrokenPipe => {
+            ExitCode::SUCCESS
+        }
         Err(error) => {
             news!("lightbvh: {error}");
             ExitCode::from(2)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn help_has_a_line_of_100_characters_for_each_command_and_option() {
+        command().debug_assert();
+        let help = command().render_help().to_string();
+        for command in Args::command().get_subcommands() {
+            let start = format!("  {:<10} ", command.get_name());
+            let lines: Vec<&str> = help.lines().filter(|line| line.starts_with(&start)).collect();
+            assert_eq!(lines.len(), 1, "{start}: {help}");
+            assert!(lines[0].chars().count() <= 100, "{}", lines[0]);
+            for option in command.get_arguments() {
+                let text = option.get_long_help().or(option.get_help());
+                let length = text.map_or(0, |text| text.to_string().chars().count());
+                assert!((1..=100).contains(&length), "{start}{option}: {length}");
+            }
         }
     }
 }

@@ -59,7 +59,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .as_ref()
         .map(|shown| frames::numbered(&args.output, shown.start));
     target::picture(first.as_ref().unwrap_or(&args.output))?;
-    let mut scene = args.up.turn(Scene::open(&args.scene)?)?;
+    let mut scene = args.up.turn(args.reading.open(&args.scene)?)?;
     if !args.animation.is_empty() {
         scene = playing(scene, &args.animation)?;
     }
@@ -70,7 +70,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     }
     if let Some(path) = &args.environment {
         let mut data = scene.into_data();
-        let map = read_environment(path, args.environment_scale, &mut data.warnings)?;
+        let map = read_environment(
+            path,
+            args.environment_scale,
+            &args.reading.limits(),
+            &mut data.warnings,
+        )?;
         data.environment = Some(Arc::new(map));
         scene = Scene::new(data)?;
     }

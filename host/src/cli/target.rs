@@ -5,7 +5,7 @@ use std::io::{Error, ErrorKind, Result};
 use std::path::Path;
 
 use crate::error::HostError;
-use crate::render::FilmError;
+use crate::render::{FilmError, real_path, uninterrupted, write_whole};
 
 /// Whether a path ends so, in letters of either case.
 pub(super) fn ends_in(path: &Path, endings: &[&str]) -> bool {
@@ -27,20 +27,50 @@ pub(super) fn folder(path: &Path) -> std::result::Result<(), HostError> {
     writable(&path()).map_err(|source| HostError::Store { path: path(), source })
 }
 
+/// Writes a file of a report; it appears whole or not at all.
+///
+/// # Errors
+/// [`HostError::Store`].
+pub(super) fn store(path: &Path, bytes: &[u8]) -> std::result::Result<(), HostError> {
+    let path = path.to_owned();
+    write_whole(&path, bytes).map_err(|source| HostError::Store { path, source })
+}
+
+/// A name in files for each scene: that of the scene or its file as far as every system and every document takes it, with a number
+/// if another one has it.
+pub(super) fn stems<'a>(scenes: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut stems: Vec<String> = Vec::new();
+    for scene in scenes {
+        let name = Path::new(scene).file_stem().unwrap_or_default().to_string_lossy();
+        let plain = |c: char| match c.is_alphanumeric() || c == '_' {
+            true => c,
+            false => '-',
+        };
+        let stem: String = name.chars().take(40).map(plain).collect();
+        let numbered = (2..).map(|k| format!("{stem}-{k}"));
+        let free = std::iter::once(stem.clone())
+            .chain(numbered)
+            .find(|stem| !stems.contains(stem));
+        stems.extend(free);
+    }
+    stems
+}
+
 /// Whether files can be written to a folder: only writing tells.
 fn writable(folder: &Path) -> Result<()> {
     let trial = folder.join(format!(".lightbvh.{}.tmp", std::process::id()));
-    fs::write(&trial, b"").and_then(|()| fs::remove_file(&trial))
+    uninterrupted(|| fs::write(&trial, b"").and_then(|()| fs::remove_file(&trial)))
 }
 
-/// Whether a file can stand there: its folder is one, and can be written to, and it is none itself.
+/// Whether a file can be written there: its folder is one, and can be written to, and it is none itself. Links are followed; a pipe
+/// or a device is written directly.
 ///
 /// # Errors
 /// What is in the way.
 pub(super) fn check(path: &Path) -> Result<()> {
-    if path.is_dir() {
-        return Err(Error::new(ErrorKind::IsADirectory, "it is a folder"));
-    }
+    let Some(path) = real_path(path)? else {
+        return Ok(());
+    };
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     match fs::metadata(folder) {
@@ -95,5 +125,12 @@ mod tests {
         for other in ["b", ".png", "b.png.gz", "b.jpg"] {
             assert!(!ends_in(Path::new(other), &["exr", "png"]), "{other}");
         }
+    }
+
+    #[test]
+    fn each_scene_has_a_name_of_its_own() {
+        let long = format!("x/{}.glb", "y".repeat(245));
+        let found = stems(["a/s.gltf", "b/s.gltf", "](z) <b>.glb", &long, "s-2.glb"].into_iter());
+        assert_eq!(found, ["s", "s-2", "--z---b-", &"y".repeat(40), "s-2-2"]);
     }
 }

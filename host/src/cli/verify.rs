@@ -1,11 +1,9 @@
-//! `lightbvh verify`: refit, sample, pmf, images by every integrator, and every method over frames of an animation, on every
-//! device against the CPU, word for word.
+//! `lightbvh verify`: every invariant of the trees; refit, sample, pmf, images by every integrator, and every method over
+//! frames of an animation, on every device against the CPU, word for word; or the same of a soak.
 
 mod frames;
-mod receivers;
-mod refits;
-mod restir;
 mod side;
+mod soak;
 mod structures;
 mod subject;
 pub(super) mod tally;
@@ -17,43 +15,50 @@ use lightbvh::EmissiveTriangle;
 use lightbvh::light::AnyLight;
 use lightbvh_kernels::bvh::{Kinds, Paper, Standard, WIDTH};
 use serde::Serialize;
+use serde_json::json;
 
+use super::range::{self, given};
+use super::reading::Reading;
 use super::{Context, Outcome, devices, progress, table};
 use crate::backend::Sampler;
 use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::method::{Importance, MethodLight, Target};
 use crate::scene::{BUILT_IN, Scene};
-use subject::Subject;
+use subject::{Subject, Tree};
 use tally::{Tallies, Tally};
-
-/// Most receivers of each sort in a scene.
-const RECEIVERS: u64 = 20_000;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// How many lights to sample and how many pmfs to evaluate, over all scenes, importances and structures together.
+    /// Lights to sample, and pmfs to evaluate, over all scenes, importances and structures together.
     #[arg(long, default_value_t = 1_000_000)]
     queries: u64,
-    /// Seed of the queries.
+    /// Seed of the queries, or of the edits of --soak.
     #[arg(long, default_value_t = 1)]
     seed: u32,
-    /// Frames A to B (B left out) that every method is brought through in order on the CPU and each device, rebuilds
-    /// included, comparing nodes, samples, pmfs, images and ReSTIR's reservoirs in each; 0..150 is the paper's animation.
+    /// Frames A to B (B left out) that every method goes through on the CPU and each device.
     #[arg(long, value_name = "A..B", value_parser = super::frames::parse, default_value = "0..3")]
     frames: Range<u32>,
     /// Lights to sample and pmfs to evaluate per method and frame of --frames.
     #[arg(long, default_value_t = 256)]
     frame_queries: u32,
-    /// Refit that many more frames of every scene by either structure: this compares many words in little time.
-    #[arg(long, default_value_t = 0)]
-    refits: u32,
     /// What lights of a BVH are chosen by.
     #[arg(long, value_enum, default_value_t = Importances::Both)]
     importance: Importances,
     /// Scenes, built-in or files; all built-in ones by default. May be repeated.
     #[arg(long)]
     scene: Vec<String>,
+    #[command(flatten)]
+    reading: Reading,
+    /// Instead of scenes, this number of frames of random edits, 100 to 10^8; memory from 4,000 on.
+    #[arg(long, value_name = "FRAMES", conflicts_with_all = ["queries", "frames", "frame_queries", "importance", "scene"])]
+    soak: Option<u32>,
+    /// Instances of --soak, about, 10 to 10^6.
+    #[arg(long, requires = "soak", default_value_t = 2_000)]
+    instances: u32,
+    /// Triangles of the largest mesh of --soak, 10 to 10^6.
+    #[arg(long, requires = "soak", default_value_t = 20_000)]
+    mesh_triangles: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -95,14 +100,42 @@ struct Report {
     importances: &'static [Importance],
     frames: Range<u32>,
     frame_queries: u32,
-    refits: u32,
     /// Words that the CPU computes twice (sampled pmfs, evaluated again), and how many of them differ.
     cpu_compared: u64,
     cpu_different: u64,
     devices: Vec<DeviceReport>,
+    /// Whether every invariant of every tree holds.
+    valid: bool,
+    rows: Vec<Tree>,
+}
+
+fn run_soak(context: &Context, args: &Args, frames: u32) -> Result<Outcome, HostError> {
+    range::check(&[
+        given("--soak", frames, 100..=100_000_000),
+        given("--instances", args.instances, 10..=1_000_000),
+        given("--mesh-triangles", args.mesh_triangles, 10..=1_000_000),
+    ])?;
+    let plan = soak::Plan {
+        frames,
+        seed: args.seed,
+        instances: args.instances,
+        mesh_triangles: args.mesh_triangles,
+    };
+    let opened = devices::open(context)?;
+    let report = soak::soak(&plan, &opened, context.json)?;
+    devices::close(opened)?;
+    if context.json {
+        table::print_json(&json!({ "soak": report }))?;
+    } else {
+        soak::print(&report)?;
+    }
+    Ok(Outcome::good_if(report.is_good()))
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    if let Some(frames) = args.soak {
+        return run_soak(context, args, frames);
+    }
     let names: Vec<String> = if args.scene.is_empty() {
         BUILT_IN.iter().map(|&name| name.to_owned()).collect()
     } else {
@@ -110,7 +143,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     };
     let scenes = names
         .iter()
-        .map(|name| Scene::open(name))
+        .map(|name| args.reading.open(name))
         .collect::<Result<Vec<_>, _>>()?;
     for scene in &scenes {
         for warning in scene.warnings() {
@@ -121,6 +154,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let mut tallies = Tallies {
         devices: vec![Tally::default(); opened.len()],
         cpu: Tally::default(),
+        trees: Vec::new(),
     };
     let bar = progress(args.queries, "queries", context.json);
     let importances = args.importance.chosen();
@@ -147,15 +181,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         }
     }
     bar.finish_and_clear();
-    // The kernels of masks, leaves and fog are over triangles, by the default's importance.
-    let asked_for = (asked.0.clamp(1, RECEIVERS) as u32, args.seed);
-    let lit_by_triangles = scenes
-        .iter()
-        .filter(|scene| !scene.has_kinds() && !opened.is_empty());
-    for scene in lit_by_triangles.filter(|_| importances.contains(&Importance::Moments)) {
-        receivers::compare(scene, asked_for, &opened, &mut tallies)?;
-    }
-
     let plan = frames::Plan {
         frames: args.frames.clone(),
         queries: args.frame_queries,
@@ -172,33 +197,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         compare(scene, &plan, &targets, &mut tallies, &bar)?;
     }
     bar.finish_and_clear();
-    if args.refits > 0 {
-        let bar = progress(
-            u64::from(args.refits) * scenes.len() as u64,
-            "refits",
-            context.json,
-        );
-        for scene in &scenes {
-            let known = importances_of(scene, importances);
-            if !scene.has_kinds() {
-                let made = |importance, lights: &_, sampler| match importance {
-                    Importance::Moments => {
-                        refits::structure::<Standard, WIDTH>(importance, lights, sampler, &targets)
-                    }
-                    Importance::Eq4 => refits::structure::<Paper, 4>(importance, lights, sampler, &targets),
-                };
-                refits::compare(scene, known, made, args.refits, &mut tallies, &bar)?;
-            } else {
-                let made = |importance, lights: &_, sampler| {
-                    refits::structure::<Kinds, WIDTH>(importance, lights, sampler, &targets)
-                };
-                refits::compare(scene, known, made, args.refits, &mut tallies, &bar)?;
-            }
-        }
-        bar.finish_and_clear();
-    }
-
+    let valid = tallies.trees.iter().all(|tree| tree.valid);
     let report = Report {
+        valid,
+        rows: std::mem::take(&mut tallies.trees),
         compared: tallies.devices.iter().map(|tally| tally.compared).sum(),
         different: tallies.devices.iter().map(|tally| tally.different).sum::<u64>() + tallies.cpu.different,
         queries: args.queries,
@@ -207,7 +209,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         importances,
         frames: args.frames.clone(),
         frame_queries: args.frame_queries,
-        refits: args.refits,
         cpu_compared: tallies.cpu.compared,
         cpu_different: tallies.cpu.different,
         devices: opened
@@ -224,7 +225,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     drop(targets);
     devices::close(opened)?;
     print(context, &report, tallies.cpu.first_difference.as_deref())?;
-    Ok(Outcome::good_if(report.different == 0))
+    Ok(Outcome::good_if(report.different == 0 && valid))
 }
 
 /// The importances that choose among the lights of a scene; of other kinds than triangles, the default alone.
@@ -246,6 +247,21 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
         table::print_json(report)?;
         return Ok(());
     }
+    table::print(
+        &report.rows,
+        &[
+            ("tree", |t| {
+                format!("{} {} {}", t.scene, t.structure.name(), t.importance)
+            }),
+            ("frame", |t| t.frame.to_string()),
+            ("lights", |t| t.lights.to_string()),
+            ("mesh lights", |t| t.mesh_lights.to_string()),
+            ("nodes", |t| t.nodes.to_string()),
+            ("depth", |t| t.depth.to_string()),
+            ("bytes/light", |t| format!("{:.1}", t.bytes_per_light)),
+            ("invariants", |t| t.said.clone()),
+        ],
+    )?;
     if !report.devices.is_empty() {
         table::print(
             &report.devices,

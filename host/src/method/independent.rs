@@ -8,10 +8,12 @@ use lightbvh_kernels::bvh::Choice;
 
 use super::moving::Moving;
 use super::{Recipe, Runner, SampleBudget, SequenceId, Step, Target, UpdateTimes, mean_of, time_power_table};
-use crate::backend::{Backend, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, all_candidates};
+use crate::backend::{
+    Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, all_candidates,
+};
 use crate::error::HostError;
 use crate::scene::SceneLight;
-use crate::workload::{RenderSettings, build};
+use crate::workload::{RenderSettings, build, words_in_use};
 
 /// Camera rays per pixel that make edges smooth; the light samples of a pixel are shared out among them.
 const MAX_CAMERA_RAYS: u32 = 8;
@@ -23,6 +25,8 @@ pub(super) struct Independent<'d, C: Choice<W, Light: SceneLight>, const W: usiz
     backend: Box<dyn Follow<C, W> + 'd>,
     /// The lights of two levels.
     moving: Option<Moving<C, W>>,
+    /// The tree over all lights, where it is refitted from frame to frame.
+    single: Option<Bvh<C, W>>,
 }
 
 impl<'d, C: Choice<W, Light: SceneLight>, const W: usize> Independent<'d, C, W> {
@@ -36,9 +40,11 @@ impl<'d, C: Choice<W, Light: SceneLight>, const W: usize> Independent<'d, C, W> 
             // Backends come with a tree, which no table walks.
             None => build(first.lights, recipe.lights, &params),
         };
+        let is_refitted = recipe.lights == Sampler::SingleLevel && !recipe.rebuilt;
         Ok(Self {
             recipe,
             target,
+            single: is_refitted.then(|| bvh.clone()),
             backend: target.backend::<C, W>(bvh)?,
             moving,
         })
@@ -50,18 +56,22 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
         if let Some(moving) = &mut self.moving {
             return moving.advance(step, Some(&mut *self.backend));
         }
+        if let Some(bvh) = &mut self.single {
+            let followed = Timed::of(|| bvh.follow(step.lights));
+            followed.value.map_err(BackendError::from)?;
+            return Ok(UpdateTimes {
+                refit: followed.time + self.backend.follow(bvh)?.time,
+                ..UpdateTimes::default()
+            });
+        }
         match self.recipe.lights {
             Sampler::Power => Ok(time_power_table(step)),
-            Sampler::SingleLevel if self.recipe.rebuilt => {
+            Sampler::SingleLevel => {
                 let params = self.recipe.builder.params();
                 let built = Timed::of(|| build(step.lights, Sampler::SingleLevel, &params));
                 self.backend = self.target.backend::<C, W>(built.value)?;
                 Ok(UpdateTimes::waited(built.time))
             }
-            Sampler::SingleLevel => Ok(UpdateTimes {
-                refit: self.backend.refit(step.lights)?.time,
-                ..UpdateTimes::default()
-            }),
             Sampler::Uniform | Sampler::TwoLevel => Ok(UpdateTimes::default()),
         }
     }
@@ -106,6 +116,13 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
 
     fn backend(&mut self) -> Option<&mut dyn Backend<C::Light>> {
         Some(&mut *self.backend)
+    }
+
+    fn words_in_use(&self, nodes: Vec<u32>) -> Vec<u32> {
+        match self.moving.as_ref().map(Moving::scene).or(self.single.as_ref()) {
+            Some(bvh) => words_in_use(bvh, &nodes),
+            None => nodes,
+        }
     }
 
     /// A single level has the shape of the first frame or of this one.

@@ -61,7 +61,7 @@ pub struct UpdateTimes {
     pub refit: Duration,
     /// Building structures anew, wherever and whenever it ran.
     pub rebuild: Duration,
-    /// How long the frame stood still for a rebuild: all of it where it does not run beside the frame.
+    /// How long the frame waited for a rebuild: all of it if it does not run in the background.
     pub wait: Duration,
 }
 
@@ -119,6 +119,11 @@ pub trait Runner<L: SceneLight = EmissiveTriangle> {
     /// What renders single images, where one does: of the frame last advanced to.
     fn backend(&mut self) -> Option<&mut dyn Backend<L>> {
         None
+    }
+
+    /// The words in use, out of the words of all nodes of the [`backend`](Self::backend).
+    fn words_in_use(&self, nodes: Vec<u32>) -> Vec<u32> {
+        nodes
     }
 
     /// What the last image of a sequence left behind, history by history; nothing but of ReSTIR.

@@ -2,7 +2,7 @@
 
 use lightbvh::{BuildParams, Heuristic};
 use lightbvh_kernels::bvh::{Choice, Paper, Standard};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use strum::{IntoStaticStr, VariantArray};
 
 use super::SampleBudget;
@@ -23,7 +23,6 @@ const DEFAULT_CANDIDATES: u32 = 8;
     Ord,
     clap::ValueEnum,
     Serialize,
-    Deserialize,
     IntoStaticStr,
     VariantArray,
 )]

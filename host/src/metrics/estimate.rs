@@ -1,9 +1,9 @@
 //! A mean over independent runs and how well it is known.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// A mean of independent measurements with its 95 % confidence interval.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// The mean.
     pub mean: f64,

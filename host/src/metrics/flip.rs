@@ -38,68 +38,6 @@ mod tests {
         mean_flip(&flip_map(a, b, size).expect("small images"))
     }
 
-    /// Flat images have no edges or points, and filters leave them as they are: what is left is the colour difference,
-    /// here by the paper's formulas in f64 from linear greys.
-    fn flat_greys(a: f64, b: f64) -> f64 {
-        let hunt = |[x, y, z]: [f64; 3]| {
-            let f = |t: f64| {
-                let delta: f64 = 6.0 / 29.0;
-                if t > delta.powi(3) {
-                    t.cbrt()
-                } else {
-                    t / (3.0 * delta * delta) + 4.0 / 29.0
-                }
-            };
-            let l = 116.0 * f(y) - 16.0;
-            [
-                l,
-                0.01 * l * 500.0 * (f(x) - f(y)),
-                0.01 * l * 200.0 * (f(y) - f(z)),
-            ]
-        };
-        let distance = |a: [f64; 3], b: [f64; 3]| {
-            ((a[0] - b[0]).abs() + ((a[1] - b[1]).powi(2) + (a[2] - b[2]).powi(2)).sqrt()).powf(0.7)
-        };
-        // Columns of the matrix from linear sRGB to XYZ over the white point, for green and blue.
-        let green = [0.357_58 / 0.950_43, 0.715_17, 0.119_19 / 1.088_90];
-        let blue = [0.180_45 / 0.950_43, 0.072_18, 0.950_40 / 1.088_90];
-        let most = distance(hunt(green), hunt(blue));
-        let d = distance(hunt([a; 3]), hunt([b; 3]));
-        let knee = 0.4 * most;
-        if d < knee {
-            d * 0.95 / knee
-        } else {
-            0.95 + 0.05 * (d - knee) / (most - knee)
-        }
-    }
-
-    fn linear(byte: u8) -> f64 {
-        let x = f64::from(byte) / 255.0;
-        if x <= 0.04045 {
-            x / 12.92
-        } else {
-            ((x + 0.055) / 1.055).powf(2.4)
-        }
-    }
-
-    #[test]
-    fn flat_images_differ_by_the_papers_colour_difference() {
-        let size = (8, 8);
-        for (a, b) in [(0_u8, 255_u8), (100, 140), (17, 18)] {
-            let found = flip(&[a; 192], &[b; 192], size);
-            let expected = flat_greys(linear(a), linear(b));
-            // The filtered values go through f32 and the 5-digit matrix above.
-            assert!(
-                (found - expected).abs() < 2e-3 * expected.max(0.05),
-                "{a} {b}: {found} {expected}"
-            );
-        }
-        // The paper scales by the distance of green from blue, the greatest there is.
-        let (green, blue) = ([0_u8, 255, 0].repeat(64), [0_u8, 0, 255].repeat(64));
-        assert!((flip(&green, &blue, size) - 1.0).abs() < 1e-6);
-        assert_eq!(flip(&green, &green, size), 0.0);
-    }
-
     #[test]
     fn agrees_with_nvidias_program_on_a_noisy_pattern() {
         let (width, height) = (96, 64);

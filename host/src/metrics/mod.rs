@@ -16,7 +16,7 @@ pub use mse::{mean_squared_error, psnr, relative_mean_squared_error, relative_sq
 pub use region::Region;
 pub use ssim::{luma, ssim};
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::render::Film;
 
@@ -54,7 +54,7 @@ pub enum MetricError {
 }
 
 /// An image's distance from a reference by every measure; smaller is better but for SSIM and PSNR.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Quality {
     /// Mean squared error of the displayed bytes, 0 to 255².
     pub mse: f64,

@@ -1,10 +1,8 @@
 //! Line charts with error bars, as SVG: text stays text, and the viewer brings the font.
 
 use std::fmt::Write;
-use std::path::Path;
 
 use super::ticks::{label, ticks};
-use crate::render::write_whole;
 
 /// Colours that most colour-blind people tell apart (M. Okabe and K. Ito, "Color Universal Design", 2008).
 const COLORS: [&str; 7] = [
@@ -165,18 +163,10 @@ impl Chart {
         }
         svg + "</svg>\n"
     }
-
-    /// Writes the document; the file appears whole or not at all.
-    ///
-    /// # Errors
-    /// What the system says.
-    pub fn write(&self, path: &Path) -> std::io::Result<()> {
-        write_whole(path, self.svg().as_bytes())
-    }
 }
 
-/// Text between tags.
-pub(super) fn escape(text: &str) -> String {
+/// Text between tags of SVG.
+pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")

@@ -1,11 +1,10 @@
-//! Figures: line charts and scattered points as SVG, and sheets of enlarged images with labels as PNG. Neither needs a font file.
+//! Figures as SVG: line charts, scattered points, and pictures within them. The viewer brings the font.
 
-mod canvas;
 mod chart;
-mod font;
+mod picture;
 mod scatter;
 mod ticks;
 
-pub use canvas::{Canvas, text_size};
-pub use chart::{Chart, Point, Series};
+pub use chart::{Chart, Point, Series, escape};
+pub use picture::png_url;
 pub use scatter::{Scatter, Spot};

@@ -1,10 +1,8 @@
 //! Points of two ratios, as SVG: both axes by powers, points numbered where there is room, names and figures in the legend.
 
 use std::fmt::Write;
-use std::path::Path;
 
 use super::chart::escape;
-use crate::render::write_whole;
 
 const LEFT: f64 = 62.0;
 const RIGHT: f64 = 520.0;
@@ -186,14 +184,6 @@ impl Scatter {
             ));
         }
         svg + "</svg>\n"
-    }
-
-    /// Writes the document; the file appears whole or not at all.
-    ///
-    /// # Errors
-    /// What the system says.
-    pub fn write(&self, path: &Path) -> std::io::Result<()> {
-        write_whole(path, self.svg().as_bytes())
     }
 }
 

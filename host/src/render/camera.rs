@@ -1,21 +1,7 @@
 //! The kernels' camera from a pose and a field of view.
 
 use lightbvh_kernels::shading::camera::Camera;
-
-/// Where an image is seen from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct View {
-    /// Position, metres.
-    pub eye: [f32; 3],
-    /// Unit vector to the right of the image.
-    pub right: [f32; 3],
-    /// Unit vector to the top of the image.
-    pub up: [f32; 3],
-    /// Unit vector into the image.
-    pub forward: [f32; 3],
-    /// Vertical field of view, radians, above 0 and below pi.
-    pub yfov: f32,
-}
+use lightbvh_scenes::View;
 
 /// The camera of an image of `width` by `height` square pixels.
 pub fn camera(view: &View, width: u32, height: u32) -> Camera {

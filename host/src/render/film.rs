@@ -54,14 +54,6 @@ pub enum FilmError {
         /// What the encoder says.
         source: image::ImageError,
     },
-    /// The file cannot be read as an image.
-    #[error("{}: cannot read the image: {source}; remove the file to have it made again", .path.display())]
-    Read {
-        /// The path asked for.
-        path: PathBuf,
-        /// What the decoder says.
-        source: image::ImageError,
-    },
     /// The file cannot be written.
     #[error("{}: cannot write the image: {source}; check that its folder exists, may be written to and has room", .path.display())]
     Write {
@@ -195,20 +187,6 @@ impl Film {
         channels.map(|&c| display(c, exposure)).collect()
     }
 
-    /// Reads back what [`write`](Self::write) made of a `.exr`; other images are taken as linear radiance as well.
-    ///
-    /// # Errors
-    /// [`FilmError::Read`] for a file that is not there or is no image.
-    pub fn read(path: &Path) -> Result<Self, FilmError> {
-        let image = image::open(path).map_err(|source| FilmError::Read {
-            path: path.to_owned(),
-            source,
-        })?;
-        let (width, height) = (image.width(), image.height());
-        let pixels = image.into_rgb32f().pixels().map(|pixel| pixel.0).collect();
-        Self::new(width, height, pixels)
-    }
-
     /// Writes the image: tone-mapped 8-bit sRGB after scaling by `exposure` for `.png`, the radiance itself in 32-bit
     /// floats for `.exr`. The file appears whole or not at all.
     ///
@@ -228,22 +206,11 @@ impl Film {
                 });
             }
         };
-        write_image(path, &bytes, (self.width, self.height), color, format)
-    }
-}
-
-/// Encodes an image and writes it; the file appears whole or not at all.
-pub(crate) fn write_image(
-    path: &Path,
-    bytes: &[u8],
-    (width, height): (u32, u32),
-    color: ExtendedColorType,
-    format: ImageFormat,
-) -> Result<(), FilmError> {
-    let path = path.to_owned();
-    let mut file = Cursor::new(Vec::new());
-    match image::write_buffer_with_format(&mut file, bytes, width, height, color, format) {
-        Err(source) => Err(FilmError::Encode { path, source }),
-        Ok(()) => write_whole(&path, file.get_ref()).map_err(|source| FilmError::Write { path, source }),
+        let path = path.to_owned();
+        let mut file = Cursor::new(Vec::new());
+        match image::write_buffer_with_format(&mut file, &bytes, self.width, self.height, color, format) {
+            Err(source) => Err(FilmError::Encode { path, source }),
+            Ok(()) => write_whole(&path, file.get_ref()).map_err(|source| FilmError::Write { path, source }),
+        }
     }
 }

@@ -6,13 +6,11 @@ mod cpu;
 mod film;
 mod output;
 mod power;
-mod ray_bvh;
 mod tone;
 
-pub use camera::{View, camera};
+pub use camera::camera;
 pub use cpu::{render, render_path};
-pub(crate) use film::write_image;
 pub use film::{Film, FilmError, MAX_AUTO_EXPOSURE};
-pub use output::write_whole;
-pub use power::{PowerError, power_thresholds, triangle_flux};
-pub use ray_bvh::{RayBvh, RayBvhError};
+pub use lightbvh_scenes::{RayBvh, RayBvhError, View};
+pub use output::{real_path, uninterrupted, write_whole};
+pub use power::{PowerError, power_thresholds};

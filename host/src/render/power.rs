@@ -1,10 +1,8 @@
 //! The table by which the power sampler chooses.
 
-use lightbvh::EmissiveTriangle;
 use lightbvh_kernels::shading::pick::MAX_PICKABLE;
 
 use crate::scene::SceneLight;
-use crate::vector::{dot, normal};
 
 /// Why there is no power table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -17,14 +15,6 @@ pub enum PowerError {
         /// Number of lights with a flux above zero.
         emitters: usize,
     },
-}
-
-/// Luminous part of the flux of a triangle: pi times area times luminance, doubled where both sides emit.
-pub fn triangle_flux(light: &EmissiveTriangle) -> f64 {
-    let normal = normal(light.p);
-    let area = 0.5 * dot(normal, normal).sqrt();
-    let sides = if light.is_two_sided() { 2.0 } else { 1.0 };
-    std::f64::consts::PI * area * f64::from(light.luminance()) * sides
 }
 
 /// The thresholds of [`Power`](lightbvh_kernels::shading::pick::Power) for these lights.

@@ -81,7 +81,7 @@ impl Case {
     }
 }
 
-/// The lights of moving meshes, planned but not refitted, and where they are in the world.
+/// A light BVH of moving meshes, and its lights in the world.
 ///
 /// # Errors
 /// [`HostError`] when the crate refuses them.
@@ -105,7 +105,7 @@ pub fn moving_scene(
             radiance,
         });
     scene.apply(edits.collect()).map_err(refused)?;
-    scene.plan();
+    scene.refit();
     let lights = validated(name, scene.world_lights())?;
     Ok((scene, lights))
 }

@@ -15,16 +15,13 @@ pub mod statistics;
 pub mod subject;
 pub mod words;
 
-use lightbvh::{
-    BoundsNode, Bvh, CompactNode, EmissiveTriangle, Eq4, FullNode, ImportanceModel, LightNode, Lights,
-};
+use lightbvh::{BoundsNode, Bvh, CompactNode, EmissiveTriangle, Eq4, ImportanceModel, LightNode, Lights};
 use lightbvh_kernels::bvh::{Choice, Node, Standard, WIDTH};
 
 use self::case::{Case, Source, moving_scene, validated};
 use self::row::{Check, Row};
 use self::subject::{Subject, Walked};
-use self::words::Compared;
-use crate::backend::Sampler;
+use crate::backend::{self, Sampler};
 use crate::error::HostError;
 use crate::vulkan::Device;
 use crate::workload;
@@ -86,9 +83,7 @@ pub fn run(case: &Case, effort: &Effort, devices: &[&Device], found: &mut Found)
                 .concat(),
                 ..*case
             };
-            let mut refitted = scene.clone();
-            refitted.refit();
-            let tree = Walked::new(refitted.tree(), lights.triangles());
+            let tree = Walked::new(scene.tree(), lights.triangles());
             found.rows.extend(checks::check(
                 &case.name,
                 "instances",
@@ -96,14 +91,7 @@ pub fn run(case: &Case, effort: &Effort, devices: &[&Device], found: &mut Found)
                 &case.points,
                 effort.samples,
             ));
-            on_devices(
-                &case,
-                "instances",
-                &Compared::Planned(&scene),
-                &lights,
-                devices,
-                found,
-            )
+            on_devices(&case, "instances", &scene, &lights, devices, found)
         }
     }
 }
@@ -132,18 +120,10 @@ fn world(
             &case.points,
             samples,
         ));
-        on_devices(
-            case,
-            sampler.name(),
-            &Compared::Refitted(&bvh),
-            &lights,
-            devices,
-            found,
-        )?;
+        on_devices(case, sampler.name(), &bvh, &lights, devices, found)?;
     }
     if !case.large {
         narrow::<CompactNode<2>>(case, &lights, samples, found);
-        narrow::<FullNode<2>>(case, &lights, samples, found);
     }
     Ok(())
 }
@@ -180,13 +160,13 @@ pub fn walked<'a, N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 fn on_devices(
     case: &Case,
     structure: &str,
-    compared: &Compared<'_>,
+    bvh: &backend::Bvh,
     lights: &Lights,
     devices: &[&Device],
     found: &mut Found,
 ) -> Result<(), HostError> {
     for device in devices {
-        match words::compare(&case.name, structure, compared, lights, &case.points, device)? {
+        match words::compare(&case.name, structure, bvh, lights, &case.points, device)? {
             Some(rows) => found.rows.extend(rows),
             None => {
                 let names = [&case.name, structure, device.name()].map(str::to_owned);

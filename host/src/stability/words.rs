@@ -2,42 +2,35 @@
 
 use bytemuck::cast_slice;
 use lightbvh::{INVALID, Lights, Random64, ShadingPoint};
-use lightbvh_kernels::bvh::{Node, WIDTH};
+use lightbvh_kernels::bvh::WIDTH;
 use lightbvh_kernels::query::Query;
 
 use super::random::{Random, adversarial};
 use super::row::{Check, Row};
-use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, Follow, PMF_RECORD, SAMPLED_RECORD};
+use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, PMF_RECORD, SAMPLED_RECORD};
 use crate::error::HostError;
 use crate::vulkan::{Device, VulkanError};
 use crate::words::{Record, compare_words};
+use crate::workload::words_in_use;
 
 /// Random numbers per point, beside the adversarial ones.
 const NUMBERS: u32 = 96;
 /// Levels for which adversarial random numbers are made.
 const ADVERSARIAL_LEVELS: u32 = 4;
 
-/// What a device is compared in.
-pub enum Compared<'a> {
-    /// A BVH over triangles in the world, refitted.
-    Refitted(&'a Bvh),
-    /// A BVH after edits, planned but not refitted.
-    Planned(&'a Bvh),
-}
-
-/// Compares refit, samples and probabilities. `None` where the device has no buffers as large.
+/// Compares refit, samples and probabilities over a BVH that is refitted. `None` where the device has no buffers as large.
 ///
 /// # Errors
 /// [`HostError`] when the device fails otherwise.
 pub fn compare(
     extreme: &str,
     structure: &str,
-    compared: &Compared<'_>,
+    bvh: &Bvh,
     lights: &Lights,
     points: &[ShadingPoint],
     device: &Device,
 ) -> Result<Option<Vec<Row>>, HostError> {
-    match rows(extreme, structure, compared, lights, points, device) {
+    match rows(extreme, structure, bvh, lights, points, device) {
         Err(HostError::Vulkan(VulkanError::BufferTooLarge { .. })) => Ok(None),
         rows => rows.map(Some),
     }
@@ -46,29 +39,16 @@ pub fn compare(
 fn rows(
     extreme: &str,
     structure: &str,
-    compared: &Compared<'_>,
+    bvh: &Bvh,
     lights: &Lights,
     points: &[ShadingPoint],
     device: &Device,
 ) -> Result<Vec<Row>, HostError> {
-    let (mut cpu, mut other, nodes, found) = match compared {
-        Compared::Refitted(bvh) => {
-            let mut cpu: CpuBackend = CpuBackend::new((*bvh).clone());
-            let mut other: DeviceBackend<'_> = DeviceBackend::new(device, bvh)?;
-            other.write_nodes(&without_summaries(bvh.nodes()))?;
-            let nodes = cpu.refit(lights)?.value;
-            let found = other.refit(lights)?.value;
-            (cpu, other, nodes, found)
-        }
-        Compared::Planned(bvh) => {
-            let mut cpu: CpuBackend = CpuBackend::new((*bvh).clone());
-            let mut other: DeviceBackend<'_> = DeviceBackend::new(device, bvh)?;
-            cpu.follow(bvh)?;
-            other.follow(bvh)?;
-            let (nodes, found) = (cpu.nodes()?, other.nodes()?);
-            (cpu, other, nodes, found)
-        }
-    };
+    let mut cpu: CpuBackend = CpuBackend::new(bvh.clone());
+    // It refits all that is uploaded.
+    let mut other: DeviceBackend<'_> = DeviceBackend::new(device, &without_summaries(bvh))?;
+    let nodes = words_in_use(bvh, &cpu.nodes()?);
+    let found = words_in_use(bvh, &other.nodes()?);
     let row = |check, record: &Record, cpu: &[u32], device_words: &[u32]| -> Result<Row, HostError> {
         let comparison = compare_words(record, cpu, device_words)?;
         let place = comparison.first.map(|first| first.to_string());
@@ -87,7 +67,7 @@ fn rows(
         cast_slice(&found),
     )?);
     let count = lights.triangles().len() as u32;
-    let live = cpu.bvh().tree().live > 0;
+    let live = bvh.tree().live > 0;
     let instance_of = |light: u32| {
         if live {
             lights.triangles()[light as usize].mesh
@@ -114,11 +94,12 @@ fn rows(
     Ok(out)
 }
 
-/// Nodes with links alone, so that a refit has everything to compute.
-fn without_summaries(nodes: &[Node]) -> Vec<Node> {
+/// The same with links alone in its nodes, so that a refit has everything to compute.
+fn without_summaries(bvh: &Bvh) -> Bvh {
     use lightbvh::node::Node as _;
-    let mut out = nodes.to_vec();
-    for node in &mut out {
+    let mut out = bvh.clone();
+    let parts = out.parts_mut();
+    for node in parts.nodes.iter_mut().chain(parts.top) {
         for slot in 0..WIDTH {
             node.set_child(slot, node.kind(slot), node.link(slot));
         }

@@ -2,7 +2,6 @@
 
 use super::counts::Counts;
 use super::error::{CallContext, VulkanError};
-use super::fma;
 use super::instance::Instance;
 use super::options::Options;
 use super::probe::{Candidate, Probe};
@@ -212,15 +211,10 @@ fn create(instance: &Instance, candidate: &Candidate, options: Options) -> Resul
     let mut vulkan12 = vk::PhysicalDeviceVulkan12Features::default()
         .vulkan_memory_model(true)
         .scalar_block_layout(available.scalar_block_layout);
-    let mut info = vk::DeviceCreateInfo::default()
+    let info = vk::DeviceCreateInfo::default()
         .queue_create_infos(&queues)
         .enabled_features(&features)
         .push_next(&mut vulkan12);
-    let mut fused = fma::Features::wanted();
-    let extensions = [fma::NAME.as_ptr()];
-    if available.shader_fma_32 {
-        info = info.enabled_extension_names(&extensions).push_next(&mut fused);
-    }
     // SAFETY: the physical device comes from this instance, the queue family and every enabled feature from its own
     // report, and `info` with all it points to outlives the call.
     unsafe { instance.raw.create_device(candidate.physical, &info, None) }

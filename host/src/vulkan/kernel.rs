@@ -20,8 +20,11 @@ pub struct Kernel {
 /// it from being used after they are gone.
 #[derive(Default)]
 pub(crate) struct Kernels {
-    pub(super) built_in: HashMap<&'static str, Arc<Kernel>>,
+    /// By name and specialisation constant 0.
+    pub(super) built_in: HashMap<(&'static str, u32), Arc<Kernel>>,
     pub(super) others: Vec<Arc<Kernel>>,
+    /// Words that stand in for those of built-in kernels.
+    pub(super) replaced: HashMap<&'static str, Vec<u32>>,
 }
 
 impl Kernels {

@@ -28,7 +28,6 @@ mod counts;
 mod device;
 mod error;
 mod fault;
-mod fma;
 mod instance;
 mod kernel;
 mod memory;

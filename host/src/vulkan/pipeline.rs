@@ -4,9 +4,10 @@ use super::device::Device;
 use super::error::{CallContext, VulkanError};
 use super::kernel::Kernel;
 use super::shared::Shared;
+use crate::renderer;
 use ash::vk;
 use lightbvh_gpu::spirv::Interface;
-use lightbvh_gpu::{KERNELS, with_float_modes, with_shader_fma};
+use lightbvh_gpu::with_float_modes;
 use std::ffi::CString;
 use std::sync::Arc;
 
@@ -18,13 +19,25 @@ impl Device {
     /// # Errors
     /// [`VulkanError::UnknownKernel`], or those of [`Device::kernel_from_words`].
     pub fn kernel(&self, name: &str) -> Result<Arc<Kernel>, VulkanError> {
+        self.kernel_with(name, 0)
+    }
+
+    /// [`kernel`](Self::kernel) with `constant` for specialisation constant 0, where it has one.
+    ///
+    /// # Errors
+    /// As [`kernel`](Self::kernel).
+    pub fn kernel_with(&self, name: &str, constant: u32) -> Result<Arc<Kernel>, VulkanError> {
         let module = built_in(name)?;
         let mut kernels = self.shared.kernels();
-        if let Some(kernel) = kernels.built_in.get(name) {
+        if let Some(kernel) = kernels.built_in.get(&(module.name, constant)) {
             return Ok(Arc::clone(kernel));
         }
-        let kernel = Arc::new(Kernel::new(&self.shared, name, &module.words())?);
-        kernels.built_in.insert(module.name, Arc::clone(&kernel));
+        let replaced = kernels.replaced.get(name).cloned();
+        let words = replaced.unwrap_or_else(|| module.words());
+        let kernel = Arc::new(Kernel::new(&self.shared, name, &words, constant)?);
+        kernels
+            .built_in
+            .insert((module.name, constant), Arc::clone(&kernel));
         drop(kernels);
         self.shared.check_validation()?;
         Ok(kernel)
@@ -38,12 +51,15 @@ impl Device {
     #[doc(hidden)]
     pub fn replace_kernel(&self, name: &str, words: &[u32]) -> Result<(), VulkanError> {
         let module = built_in(name)?;
-        let kernel = Arc::new(Kernel::new(&self.shared, name, words)?);
-        let mut kernels = self.shared.kernels();
-        // A pass may still name the old one's pipeline; it goes when the device does.
-        let old = kernels.built_in.insert(module.name, kernel);
-        kernels.others.extend(old);
-        drop(kernels);
+        let kernel = Arc::new(Kernel::new(&self.shared, name, words, 0)?);
+        let mut guard = self.shared.kernels();
+        let kernels = &mut *guard;
+        // A pass may still name an old one's pipeline; it goes when the device does.
+        let old = kernels.built_in.extract_if(|(of, _), _| *of == name);
+        kernels.others.extend(old.map(|(_, kernel)| kernel));
+        kernels.built_in.insert((module.name, 0), kernel);
+        kernels.replaced.insert(module.name, words.to_vec());
+        drop(guard);
         self.shared.check_validation()
     }
 
@@ -56,17 +72,25 @@ impl Device {
     /// [`VulkanError::BadModule`] if the words are no such module, [`VulkanError::KernelOverLimit`] if it needs more
     /// than the device has, [`VulkanError::Validation`], or [`VulkanError::Call`].
     pub fn kernel_from_words(&self, name: &str, words: &[u32]) -> Result<Arc<Kernel>, VulkanError> {
-        let kernel = Arc::new(Kernel::new(&self.shared, name, words)?);
+        let kernel = Arc::new(Kernel::new(&self.shared, name, words, 0)?);
         self.shared.kernels().others.push(Arc::clone(&kernel));
         self.shared.check_validation()?;
         Ok(kernel)
     }
 }
 
+/// All modules: the tree's and the renderer's.
+fn all() -> impl Iterator<Item = &'static lightbvh_gpu::Kernel> {
+    [lightbvh_gpu::KERNELS, renderer::KERNELS]
+        .into_iter()
+        .flatten()
+        .copied()
+}
+
 /// The module of that name.
 fn built_in(name: &str) -> Result<&'static lightbvh_gpu::Kernel, VulkanError> {
-    lightbvh_gpu::Kernel::named(name).ok_or_else(|| {
-        let known: Vec<&str> = KERNELS.iter().map(|kernel| kernel.name).collect();
+    all().find(|kernel| kernel.name == name).ok_or_else(|| {
+        let known: Vec<&str> = all().map(|kernel| kernel.name).collect();
         VulkanError::UnknownKernel {
             name: name.into(),
             known: known.join(", "),
@@ -75,16 +99,13 @@ fn built_in(name: &str) -> Result<&'static lightbvh_gpu::Kernel, VulkanError> {
 }
 
 impl Kernel {
-    fn new(shared: &Shared, name: &str, words: &[u32]) -> Result<Self, VulkanError> {
+    fn new(shared: &Shared, name: &str, words: &[u32], constant: u32) -> Result<Self, VulkanError> {
         let bad_module = |source| VulkanError::BadModule {
             kernel: name.into(),
             source,
         };
         let interface = Interface::read(words).map_err(bad_module)?;
-        let mut words = with_float_modes(words, shared.probe.float_controls.into()).map_err(bad_module)?;
-        if shared.probe.features.shader_fma_32 {
-            words = with_shader_fma(&words).map_err(bad_module)?;
-        }
+        let words = with_float_modes(words, shared.probe.float_controls.into()).map_err(bad_module)?;
         check_limits(shared, name, &interface)?;
         let mut kernel = Self {
             name: name.into(),
@@ -94,7 +115,7 @@ impl Kernel {
             layout: vk::PipelineLayout::null(),
             pipeline: vk::Pipeline::null(),
         };
-        match kernel.create(shared, &words) {
+        match kernel.create(shared, &words, constant) {
             Ok(()) => Ok(kernel),
             Err(error) => {
                 kernel.destroy(&shared.raw);
@@ -103,7 +124,7 @@ impl Kernel {
         }
     }
 
-    fn create(&mut self, shared: &Shared, words: &[u32]) -> Result<(), VulkanError> {
+    fn create(&mut self, shared: &Shared, words: &[u32], constant: u32) -> Result<(), VulkanError> {
         let (device, device_name) = (&shared.raw, shared.probe.name.as_str());
         let bindings: Vec<_> = (0..self.interface.buffers.len() as u32)
             .map(|binding| {
@@ -140,7 +161,14 @@ impl Kernel {
             .during("vkCreateShaderModule", device_name)?;
         // Read from a zero-terminated string, so there is no zero byte to cut at.
         let entry_point = CString::new(self.interface.entry_point.as_bytes()).unwrap_or_default();
+        // A constant that the module does not have changes nothing.
+        let constant = constant.to_ne_bytes();
+        let entries = [vk::SpecializationMapEntry::default().size(constant.len())];
+        let special = vk::SpecializationInfo::default()
+            .map_entries(&entries)
+            .data(&constant);
         let stage = vk::PipelineShaderStageCreateInfo::default()
+            .specialization_info(&special)
             .stage(vk::ShaderStageFlags::COMPUTE)
             .module(module)
             .name(&entry_point);

@@ -1,7 +1,6 @@
 //! What a device says about itself: driver, float controls, limits.
 
 use super::cache::Identity;
-use super::fma;
 use super::instance::Instance;
 use ash::vk;
 use serde::Serialize;
@@ -79,8 +78,6 @@ pub struct Features {
     pub scalar_block_layout: bool,
     /// `robustBufferAccess`: accesses beyond a buffer are defined.
     pub robust_buffer_access: bool,
-    /// `shaderFmaFloat32` of `VK_KHR_shader_fma`: a product and a sum rounded once. Native kernels use it.
-    pub shader_fma_32: bool,
 }
 
 /// Limits; bytes unless said otherwise.
@@ -181,7 +178,6 @@ impl Candidate {
                 vulkan_memory_model: true,
                 scalar_block_layout: vulkan12.scalar_block_layout == vk::TRUE,
                 robust_buffer_access,
-                shader_fma_32: fma::is_there(vk_instance, physical),
             },
             limits: Limits {
                 max_storage_buffer_range: u64::from(limits.max_storage_buffer_range),

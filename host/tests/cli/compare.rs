@@ -1,35 +1,11 @@
-//! `lightbvh compare`, whole: what it says, what it leaves in its folder, how it goes on and how it refuses.
+//! `lightbvh compare`, whole: what it says, what it leaves in its folder, and how it refuses.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
 
 use serde_json::Value;
 
-/// A folder of its own for each test, removed at its end.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("lightbvh-compare-{}-{name}", std::process::id()));
-        std::fs::create_dir_all(&path).expect("a folder in the temporary directory");
-        Self(path)
-    }
-
-    /// Files below the folder whose names end like this.
-    fn results(&self, scene: &str, ending: &str) -> Vec<PathBuf> {
-        let entries = std::fs::read_dir(self.0.join("results").join(scene)).expect("results");
-        let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
-        paths.retain(|path| path.to_str().is_some_and(|path| path.ends_with(ending)));
-        paths.sort();
-        paths
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
+use crate::program::Folder;
 
 /// Runs a comparison into `folder`.
 fn compare(folder: &Path, options: &str) -> Output {
@@ -59,7 +35,7 @@ fn rows(report: &Value) -> &Vec<Value> {
 
 #[test]
 fn the_report_has_every_measure_and_every_file() {
-    let folder = Folder::new("report");
+    let folder = Folder::new("compare-report");
     let report = report(&folder.0, &format!("{SMALL} {TWO_METHODS}"));
     // Two methods at two frames.
     assert_eq!(rows(&report).len(), 4);
@@ -111,68 +87,15 @@ fn the_report_has_every_measure_and_every_file() {
     let written: Value =
         serde_json::from_slice(&std::fs::read(folder.0.join("compare.json")).expect("a file")).expect("JSON");
     assert_eq!(written, report);
-    assert!(image::open(folder.0.join("crops-street.png")).is_ok());
+    let sheet = std::fs::read_to_string(folder.0.join("crops-street.svg")).expect("a sheet");
+    // The reference, and three regions by both methods and the reference.
+    assert_eq!(sheet.matches("<image ").count(), 1 + 3 * 3);
     assert!(!report["crops"].as_array().expect("crops").is_empty());
 }
 
 #[test]
-fn an_interrupted_run_goes_on_and_changed_parameters_are_not_mixed_up() {
-    let folder = Folder::new("resume");
-    let options = format!("{SMALL} {TWO_METHODS}");
-    let first = report(&folder.0, &options);
-    // Images: two methods, two frames, two seeds. Times: two methods, two blocks.
-    assert_eq!((&first["computed"], &first["reused"]), (&12.into(), &0.into()));
-    let same = |other: &Value| {
-        for part in ["rows", "averages", "crops", "scenes"] {
-            assert_eq!(other[part], first[part], "{part}");
-        }
-    };
-    let second = report(&folder.0, &options);
-    assert_eq!((&second["computed"], &second["reused"]), (&0.into(), &12.into()));
-    same(&second);
-
-    // One result lost, one cut short, one image of a close-up lost: those three alone are made again, to the bit.
-    let images = folder.results("street", ".json");
-    let image = |part: &str| {
-        images
-            .iter()
-            .find(|path| path.to_str().is_some_and(|p| p.contains(part)))
-    };
-    std::fs::remove_file(image("refit-cpu-f009-s01").expect("a result")).expect("it goes");
-    std::fs::write(image("saoh-cpu-f000-s00").expect("a result"), b"{").expect("it is written");
-    let close_ups = folder.results("street", ".exr");
-    let close_up = close_ups
-        .iter()
-        .find(|path| path.to_str().is_some_and(|p| p.contains("saoh-cpu-f009-s00")));
-    std::fs::remove_file(close_up.expect("an image")).expect("it goes");
-    let third = report(&folder.0, &options);
-    assert_eq!((&third["computed"], &third["reused"]), (&3.into(), &9.into()));
-    same(&third);
-
-    // Other parameters: nothing of the old serves, but for the references.
-    let references = || -> Vec<(PathBuf, std::time::SystemTime)> {
-        let mut all = folder.results("street", ".exr");
-        all.retain(|path| path.to_str().is_some_and(|path| path.contains("reference")));
-        let modified = |path: PathBuf| {
-            let time = std::fs::metadata(&path)
-                .and_then(|data| data.modified())
-                .expect("a time");
-            (path, time)
-        };
-        all.into_iter().map(modified).collect()
-    };
-    let before = references();
-    assert_eq!(before.len(), 4);
-    let changed = options.replace("--samples 1 ", "--samples 2 ");
-    let other = report(&folder.0, &changed);
-    assert_eq!((&other["computed"], &other["reused"]), (&12.into(), &0.into()));
-    assert_eq!(references(), before);
-    assert_ne!(other["rows"][0]["mse"], first["rows"][0]["mse"]);
-}
-
-#[test]
 fn quick_compares_all_methods_on_all_scenes() {
-    let folder = Folder::new("quick");
+    let folder = Folder::new("compare-quick");
     let report = report(&folder.0, "--quick --width 24 --height 16 --backend cpu");
     for scene in ["street", "square", "carousel"] {
         for method in [
@@ -204,7 +127,7 @@ fn quick_compares_all_methods_on_all_scenes() {
 
 #[test]
 fn devices_render_the_words_of_the_cpu() {
-    let folder = Folder::new("devices");
+    let folder = Folder::new("compare-devices");
     let methods = "--method single-level-refit --method single-level-rebuilt --method two-level-saoh \
                    --method two-level-moments";
     let report = report(&folder.0, &format!("{SMALL} {methods} --timed-frames 0"));
@@ -227,7 +150,7 @@ fn devices_render_the_words_of_the_cpu() {
 
 #[test]
 fn bad_input_is_refused() {
-    let folder = Folder::new("refused");
+    let folder = Folder::new("compare-refused");
     let taken = folder.0.join("taken");
     std::fs::write(&taken, b"").expect("a file");
     for (options, expected) in [
@@ -258,5 +181,5 @@ fn bad_input_is_refused() {
         output.status.code() == Some(2) && said.contains("taken"),
         "{said}"
     );
-    assert!(!folder.0.join("results").exists());
+    assert!(!folder.0.join("compare.json").exists());
 }

@@ -334,8 +334,6 @@ fn what_does_not_fit_is_refused() {
             "--changes triangles --updates instances",
             "keep updates of meshes",
         ),
-        ("--layout lean --width 4", "--layout moments or two-sided"),
-        ("--width 3", "--width"),
         ("--static --changes radiance", "--changes"),
         ("--points 0", "--points"),
     ] {

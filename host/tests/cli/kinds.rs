@@ -2,75 +2,51 @@
 
 use serde_json::{Value, json};
 
+use crate::model::{self, FLOOR};
 use crate::program::{Folder, json as report, refused, run};
 
 const NAME: &str = "KHR_lights_punctual";
 
-/// A floor of one triangle, and lights over it.
-struct Stage {
-    lights: Value,
-    material: Value,
-}
-
-impl Default for Stage {
-    fn default() -> Self {
-        Self {
-            lights: json!([
-                { "type": "point", "intensity": 5 },
-                { "type": "point", "intensity": 2 },
-                { "type": "spot", "intensity": 9, "spot": { "outerConeAngle": 0.5 } }
-            ]),
-            material: json!({}),
-        }
-    }
-}
-
-impl Stage {
-    /// Writes it as glTF beside its buffer and returns its path.
-    fn write(&self, folder: &Folder, name: &str) -> String {
-        let floor = [-5.0_f32, 0.0, -5.0, -5.0, 0.0, 5.0, 5.0, 0.0, 5.0];
-        let bytes: Vec<u8> = floor.iter().flat_map(|x| x.to_le_bytes()).collect();
-        std::fs::write(folder.file(&format!("{name}.bin")), &bytes).expect("a buffer");
-        let lights = self.lights.as_array().expect("a list");
-        let mut nodes = vec![json!({ "mesh": 0 })];
-        // The axes of spots and suns are turned downward: a rotation by a right angle, as its quaternion stands before it is
-        // made a unit.
-        nodes.extend((0..lights.len()).map(|k| {
-            json!({
+/// A floor, and lights of these kinds over it that shine down.
+fn stage(folder: &Folder, name: &str, lights: &[Value], material: Value) -> String {
+    model::write(folder, name, &[], |root| {
+        let nodes = root["nodes"].as_array_mut().expect("a list");
+        let mut shown = vec![json!(FLOOR)];
+        for k in 0..lights.len() {
+            shown.push(json!(nodes.len()));
+            // The axes of spots and suns are turned downward: a rotation by a right angle, as its quaternion stands before it is
+            // made a unit.
+            nodes.push(json!({
                 "translation": [k as f32 - 3.0, 2.0 + k as f32, 2.0], "rotation": [-1, 0, 0, 1],
                 "extensions": { NAME: { "light": k } }
-            })
-        }));
-        let all: Vec<usize> = (0..nodes.len()).collect();
-        let root = json!({
-            "asset": { "version": "2.0" },
-            "extensionsUsed": [NAME, "KHR_materials_transmission"],
-            "extensions": { NAME: { "lights": self.lights } },
-            "scene": 0,
-            "scenes": [{ "nodes": all }],
-            "nodes": nodes,
-            "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "material": 0 }] }],
-            "materials": [self.material],
-            "accessors": [{
-                "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-5, 0, -5], "max": [5, 0, 5]
-            }],
-            "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
-            "buffers": [{ "uri": format!("{name}.bin"), "byteLength": 36 }]
-        });
-        let path = folder.file(&format!("{name}.gltf"));
-        std::fs::write(&path, root.to_string()).expect("a scene");
-        path
-    }
+            }));
+        }
+        root["scenes"][0]["nodes"] = json!(shown);
+        root["materials"][0] = material;
+        root["extensionsUsed"] = json!([NAME, "KHR_materials_transmission"]);
+        root["extensions"] = json!({ NAME: { "lights": lights } });
+    })
+}
+
+fn points(folder: &Folder, name: &str, material: Value) -> String {
+    let lights = [
+        json!({ "type": "point", "intensity": 5 }),
+        json!({ "type": "point", "intensity": 2 }),
+        json!({ "type": "spot", "intensity": 9, "spot": { "outerConeAngle": 0.5 } }),
+    ];
+    stage(folder, name, &lights, material)
 }
 
 #[test]
-fn scenes_of_points_and_spots_are_validated_inspected_and_measured() {
+fn scenes_of_points_and_spots_are_verified_and_inspected() {
     let folder = Folder::new("kinds");
-    let path = Stage::default().write(&folder, "points");
-    let found = report(&format!("validate {path} --json"));
+    let path = points(&folder, "points", json!({}));
+    let found = report(&format!(
+        "verify --scene {path} --queries 64 --frames 0..1 --json"
+    ));
     assert_eq!(found["valid"], true);
     let rows = found["rows"].as_array().expect("rows");
-    assert_eq!(rows.len(), 8);
+    assert_eq!(rows.len(), 6);
     assert!(rows.iter().all(|row| row["lights"] == 3), "{rows:?}");
 
     let found = report(&format!("inspect {path} --points 40 --json"));
@@ -82,28 +58,16 @@ fn scenes_of_points_and_spots_are_validated_inspected_and_measured() {
     let said = run(&format!("inspect {path} --points 40"));
     let said = String::from_utf8_lossy(&said.stdout).into_owned();
     assert!(said.contains("every invariant holds"), "{said}");
-
-    let found = report(&format!("variance --scene {path} --points 40 --json"));
-    let rows = found["rows"].as_array().expect("rows");
-    assert_eq!(rows.len(), 4);
-    for row in rows {
-        // Some points choose a light that does not send them what the tree thinks.
-        assert!(
-            row["mean"].as_f64().is_some_and(|mean| mean > 0.0 && mean < 1.0),
-            "{row}"
-        );
-    }
 }
 
 #[test]
 fn suns_alone_leave_trees_empty() {
     let folder = Folder::new("sun");
-    let sun = Stage {
-        lights: json!([{ "type": "directional", "intensity": 3 }]),
-        ..Stage::default()
-    };
-    let path = sun.write(&folder, "sun");
-    let found = report(&format!("validate {path} --json"));
+    let sun = json!({ "type": "directional", "intensity": 3 });
+    let path = stage(&folder, "sun", &[sun], json!({}));
+    let found = report(&format!(
+        "verify --scene {path} --queries 64 --frames 0..1 --json"
+    ));
     assert_eq!(
         (&found["valid"], &found["rows"][0]["lights"]),
         (&json!(true), &json!(0))
@@ -131,26 +95,19 @@ fn suns_alone_leave_trees_empty() {
 #[test]
 fn commands_for_triangles_say_which_commands_take_other_lights() {
     let folder = Folder::new("refused-kinds");
-    let path = Stage::default().write(&folder, "points");
+    let path = points(&folder, "points", json!({}));
     let out = folder.file("out");
     for command in [
         format!("trade --quick --scene {path}"),
         format!("compare --quick --scene {path} --out {out}"),
-        format!("variance --gloss --scene {path}"),
+        format!("trade --variance --scene {path}"),
     ] {
         let said = refused(&command);
-        for part in [
-            "3 lights of other kinds",
-            "`lightbvh render`",
-            "`inspect`",
-            "`validate`",
-        ] {
+        for part in ["3 lights of other kinds", "`lightbvh render`", "`inspect`"] {
             assert!(said.contains(part), "{command}: {said}");
         }
     }
-    let said = refused(&format!("validate {path} --importance eq4"));
-    assert!(said.contains("triangles alone"), "{said}");
-    let said = refused(&format!("inspect {path} --layout full"));
+    let said = refused(&format!("inspect {path} --layout two-sided"));
     assert!(said.contains("--layout"), "{said}");
 }
 
@@ -171,18 +128,14 @@ fn glass_alone_is_rendered() {
         ("tinted", glass(json!([1, 0.2, 0.2, 1])), false),
         ("veil", veil, false),
     ] {
-        let stage = Stage {
-            material,
-            ..Stage::default()
-        };
-        let path = stage.write(&folder, name);
+        let path = points(&folder, name, material);
         let image = folder.file(&format!("{name}.png"));
         let output = run(&format!("render {path} --width 16 --height 9 --spp 1 -o {image}"));
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.success(), "{name}: {said}");
         assert!(std::path::Path::new(&image).exists(), "{name}");
         assert_eq!(
-            said.contains("note: 1 triangle is clear glass, which shows nothing by itself"),
+            said.contains("note: 2 triangles are clear glass, which shows nothing by itself"),
             is_noted,
             "{name}: {said}"
         );

@@ -1,6 +1,7 @@
 //! What is refused, and in which words.
 
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 use crate::program::{Folder, has_device, refused, run};
 
@@ -55,10 +56,6 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
         let said = refused(&format!("bench {option} 0"));
         assert!(said.contains(&format!("{option} 0")), "{said}");
     }
-    let said = refused("bench --dynamic --instances 0");
-    assert!(said.contains("--instances 0"), "{said}");
-    let said = refused("bench --dynamic --mesh-triangles 100000");
-    assert!(said.contains("1000000000") && said.contains("10000000"), "{said}");
     refused(&format!("render street --sampler best -o {image}"));
     for budget in ["--time 0", "--time nan", "--error -1"] {
         let said = refused(&format!("trade {budget}"));
@@ -107,6 +104,37 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
     if has_device() {
         let said = refused("verify --queries 1 --device no-such-device");
         assert!(said.contains("no-such-device"), "{said}");
+    }
+}
+
+/// `head` closes a table; an object that is cut is none.
+#[test]
+fn closed_output_fails_for_json_alone() {
+    let code = |line: &str| {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_lightbvh"))
+            .args(line.split(' '))
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        drop(child.stdout.take());
+        child.wait().expect("it ends").code()
+    };
+    assert_eq!((code("info"), code("info --json")), (Some(0), Some(2)));
+}
+
+#[test]
+fn options_are_taken_where_they_apply() {
+    for (line, option) in [
+        ("inspect street --device 0", "--device"),
+        ("inspect street --validation", "--validation"),
+        ("export street -o street.glb --json", "--json"),
+        ("bench --dynamic --device 0", "--device"),
+        ("trade --variance --validation", "--validation"),
+        ("trade --points 5", "--variance"),
+    ] {
+        let said = refused(line);
+        assert!(said.contains(option), "{line}: {said}");
     }
 }
 

@@ -17,7 +17,7 @@ const MOST_HALVINGS: u32 = 20;
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
 pub enum ChoiceError {
     /// No such layout.
-    #[error("--layout {0} is not known, expected moments, two-sided, lean or full")]
+    #[error("--layout {0} is not known, expected moments or two-sided")]
     Layout(String),
     /// No such width.
     #[error("--width {0} is out of range, expected 4 to 16")]
@@ -113,11 +113,14 @@ mod tests {
         }
         for width in ["3", "17", "-8", "eight"] {
             assert_eq!(
-                parse("lean", width, "6"),
+                parse("two-sided", width, "6"),
                 Err(ChoiceError::Width(width.to_owned()))
             );
         }
-        assert_eq!(parse("full", "8", "21"), Err(ChoiceError::Share("21".to_owned())));
+        assert_eq!(
+            parse("moments", "8", "21"),
+            Err(ChoiceError::Share("21".to_owned()))
+        );
     }
 
     /// Every pass of a set of kernels is there, over the nodes of the choice.

@@ -188,7 +188,7 @@ fn modules(
     Ok(Compiled { modules, raw })
 }
 
-/// Writes what [`compile`] made below `kernels/gpu/spirv`.
+/// Writes what [`compile`] made.
 ///
 /// # Errors
 /// Names the file that could not be written.

@@ -10,12 +10,12 @@ use crate::branches::one_armed;
 use crate::{Unreadable, load};
 use rspirv::binary::Assemble;
 use rspirv::dr::{Instruction, Module, Operand};
-use rspirv::spirv::{Capability, Decoration, ExecutionMode, GlslStd450Op as GLOp, Op};
-use std::collections::{HashMap, HashSet};
+use rspirv::spirv::{Capability, Decoration, ExecutionMode, Op};
+use std::collections::HashSet;
 
 /// Returns the module with `NoContraction` on the result of every float operation, without debug information (it
 /// holds absolute paths and whole source files), without the capability that braked `spirv-opt`, without empty arms
-/// of branches. A quotient of 1 and a root is the one instruction for it.
+/// of branches.
 ///
 /// # Errors
 /// When the words are not a SPIR-V module.
@@ -24,7 +24,6 @@ pub fn decorate(words: &[u32]) -> Result<Vec<u32>, Unreadable> {
     strip_debug(&mut module);
     strip_brake(&mut module);
     one_armed(&mut module);
-    inverse_roots(&mut module);
     forbid_contraction(&mut module);
     Ok(module.assemble())
 }
@@ -97,49 +96,6 @@ fn forbid_contraction(module: &mut Module) {
         let operands = vec![Operand::IdRef(id), Operand::Decoration(Decoration::NoContraction)];
         Instruction::new(Op::Decorate, None, None, operands)
     }));
-}
-
-/// Takes `InverseSqrt` in the place of each quotient of 1 and `Sqrt`, for which the source has no word. Only what is compiled for
-/// native operations has such.
-fn inverse_roots(module: &mut Module) {
-    let is_extended = |inst: &Instruction, which: GLOp| {
-        inst.class.opcode == Op::ExtInst
-            && inst.operands.get(1) == Some(&Operand::LiteralExtInstInteger(which as u32))
-    };
-    let ones: HashSet<u32> = (module.types_global_values.iter())
-        .filter(|inst| inst.operands == [Operand::LiteralBit32(1.0f32.to_bits())])
-        .filter_map(|inst| inst.result_id)
-        .collect();
-    let roots: HashMap<u32, Vec<Operand>> = module
-        .all_inst_iter()
-        .filter(|inst| is_extended(inst, GLOp::Sqrt))
-        .filter_map(|inst| Some((inst.result_id?, inst.operands.clone())))
-        .collect();
-    let mut inverted = HashSet::new();
-    for inst in module.all_inst_iter_mut() {
-        let root = match (inst.class.opcode, inst.operands.as_slice()) {
-            (Op::FDiv, [Operand::IdRef(one), Operand::IdRef(root)]) if ones.contains(one) => {
-                roots.get_key_value(root)
-            }
-            _ => None,
-        };
-        if let Some((&id, operands)) = root {
-            inverted.insert(id);
-            let mut operands = operands.clone();
-            operands[1] = Operand::LiteralExtInstInteger(GLOp::InverseSqrt as u32);
-            *inst = Instruction::new(Op::ExtInst, inst.result_type, inst.result_id, operands);
-        }
-    }
-    let used: HashSet<u32> = (module.all_inst_iter())
-        .flat_map(|inst| &inst.operands)
-        .filter_map(|operand| operand.id_ref_any())
-        .collect();
-    for block in (module.functions.iter_mut()).flat_map(|function| &mut function.blocks) {
-        block.instructions.retain(|inst| {
-            inst.result_id
-                .is_none_or(|id| !inverted.contains(&id) || used.contains(&id))
-        });
-    }
 }
 
 fn strip_debug(module: &mut Module) {

@@ -1,16 +1,16 @@
-//! `build-kernels`: compiles every entry point of `kernels` to `kernels/gpu/spirv/*.spv`, writes the manifest and the table; or
+//! `build-kernels`: compiles every entry point of `kernels` to `kernels/gpu/spirv` and `host/spirv`, writes the manifest and the tables; or
 //! those of another crate, to modules under the same rules.
 
 use lightbvh_kernels_builder::choice;
 use lightbvh_kernels_builder::compile::{Built, compile, compile_crate, install};
 use lightbvh_kernels_builder::files;
-use lightbvh_kernels_builder::manifest::{self, DIRECTORY, ManifestError, ModuleRecord};
+use lightbvh_kernels_builder::manifest::{self, DIRECTORY, ManifestError, ModuleRecord, place};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 const USAGE: &str = "\
-Compiles the kernels to kernels/gpu/spirv/*.spv, decorates and verifies them, and writes the manifest
-and the table of kernels, kernels/gpu/src/table.rs.
+Compiles the kernels, decorates and verifies them: those of the tree to kernels/gpu/spirv, those of the
+renderer to host/spirv. Writes the manifest and the tables of kernels.
 
 Usage: build-kernels [--check]
        build-kernels --crate PATH --out DIR
@@ -140,10 +140,10 @@ fn write(root: &Path, built: &Built) -> Result<(), String> {
     install(root, built).map_err(|error| error.to_string())?;
     for (record, (_, words)) in built.manifest.modules.iter().zip(&built.modules) {
         println!("{}", describe(record, words).map_err(|error| error.to_string())?);
-        validate(&root.join(DIRECTORY).join(&record.file))?;
+        validate(&root.join(place(&record.file)))?;
     }
     println!(
-        "{} modules in {DIRECTORY}, {}",
+        "{} modules, {}",
         built.manifest.modules.len(),
         built.manifest.compiler
     );
@@ -154,12 +154,16 @@ fn write(root: &Path, built: &Built) -> Result<(), String> {
 fn compare(root: &Path, built: &Built) -> Result<(), String> {
     let committed = manifest::check(root).map_err(|error| error.to_string())?;
     for (file, words) in &built.modules {
-        let path = root.join(DIRECTORY).join(file);
+        let path = root.join(place(file));
         if files::read(&path).map_err(|error| error.to_string())? != files::bytes(words) {
             return Err(format!(
-                "{DIRECTORY}/{file} differs from what the sources give; rebuild and commit it\n  \
+                "{} differs from what the sources give; rebuild and commit it\n  \
                  committed: {} with {}\n  now:       {} with {}",
-                committed.backend, committed.compiler, built.manifest.backend, built.manifest.compiler
+                place(file),
+                committed.backend,
+                committed.compiler,
+                built.manifest.backend,
+                built.manifest.compiler
             ));
         }
     }

@@ -9,8 +9,21 @@ use std::path::{Path, PathBuf};
 /// Version of the manifest's format.
 pub const FORMAT: u32 = 2;
 
-/// Directory of the modules, below the repository's root.
+/// Directory of the manifest and of the tree's modules, below the repository's root.
 pub const DIRECTORY: &str = "kernels/gpu/spirv";
+
+/// A folder of modules, the table of them, both below the root, and how the table's crate knows `lightbvh-gpu`.
+const FOLDERS: [(&str, &str, &str); 2] = [
+    (DIRECTORY, "kernels/gpu/src/table.rs", "crate"),
+    ("host/spirv", "host/src/renderer.rs", "lightbvh_gpu"),
+];
+
+/// The folder of a module: those of the reference renderer are the host's.
+#[must_use]
+pub fn folder(file: &str) -> &'static str {
+    let is_renderer = file.starts_with("render") || file.starts_with("restir");
+    FOLDERS[usize::from(is_renderer)].0
+}
 
 /// Name of the manifest in [`DIRECTORY`].
 pub const FILE: &str = "manifest.json";
@@ -39,7 +52,7 @@ pub struct Manifest {
 /// One module.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ModuleRecord {
-    /// File in [`DIRECTORY`]: the entry point's name with `.spv`.
+    /// File in its [`folder`]: the entry point's name with `.spv`.
     pub file: String,
     /// Names of the buffers, by binding.
     pub buffers: Vec<String>,
@@ -80,7 +93,10 @@ pub enum ManifestError {
         recorded: String,
     },
     /// A module that is not the recorded one.
-    #[error("{DIRECTORY}/{file} is not the module that the manifest records ({what}); {REBUILD}")]
+    #[error(
+        "{}/{file} is not the module that the manifest records ({what}); {REBUILD}",
+        folder(file)
+    )]
     Module {
         /// The file.
         file: String,
@@ -88,14 +104,17 @@ pub enum ManifestError {
         what: &'static str,
     },
     /// A module that the manifest does not know.
-    #[error("{DIRECTORY}/{file} is not in the manifest; remove it, or {REBUILD}")]
+    #[error("{file} is not in the manifest; remove it, or {REBUILD}")]
     Unlisted {
-        /// The file.
+        /// The file, below the root.
         file: String,
     },
     /// A table of kernels that is not that of the modules.
-    #[error("{} is not the table of the modules in {DIRECTORY}; {REBUILD}", table::FILE)]
-    Table,
+    #[error("{file} is not the table of its modules; {REBUILD}")]
+    Table {
+        /// The file, below the root.
+        file: &'static str,
+    },
     /// A module whose interface the host cannot offer.
     #[error("{file}: {source}")]
     Interface {
@@ -159,7 +178,7 @@ pub fn read(root: &Path) -> Result<Manifest, ManifestError> {
 /// # Errors
 /// When the file cannot be read or is not whole words.
 pub fn read_module(root: &Path, record: &ModuleRecord) -> Result<Vec<u32>, ManifestError> {
-    let bytes = files::read(&root.join(DIRECTORY).join(&record.file))?;
+    let bytes = files::read(&root.join(folder(&record.file)).join(&record.file))?;
     files::words(&bytes).ok_or_else(|| record.wrong("not whole words"))
 }
 
@@ -184,16 +203,37 @@ pub fn check(root: &Path) -> Result<Manifest, ManifestError> {
         }
         interfaces.push(record.interface(&words)?);
     }
-    if files::read(&root.join(table::FILE))? != table::render(&interfaces).as_bytes() {
-        return Err(ManifestError::Table);
+    for (file, text) in tables(&interfaces) {
+        if files::read(&root.join(file))? != text.as_bytes() {
+            return Err(ManifestError::Table { file });
+        }
     }
+    let listed: Vec<String> = manifest
+        .modules
+        .iter()
+        .map(|module| place(&module.file))
+        .collect();
     match module_files(root)?
         .into_iter()
-        .find(|file| manifest.modules.iter().all(|m| m.file != *file))
+        .find(|file| !listed.contains(file))
     {
         Some(file) => Err(ManifestError::Unlisted { file }),
         None => Ok(manifest),
     }
+}
+
+/// The file of a module, below the root.
+#[must_use]
+pub fn place(file: &str) -> String {
+    format!("{}/{file}", folder(file))
+}
+
+/// The files of the tables, below the root, and their texts.
+fn tables(kernels: &[KernelInterface]) -> [(&'static str, String); 2] {
+    FOLDERS.map(|(directory, file, gpu)| {
+        let own = |kernel: &&KernelInterface| folder(&kernel.entry_point) == directory;
+        (file, table::render(gpu, kernels.iter().filter(own)))
+    })
 }
 
 /// Replaces the committed modules, the manifest and the table of kernels; modules of entry points that are gone are removed.
@@ -205,20 +245,24 @@ pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -
     let interfaces: Result<Vec<_>, _> = interfaces
         .map(|(record, (_, words))| record.interface(words))
         .collect();
-    let table = table::render(&interfaces?);
-    let directory = root.join(DIRECTORY);
-    std::fs::create_dir_all(&directory).map_err(|source| FileError::new("create", &directory, source))?;
+    let tables = tables(&interfaces?);
+    for (directory, ..) in FOLDERS {
+        let directory = root.join(directory);
+        std::fs::create_dir_all(&directory).map_err(|source| FileError::new("create", &directory, source))?;
+    }
     for (file, words) in modules {
-        files::replace(&directory.join(file), &files::bytes(words))?;
+        files::replace(&root.join(place(file)), &files::bytes(words))?;
     }
     for file in module_files(root)? {
-        if modules.iter().all(|(kept, _)| *kept != file) {
-            let path = directory.join(&file);
+        if modules.iter().all(|(kept, _)| place(kept) != file) {
+            let path = root.join(&file);
             std::fs::remove_file(&path).map_err(|source| FileError::new("remove", &path, source))?;
         }
     }
-    files::replace(&root.join(table::FILE), table.as_bytes())?;
-    let path = directory.join(FILE);
+    for (file, text) in tables {
+        files::replace(&root.join(file), text.as_bytes())?;
+    }
+    let path = root.join(DIRECTORY).join(FILE);
     let mut json = serde_json::to_string_pretty(manifest).map_err(|source| ManifestError::Json {
         path: path.clone(),
         source,
@@ -227,15 +271,16 @@ pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -
     Ok(files::replace(&path, json.as_bytes())?)
 }
 
-/// Names of the `.spv` files that are there, sorted.
+/// The `.spv` files that are there, below the root, sorted.
 fn module_files(root: &Path) -> Result<Vec<String>, FileError> {
-    let directory = root.join(DIRECTORY);
-    let entries =
-        std::fs::read_dir(&directory).map_err(|source| FileError::new("list", &directory, source))?;
-    let mut found: Vec<String> = entries
-        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-        .filter(|name| name.ends_with(".spv"))
-        .collect();
+    let mut found = Vec::new();
+    for (directory, ..) in FOLDERS {
+        let path = root.join(directory);
+        let entries = std::fs::read_dir(&path).map_err(|source| FileError::new("list", &path, source))?;
+        let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        let modules = names.filter(|name| name.ends_with(".spv"));
+        found.extend(modules.map(|name| format!("{directory}/{name}")));
+    }
     found.sort_unstable();
     Ok(found)
 }

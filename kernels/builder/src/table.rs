@@ -1,64 +1,37 @@
-//! The table of all kernels as Rust source, for the package `lightbvh-gpu`.
+//! The tables of kernels as Rust source: of the tree's passes in the package `lightbvh-gpu`, of the renderer's in the host.
 
 use std::fmt::Write;
 
-use lightbvh_gpu::Access;
-
 use crate::reflect::KernelInterface;
 
-/// The table's file, below the repository's root.
-pub const FILE: &str = "kernels/gpu/src/table.rs";
-
 const HEAD: &str = "\
-//! All kernels. Written by `build-kernels` from the modules in `spirv`; edits are lost.
+//! Compiled kernels. Written by `build-kernels` from the modules in `spirv`; edits are lost.
 
-use crate::kernel::Access::{Read, ReadWrite, Write};
-use crate::kernel::{Binding, Kernel};
+// Constant, name, bytes of push constants, workgroup: for each binding its name, access and stride.
+CRATE::kernels! {
 ";
 
-/// The table of `kernels`, each from the module of its name, in their order.
+/// The table of `kernels`, each from the module of its name, in their order, for a crate that knows `lightbvh-gpu` as `gpu`.
 #[must_use]
-pub fn render(kernels: &[KernelInterface]) -> String {
-    let mut text = HEAD.to_owned();
+pub fn render<'a>(gpu: &str, kernels: impl IntoIterator<Item = &'a KernelInterface>) -> String {
+    let mut text = HEAD.replace("CRATE", gpu);
     for kernel in kernels {
+        let name = &kernel.entry_point;
+        let buffers: Vec<String> = (kernel.buffers.iter().enumerate())
+            .map(|(binding, (name, buffer))| {
+                format!("{binding} {name} {:?} {}", buffer.access, buffer.stride)
+            })
+            .collect();
         // Writing to a string does not fail.
-        let _ = one(&mut text, kernel);
-    }
-    text.push_str("\n/// All kernels, sorted by name.\npub static KERNELS: &[&Kernel] = &[\n");
-    for kernel in kernels {
-        let _ = writeln!(text, "    &{},", constant(kernel));
-    }
-    text.push_str("];\n");
-    text
-}
-
-fn one(text: &mut String, kernel: &KernelInterface) -> std::fmt::Result {
-    let name = &kernel.entry_point;
-    let [x, y, z] = kernel.workgroup;
-    writeln!(text, "\n/// Kernel `{name}`.")?;
-    writeln!(text, "pub static {}: Kernel = Kernel {{", constant(kernel))?;
-    writeln!(text, "    name: \"{name}\",")?;
-    writeln!(text, "    bytes: include_bytes!(\"../spirv/{name}.spv\"),")?;
-    writeln!(text, "    bindings: &[")?;
-    for (binding, (name, buffer)) in kernel.buffers.iter().enumerate() {
-        let access = match buffer.access {
-            Access::Read => "Read",
-            Access::Write => "Write",
-            Access::ReadWrite => "ReadWrite",
-        };
-        let stride = buffer.stride;
-        writeln!(
+        let _ = writeln!(
             text,
-            "        Binding {{ binding: {binding}, name: \"{name}\", access: {access}, stride: {stride} }},"
-        )?;
+            "    {} \"{name}\" {} {:?}: {};",
+            name.to_uppercase(),
+            kernel.push_constants,
+            kernel.workgroup,
+            buffers.join(", ")
+        );
     }
-    writeln!(text, "    ],")?;
-    writeln!(text, "    push_constants: {},", kernel.push_constants)?;
-    writeln!(text, "    workgroup: [{x}, {y}, {z}],")?;
-    writeln!(text, "}};")
-}
-
-/// Name of the kernel's constant.
-fn constant(kernel: &KernelInterface) -> String {
-    kernel.entry_point.to_uppercase()
+    text.push_str("}\n");
+    text
 }

@@ -10,7 +10,7 @@ mod search;
 
 use crate::decorate::{float_operations, float_types, uncontracted};
 use crate::{Unreadable, load};
-use permitted::{extended_instruction, native, operation, vulkan_everywhere};
+use permitted::{extended_instruction, operation, vulkan_everywhere};
 use rspirv::binary::Disassemble;
 use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{AddressingModel, ExecutionMode, ExecutionModel, MemoryModel, Op};
@@ -76,11 +76,7 @@ struct Refusal {
     remedy: &'static str,
 }
 
-/// What the names of modules end in that may divide, take roots and fuse products and sums by the device's own instructions.
-pub const NATIVE: &str = "_native";
-
-/// Checks a finished module; `name` stands in the error, and if it ends in [`NATIVE`], the device's own quotients and roots are
-/// permitted.
+/// Checks a finished module; `name` stands in the error.
 ///
 /// # Errors
 /// When the words are no module, or with every violation found.
@@ -93,11 +89,7 @@ pub fn verify(name: &str, words: &[u32]) -> Result<(), VerifyError> {
     preamble(&module, &mut findings);
     types_and_constants(&module, &mut findings);
     decorations(&module, &mut findings);
-    bodies(
-        &module,
-        name.trim_end_matches(".spv").ends_with(NATIVE),
-        &mut findings,
-    );
+    bodies(&module, &mut findings);
     match findings.0 {
         violations if violations.is_empty() => Ok(()),
         violations => Err(VerifyError::Refused {
@@ -188,6 +180,9 @@ fn types_and_constants(module: &Module, findings: &mut Findings) {
             Op::TypeFloat | Op::TypeInt if width != 32 => {
                 findings.refuse(inst, "only 32-bit numbers are everywhere", "use f32, u32 and i32");
             }
+            Op::SpecConstant if inst.result_type.is_some_and(|ty| floats.contains(&ty)) => {
+                findings.refuse(inst, "a device may get any float for it", "use an integer");
+            }
             Op::Constant if inst.result_type.is_some_and(|ty| floats.contains(&ty)) => {
                 // The literal's bits: exponent all ones is an infinity or NaN, all zeros with a fraction a denormal.
                 let (exponent, fraction) = (width >> 23 & 0xff, width & 0x007f_ffff);
@@ -227,7 +222,7 @@ fn decorations(module: &Module, findings: &mut Findings) {
     }
 }
 
-fn bodies(module: &Module, natively: bool, findings: &mut Findings) {
+fn bodies(module: &Module, findings: &mut Findings) {
     let undefined: HashSet<u32> = module
         .all_inst_iter()
         .filter(|inst| inst.class.opcode == Op::Undef)
@@ -244,7 +239,6 @@ fn bodies(module: &Module, natively: bool, findings: &mut Findings) {
     {
         let op = inst.class.opcode;
         let verdict = match op {
-            _ if natively && native(inst) => Ok(()),
             Op::ExtInst => extended_instruction(inst),
             _ => operation(op),
         };

@@ -19,6 +19,7 @@ use common::gpu::Gpu;
 use common::pipeline::Pipeline;
 use common::words::compare;
 use common::world::{World, points};
+use lightbvh::node::DefaultNode;
 use lightbvh::{LightBvh, Random64, SampledLight};
 use lightbvh_gpu::{Buffer as Array, Frame, MOMENTS, Mirror, Pass, Query, query_push, self_test};
 
@@ -59,9 +60,9 @@ impl DeviceLights {
         })
     }
 
-    /// Brings the device to the frame that was planned last, and samples there.
+    /// Updates the device to the light BVH, and samples there.
     fn frame(&mut self, bvh: &LightBvh, queries: &[Query]) -> Result<Results> {
-        let frame = self.mirror.follow(bvh);
+        let frame = self.mirror.frame(bvh);
         let outgrown = self.grow(&frame)?;
         // The bytes of all copies, one after another.
         let staging: Vec<u8> = frame
@@ -93,7 +94,7 @@ impl DeviceLights {
         let nodes = &self.arrays[Array::Nodes as usize];
         let nodes_back = Buffer::staging(&self.gpu, nodes.bytes)?;
         let answers_back = Buffer::staging(&self.gpu, answers.bytes)?;
-        let push = query_push(queries.len() as u32, &bvh.tree());
+        let push = query_push(queries.len() as u32, frame.words);
         let gpu = &self.gpu;
         gpu.run(|commands| {
             for (array, old) in &outgrown {
@@ -183,7 +184,6 @@ fn run(gpu: &Rc<Gpu>) -> Result<u64> {
     let mut words = 0;
     for frame in 0..FRAMES {
         world.step(frame)?;
-        world.bvh.plan();
         let asked = points(frame, QUERIES);
         let queries: Vec<Query> = asked
             .iter()
@@ -191,13 +191,17 @@ fn run(gpu: &Rc<Gpu>) -> Result<u64> {
             .collect();
         let device = lights.frame(&world.bvh, &queries)?;
 
-        // The CPU does the same only to be compared with; an engine leaves it out.
-        world.bvh.refit();
         let samples: Vec<SampledLight> = asked
             .iter()
             .map(|(point, random)| world.bvh.sample(point, Random64::from(*random)))
             .collect();
         words += compare("node", world.bvh.nodes(), &device.nodes)?;
+        let top = lights.mirror.top::<DefaultNode>() as usize * size_of::<DefaultNode>();
+        words += compare(
+            "node of the top level",
+            world.bvh.top_nodes(),
+            &device.nodes[top..],
+        )?;
         words += compare("sample", &samples, &device.samples)?;
     }
     Ok(words)

@@ -22,9 +22,8 @@ use common::words::compare;
 use common::world::{World, points};
 use direct::direct_light;
 use lightbvh::ShadingPoint;
-use lightbvh::TreeWords;
-use lightbvh_gpu::Buffer as Array;
 use lightbvh_gpu::spirv::{Interface, words};
+use lightbvh_gpu::{Buffer as Array, Mirror};
 
 /// The shader's bindings in the order of its parameters.
 const BINDINGS: [&str; 6] = ["nodes", "instances", "trails", "triangles", "points", "results"];
@@ -57,10 +56,18 @@ fn on_device(gpu: &Rc<Gpu>, module: &[u32], world: &World, points: &[ShadingPoin
         interface.workgroup[0],
     )?;
     // The lights stand still here, so all arrays are copied once. `embed_ash` shows lights that move.
-    let arrays: Vec<Buffer> = Array::ALL
-        .iter()
-        .map(|array| Buffer::staged(gpu, array.bytes(bvh)))
-        .collect::<Result<_>>()?;
+    // The first frame of a mirror copies all arrays.
+    let frame = Mirror::default().frame(bvh);
+    let mut bytes = [const { Vec::new() }; Array::ALL.len()];
+    for (array, size) in &frame.resizes {
+        bytes[*array as usize].resize(*size as usize, 0);
+    }
+    for copy in &frame.copies {
+        let to = copy.bytes.start as usize..copy.bytes.end as usize;
+        bytes[copy.buffer as usize][to].copy_from_slice(copy.source(bvh));
+    }
+    let arrays = bytes.iter().map(|bytes| Buffer::staged(gpu, bytes));
+    let arrays: Vec<Buffer> = arrays.collect::<Result<_>>()?;
     let asked = Buffer::staged(gpu, cast_slice(points))?;
     let results = Buffer::storage(gpu, size_of::<[f32; 3]>() as u64 * points.len() as u64)?;
     let back = Buffer::staging(gpu, results.bytes)?;
@@ -70,7 +77,7 @@ fn on_device(gpu: &Rc<Gpu>, module: &[u32], world: &World, points: &[ShadingPoin
         (None, _) => &results,
     });
     let mut push = vec![points.len() as u32, SAMPLES];
-    push.extend(bytemuck::cast::<_, [u32; 5]>(TreeWords::of(&bvh.tree())));
+    push.extend(bytemuck::cast::<_, [u32; 9]>(frame.words));
     gpu.run(|commands| {
         shader.dispatch(commands, &push, points.len() as u32);
         gpu.barrier(commands);

@@ -1,14 +1,13 @@
 //! The arrays of a light BVH on a device.
 
-use bytemuck::cast_slice;
-use lightbvh::node::{Holds, Node};
+use lightbvh::Instance;
+use lightbvh::node::Holds;
 use lightbvh::refit::BlasRoot;
-use lightbvh::{Bvh, Instance};
 
 /// An array of a light BVH that a device holds in a storage buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Buffer {
-    /// The nodes of both levels. A refit writes them.
+    /// The nodes of bottom levels, and behind them those of the top level. A refit writes them.
     Nodes,
     /// The triangles of bottom levels, or their lights of another kind, in the spaces of their meshes, for a refit.
     Triangles,
@@ -16,7 +15,7 @@ pub enum Buffer {
     Instances,
     /// The roots of bottom levels. A refit writes them.
     Roots,
-    /// The bit trails of triangles, `LightTree::trail_words` words each, for pmfs.
+    /// The bit trails of triangles, `LightTree::trail_words` words each, and the links of the top level, for pmfs.
     Trails,
 }
 
@@ -59,20 +58,6 @@ impl Buffer {
             Self::Trails => size_of::<u32>(),
         };
         bytes as u32
-    }
-
-    /// What the buffer holds for `bvh`, before a refit that is still to come. May be empty, which a buffer of Vulkan may not
-    /// be: make it one element then.
-    #[must_use]
-    pub fn bytes<N: Node<W>, I, const W: usize>(self, bvh: &Bvh<N, I, W>) -> &[u8] {
-        let tree = bvh.tree();
-        match self {
-            Self::Nodes => cast_slice(tree.nodes),
-            Self::Triangles => cast_slice(bvh.triangles()),
-            Self::Instances => cast_slice(tree.instances),
-            Self::Roots => cast_slice(bvh.roots()),
-            Self::Trails => cast_slice(tree.trails),
-        }
     }
 }
 

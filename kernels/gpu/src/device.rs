@@ -14,7 +14,7 @@ pub const REQUIRED_FEATURES: &[&str] = &["vulkanMemoryModel"];
 
 /// Storage buffers that the greediest kernel takes; `maxPerStageDescriptorStorageBuffers` must be at least that. The passes
 /// over a light BVH (refit, sample, pmf) take 5 at most.
-pub const STORAGE_BUFFERS: u32 = 16;
+pub const STORAGE_BUFFERS: u32 = 6;
 
 /// Bytes of push constants that the greediest kernel takes at most: what every device has (`maxPushConstantsSize`).
 pub const PUSH_CONSTANTS: u32 = 128;

@@ -20,6 +20,26 @@ pub struct FloatControls {
     pub rounding_mode_rte_32: bool,
 }
 
+/// `NoContraction`.
+const NO_CONTRACTION: u32 = 42;
+
+/// The module without any decoration `NoContraction`, for measurements of what exactness costs: the driver may fuse and rearrange
+/// sums and products, so bits may differ from the CPU's. Everything else keeps its words and its order.
+///
+/// # Errors
+/// [`ModuleError`] if the words do not parse.
+pub fn contractible(words: &[u32]) -> Result<Vec<u32>, ModuleError> {
+    let mut patched = words.get(..HEADER).unwrap_or_default().to_vec();
+    for instruction in instructions(words)? {
+        let operands = instruction.operands;
+        if instruction.opcode != op::DECORATE || operands.get(1) != Some(&NO_CONTRACTION) {
+            patched.push((operands.len() as u32 + 1) << 16 | u32::from(instruction.opcode));
+            patched.extend_from_slice(operands);
+        }
+    }
+    Ok(patched)
+}
+
 /// A capability together with the execution mode it allows.
 #[derive(Clone, Copy)]
 struct Mode {
@@ -172,6 +192,18 @@ mod tests {
             with_float_modes(&both, ONE).unwrap(),
             with_float_modes(&words, ONE).unwrap()
         );
+    }
+
+    #[test]
+    fn contractible_drops_decorations_alone() {
+        let words = plain();
+        let mut decorated = words.clone();
+        decorated.extend([head(3, 71), 7, 42, head(4, 71), 8, 33, 0]);
+        let mut expected = words.clone();
+        expected.extend([head(4, 71), 8, 33, 0]);
+        assert_eq!(contractible(&decorated).unwrap(), expected);
+        assert_eq!(contractible(&expected).unwrap(), expected);
+        assert!(contractible(&words[..4]).is_err());
     }
 
     #[test]

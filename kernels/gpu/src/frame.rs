@@ -1,36 +1,114 @@
-//! What a device does to follow a light BVH from one frame to the next.
+//! The work of a device that follows a light BVH from one frame to the next.
 
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use lightbvh::Bvh;
-use lightbvh::bvh::RefitPlan;
+use bytemuck::cast_slice;
+use lightbvh::bvh::{Cursor, RefitPlan};
 use lightbvh::node::Node;
+use lightbvh::{Bvh, TreeWords};
 
 use crate::buffer::Buffer;
 use crate::refit::Refit;
 
-/// What a device does for one frame: resize, copy, refit, in this order.
+/// The work of a device for one frame: resize, copy, refit, in this order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Frame {
-    /// Buffers that need another size, and that size in bytes. What they hold stays, up to the lesser size. A buffer may be
+    /// Buffers that need another size, and that size in bytes. Their contents stay, up to the lesser size. A buffer may be
     /// larger than it needs to be.
     pub resizes: Vec<(Buffer, u64)>,
-    /// What is copied from the light BVH to the device.
+    /// Copies from the light BVH to the device.
     pub copies: Vec<Copy>,
-    /// What the device computes then.
+    /// Nodes that the device then computes.
     pub refit: Refit,
+    /// Push constants of kernels that walk the tree afterwards.
+    pub words: TreeWords,
 }
 
-/// A copy from the array of the light BVH to the same place in the device's buffer.
+/// An array of a light BVH. Some share a buffer of the device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Array {
+    Nodes,
+    Top,
+    Triangles,
+    Instances,
+    Roots,
+    Trails,
+    Above,
+    Places,
+    Parts,
+}
+
+impl Array {
+    const ALL: [Self; 9] = [
+        Self::Nodes,
+        Self::Top,
+        Self::Triangles,
+        Self::Instances,
+        Self::Roots,
+        Self::Trails,
+        Self::Above,
+        Self::Places,
+        Self::Parts,
+    ];
+
+    fn buffer(self) -> Buffer {
+        match self {
+            Self::Nodes | Self::Top => Buffer::Nodes,
+            Self::Triangles => Buffer::Triangles,
+            Self::Instances => Buffer::Instances,
+            Self::Roots => Buffer::Roots,
+            Self::Trails | Self::Above | Self::Places | Self::Parts => Buffer::Trails,
+        }
+    }
+
+    fn bytes<N: Node<W>, I, const W: usize>(self, bvh: &Bvh<N, I, W>) -> &[u8] {
+        let tree = bvh.tree();
+        match self {
+            Self::Nodes => cast_slice(bvh.nodes()),
+            Self::Top => cast_slice(bvh.top_nodes()),
+            Self::Triangles => cast_slice(bvh.triangles()),
+            Self::Instances => cast_slice(tree.instances),
+            Self::Roots => cast_slice(bvh.roots()),
+            Self::Trails => cast_slice(tree.trails),
+            Self::Above => cast_slice(tree.links.above),
+            Self::Places => cast_slice(tree.links.places),
+            Self::Parts => cast_slice(tree.links.parts),
+        }
+    }
+
+    /// The elements that `plan` says are written.
+    fn written(self, plan: &RefitPlan) -> &[Range<u32>] {
+        match self {
+            Self::Nodes => &plan.written_nodes,
+            Self::Top => &plan.written_top,
+            Self::Triangles => &plan.written_triangles,
+            Self::Instances => &plan.written_instances,
+            Self::Roots => &[],
+            Self::Trails => &plan.written_trails,
+            Self::Above => &plan.written_above,
+            Self::Places => &plan.written_places,
+            Self::Parts => &plan.written_parts,
+        }
+    }
+
+    fn is_of_top(self) -> bool {
+        matches!(self, Self::Top | Self::Above | Self::Places | Self::Parts)
+    }
+}
+
+/// A copy from the light BVH to the device's buffer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Copy {
     /// Which one.
     pub buffer: Buffer,
-    /// Where in both, bytes, in whole elements; not empty. Ranges of one buffer do not overlap.
+    /// Range in the buffer, bytes, of whole elements; not empty. Ranges of one buffer do not overlap.
     pub bytes: Range<u64>,
+    array: Array,
+    /// First byte in the array.
+    from: u64,
 }
 
 impl Copy {
@@ -40,7 +118,8 @@ impl Copy {
     /// If `bvh` is another than the one that the frame is of, and its array shorter.
     #[must_use]
     pub fn source<'a, N: Node<W>, I, const W: usize>(&self, bvh: &'a Bvh<N, I, W>) -> &'a [u8] {
-        &self.buffer.bytes(bvh)[self.bytes.start as usize..self.bytes.end as usize]
+        let length = self.bytes.end - self.bytes.start;
+        &self.array.bytes(bvh)[self.from as usize..(self.from + length) as usize]
     }
 }
 
@@ -100,79 +179,141 @@ impl Frame {
     }
 }
 
-/// What a device holds of a light BVH, by which it follows it. A new one holds nothing, so its first frame copies everything.
+/// Tracks what a device holds of a light BVH. A new mirror holds nothing, so its first frame copies everything.
 ///
-/// A mirror takes a frame that it has told for done. Where the device could not do it, begin with a new one; the light BVH is
-/// as it was, and another device may take over so.
+/// Arrays that share a buffer stand one after another, each with capacity to grow: the nodes of bottom levels and those of the top
+/// level; trails and links. Indices of nodes of bottom levels, instances and triangles are those of the light BVH.
+///
+/// A mirror assumes that each frame was done. If the device failed to do it, begin with a new mirror, on this device or
+/// another; the light BVH is not changed. Any number of mirrors may follow one light BVH.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Mirror {
-    bytes: [u64; Buffer::ALL.len()],
-    /// The plan followed last: the light BVH's number, and the plan's.
-    last: Option<(u32, u64)>,
+    cursor: Cursor,
+    /// By array, bytes: what the device holds of it, and how much room it has.
+    held: [u64; Array::ALL.len()],
+    room: [u64; Array::ALL.len()],
+    trail_words: u32,
 }
 
 impl Mirror {
-    /// Plans and follows: what brings the device's buffers to what `bvh` is now, after all edits of a frame and what
-    /// a `Rebuilder` has swapped in. The bytes of the copies are to be taken before the next edit or swap.
+    /// The work that updates the device's buffers to `bvh` as of its last [`refit`](Bvh::refit). Call it after all edits of a
+    /// frame, the swaps of a `Rebuilder`, and the refit. Take the bytes of the copies before the next edit or swap.
     ///
-    /// It takes the plan, so it is for the one mirror of `bvh`, once a frame and without a [`Bvh::plan`] of one's own;
-    /// otherwise everything is copied.
-    pub fn frame<N: Node<W>, I, const W: usize>(&mut self, bvh: &mut Bvh<N, I, W>) -> Frame {
-        bvh.plan();
-        self.follow(bvh)
-    }
-
-    /// [`frame`](Self::frame), where several mirrors follow one light BVH: each after one [`Bvh::plan`], after all edits and swaps.
-    ///
-    /// Everything is copied and refitted where the plan does not say all that changed for this mirror: another light BVH than last
-    /// time (a clone, or one that was read), a plan that was left out, a change since the plan.
-    pub fn follow<N: Node<W>, I, const W: usize>(&mut self, bvh: &Bvh<N, I, W>) -> Frame {
-        let (now, is_current) = bvh.last_plan();
-        let is_followed = is_current && self.last == Some(now);
-        let is_next = is_current && self.last.is_some_and(|(tree, plan)| (tree, plan + 1) == now);
-        let everything = !is_followed && !is_next;
-        self.last = Some(now);
-        let (whole, none);
-        let work = if everything {
-            whole = bvh.plan_of_everything();
-            &whole
-        } else if is_followed {
-            none = RefitPlan::default();
-            &none
-        } else {
-            bvh.planned()
+    /// Everything is copied and computed if the light BVH is another than last time (a clone, or one that was read), or if its
+    /// log has dropped changes since.
+    pub fn frame<N: Node<W>, I, const W: usize>(&mut self, bvh: &Bvh<N, I, W>) -> Frame {
+        let mut plan = bvh.plan(&mut self.cursor);
+        let trail_words = bvh.tree().trail_words;
+        let resizes = self.make_room(bvh);
+        // If a shared buffer was resized, arrays in it have moved.
+        let is_moved = |buffer: Buffer| {
+            let shares = matches!(buffer, Buffer::Nodes | Buffer::Trails);
+            shares && resizes.iter().any(|(resized, _)| *resized == buffer)
         };
-        let mut frame = Frame {
-            refit: Refit::new::<N, W>(work),
-            ..Frame::default()
-        };
-        let roots: Vec<Range<u32>> = work.roots.iter().map(|&root| root..root + 1).collect();
-        for (held, buffer) in self.bytes.iter_mut().zip(Buffer::ALL) {
-            let (changed, elements) = match buffer {
-                Buffer::Nodes => (&work.written_nodes, 1),
-                Buffer::Triangles => (&work.written_triangles, 1),
-                Buffer::Instances => (&work.written_instances, 1),
-                Buffer::Roots => (&roots, 1),
-                Buffer::Trails => (&work.written_trails, u64::from(bvh.tree().trail_words)),
+        if is_moved(Buffer::Nodes) && !plan.everything {
+            let all = bvh.plan_of_everything();
+            (plan.bottom, plan.roots, plan.top) = (all.bottom, all.roots, all.top);
+        }
+        let mut copies = Vec::new();
+        for (k, array) in Array::ALL.into_iter().enumerate() {
+            let (bytes, buffer) = (array.bytes(bvh).len() as u64, array.buffer());
+            let stride = match array {
+                Array::Trails => 4 * u64::from(trail_words),
+                _ => u64::from(buffer.stride::<N>()),
             };
-            let stride = elements * u64::from(buffer.stride::<N>());
-            let now = buffer.bytes(bvh).len() as u64;
-            let written = changed
+            let is_all = plan.everything
+                || is_moved(buffer)
+                || (plan.whole_top && array.is_of_top())
+                || (array == Array::Trails && trail_words != self.trail_words);
+            let roots;
+            let written = if array == Array::Roots {
+                roots = plan.roots.iter().map(|&root| root..root + 1).collect::<Vec<_>>();
+                &roots
+            } else {
+                array.written(&plan)
+            };
+            let written = written
                 .iter()
                 .map(|range| stride * u64::from(range.start)..stride * u64::from(range.end));
-            // What a buffer grows by is new too.
-            let grown = if everything { 0 } else { (*held).min(now) }..now;
+            // Elements by which an array grows are new too.
+            let grown = if is_all { 0 } else { self.held[k].min(bytes) }..bytes;
             let ranges = written.chain(core::iter::once(grown)).collect();
-            let copies = joined(ranges, now)
-                .into_iter()
-                .map(|bytes| Copy { buffer, bytes });
-            frame.copies.extend(copies);
-            if *held != now {
-                frame.resizes.push((buffer, now));
-                *held = now;
+            let start = self.start(array);
+            copies.extend(joined(ranges, bytes).into_iter().map(|range| Copy {
+                buffer,
+                bytes: start + range.start..start + range.end,
+                array,
+                from: range.start,
+            }));
+            self.held[k] = bytes;
+        }
+        self.trail_words = trail_words;
+        let words = self.words(bvh);
+        Frame {
+            resizes,
+            copies,
+            refit: Refit::new::<N, W>(&plan, self.top::<N>()),
+            words,
+        }
+    }
+
+    /// Push constants of kernels that walk the tree, as of the last [`frame`](Self::frame).
+    #[must_use]
+    pub fn words<N: Node<W>, I, const W: usize>(&self, bvh: &Bvh<N, I, W>) -> TreeWords {
+        let tree = bvh.tree();
+        let word = |array: Array| (self.start(array) / 4) as u32;
+        TreeWords {
+            root: tree.root,
+            trail_words: tree.trail_words,
+            live: tree.live,
+            lights: tree.lights,
+            depth: tree.depth,
+            top: if bvh.is_single_level() { 0 } else { self.top::<N>() },
+            above: word(Array::Above),
+            places: word(Array::Places),
+            parts: word(Array::Parts),
+        }
+    }
+
+    /// Index in the device's buffer of the first node of the top level.
+    #[must_use]
+    pub fn top<N: lightbvh::node::Holds>(&self) -> u32 {
+        (self.start(Array::Top) / u64::from(Buffer::Nodes.stride::<N>())) as u32
+    }
+
+    /// Offset of an array in its buffer, bytes.
+    fn start(&self, array: Array) -> u64 {
+        let before = Array::ALL.into_iter().zip(self.room);
+        before
+            .take_while(|(other, _)| *other != array)
+            .filter(|(other, _)| other.buffer() == array.buffer())
+            .map(|(_, room)| room)
+            .sum()
+    }
+
+    /// Reserves capacity for every array; returns the buffers that need another size.
+    fn make_room<N: Node<W>, I, const W: usize>(&mut self, bvh: &Bvh<N, I, W>) -> Vec<(Buffer, u64)> {
+        let size = |room: &[u64; Array::ALL.len()], buffer: Buffer| -> u64 {
+            let own = Array::ALL.into_iter().zip(room);
+            own.filter(|(array, _)| array.buffer() == buffer)
+                .map(|(_, room)| room)
+                .sum()
+        };
+        let before = self.room;
+        for (room, array) in self.room.iter_mut().zip(Array::ALL) {
+            let now = array.bytes(bvh).len() as u64;
+            let shares = matches!(array.buffer(), Buffer::Nodes | Buffer::Trails);
+            if now > *room {
+                let stride = u64::from(array.buffer().stride::<N>());
+                // An array that grows will grow again, and arrays behind it are copied then.
+                let more = if *room > 0 && shares { now / stride / 2 } else { 0 };
+                *room = now + more * stride;
             }
         }
-        frame
+        let all = Buffer::ALL.into_iter();
+        all.map(|buffer| (buffer, size(&self.room, buffer)))
+            .filter(|&(buffer, now)| now != size(&before, buffer))
+            .collect()
     }
 }
 

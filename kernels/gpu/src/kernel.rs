@@ -35,6 +35,32 @@ pub struct Binding {
     pub stride: u32,
 }
 
+/// The kernels of a list, from the modules in `../spirv`: a constant each, and all as `KERNELS`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! kernels {
+    ($($constant:ident $name:literal $push:literal $workgroup:tt: $($binding:literal $buffer:ident $access:ident $stride:literal),*;)*) => {
+        $(
+            #[doc = concat!("Kernel `", $name, "`.")]
+            pub static $constant: $crate::Kernel = $crate::Kernel {
+                name: $name,
+                bytes: include_bytes!(concat!("../spirv/", $name, ".spv")),
+                bindings: &[$($crate::Binding {
+                    binding: $binding,
+                    name: stringify!($buffer),
+                    access: $crate::Access::$access,
+                    stride: $stride,
+                }),*],
+                push_constants: $push,
+                workgroup: $workgroup,
+            };
+        )*
+
+        /// All kernels, sorted by name.
+        pub static KERNELS: &[&$crate::Kernel] = &[$(&$constant),*];
+    };
+}
+
 /// What a kernel does with the elements of a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
@@ -131,14 +157,7 @@ mod tests {
     #[test]
     fn a_pass_writes_its_results_and_no_input() {
         let access = |kernel, name| Kernel::named(kernel).unwrap().binding(name).unwrap().access;
-        for kernel in [
-            "sample",
-            "pmf",
-            "sample_eq4",
-            "pmf_eq4",
-            "render_bvh",
-            "path_power",
-        ] {
+        for kernel in ["sample", "pmf", "sample_eq4", "pmf_eq4"] {
             assert_eq!(access(kernel, "results"), Access::Write, "{kernel}");
         }
         for kernel in ["refit_bottom", "refit_top", "refit_bottom_eq4", "refit_top_eq4"] {
@@ -159,31 +178,19 @@ mod tests {
     fn equal_names_are_arrays_of_equal_strides() {
         let mut seen: Vec<(&str, &str, u32)> = Vec::new();
         for kernel in KERNELS {
-            let suffix = [
-                "_eq4",
-                "_narrow",
-                "_wide",
-                "_any",
-                "_linked",
-                "_transmissive",
-                "_segment",
-            ]
-            .into_iter()
-            .find(|suffix| kernel.name.ends_with(suffix));
+            let suffix = ["_eq4", "_any", "_linked"]
+                .into_iter()
+                .find(|suffix| kernel.name.ends_with(suffix));
             for binding in kernel.bindings {
                 // Each pass has results of its own; nodes and lights have the layout of the choice.
                 if binding.name != "results" {
                     let is_own = match suffix {
                         Some("_any") => {
-                            matches!(
-                                binding.name,
-                                "nodes" | "children" | "triangles" | "before_triangles"
-                            )
+                            matches!(binding.name, "nodes" | "children" | "triangles")
                         }
                         Some("_linked") => {
                             matches!(binding.name, "nodes" | "children" | "triangles" | "queries")
                         }
-                        Some("_transmissive" | "_segment") => binding.name == "queries",
                         _ => matches!(binding.name, "nodes" | "children"),
                     };
                     let layout = suffix.filter(|_| is_own).unwrap_or("");

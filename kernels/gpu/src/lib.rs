@@ -13,7 +13,6 @@ pub mod float_modes;
 mod frame;
 pub mod kernel;
 mod memory_model;
-mod native;
 pub mod query;
 mod refit;
 #[cfg(feature = "kernels")]
@@ -42,12 +41,10 @@ pub use table::{KERNELS, LIGHT_POINTS};
 #[doc(hidden)]
 pub use device::{PUSH_CONSTANTS, REQUIRED_FEATURES, STORAGE_BUFFERS, VULKAN, without_vulkan_memory_model};
 #[doc(hidden)]
-pub use float_modes::{FloatControls, FloatEnvironment, with_float_modes};
+pub use float_modes::{FloatControls, FloatEnvironment, contractible, with_float_modes};
 #[doc(hidden)]
 pub use frame::Region;
 #[doc(hidden)]
 pub use kernel::{Access, Binding, Kernel, ROW_GROUPS, groups};
 #[doc(hidden)]
-pub use native::{contractible, with_shader_fma};
-#[doc(hidden)]
-pub use query::{LinkedQuery, Query, SegmentQuery, TransmissiveQuery, query_push};
+pub use query::{LinkedQuery, Query, query_push};

@@ -1,8 +1,8 @@
 //! What the kernels `sample` and `pmf` are asked, for each kind of receiver.
 
 use bytemuck::{Pod, Zeroable};
-use lightbvh::importance::{LinkedPoint, RaySegment, TransmissivePoint};
-use lightbvh::{LightTree, Random64, ShadingPoint, TreeWords};
+use lightbvh::importance::LinkedPoint;
+use lightbvh::{Random64, ShadingPoint, TreeWords};
 
 /// An element of the buffer `queries`. `sample` answers with a [`SampledLight`](lightbvh::SampledLight), `pmf` with an `f32`.
 #[repr(C)]
@@ -47,27 +47,6 @@ pub struct LinkedQuery {
     pub words: [u32; 2],
 }
 
-/// What `sample_transmissive` and `pmf_transmissive` are asked ([`KernelSet::TRANSMISSIVE`](crate::KernelSet::TRANSMISSIVE)),
-/// as [`Query`].
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct TransmissiveQuery {
-    /// The point to be lit, of the domain of [`TransmissivePoint::checked`].
-    pub receiver: TransmissivePoint,
-    /// As of [`Query`].
-    pub words: [u32; 2],
-}
-
-/// What `sample_segment` and `pmf_segment` are asked ([`KernelSet::SEGMENT`](crate::KernelSet::SEGMENT)), as [`Query`].
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct SegmentQuery {
-    /// The piece to be lit, of the domain of [`RaySegment::checked`].
-    pub segment: RaySegment,
-    /// As of [`Query`].
-    pub words: [u32; 2],
-}
-
 impl LinkedQuery {
     /// Asks for what `LightTree::sample_for(receiver, random)` gives.
     #[must_use]
@@ -86,51 +65,19 @@ impl LinkedQuery {
     }
 }
 
-impl TransmissiveQuery {
-    /// Asks for what `LightTree::sample_for(receiver, random)` gives.
-    #[must_use]
-    pub fn sample(receiver: TransmissivePoint, random: impl Into<Random64>) -> Self {
-        let words = Query::sample(receiver.point, random).words;
-        Self { receiver, words }
-    }
-
-    /// Asks for what `LightTree::pmf_for(receiver, light, instance)` gives.
-    #[must_use]
-    pub fn pmf(receiver: TransmissivePoint, light: u32, instance: u32) -> Self {
-        let words = [light, instance];
-        Self { receiver, words }
-    }
-}
-
-impl SegmentQuery {
-    /// Asks for what `LightTree::sample_for(segment, random)` gives.
-    #[must_use]
-    pub fn sample(segment: RaySegment, random: impl Into<Random64>) -> Self {
-        let Random64 { high, low } = random.into();
-        let words = [high, low];
-        Self { segment, words }
-    }
-
-    /// Asks for what `LightTree::pmf_for(segment, light, instance)` gives.
-    #[must_use]
-    pub fn pmf(segment: RaySegment, light: u32, instance: u32) -> Self {
-        let words = [light, instance];
-        Self { segment, words }
-    }
-}
-
-/// The push constants of `sample` and `pmf` for `count` queries. They may change with every edit.
+/// The push constants of `sample` and `pmf` for `count` queries of the tree of [`Frame::words`](crate::Frame::words).
 #[must_use]
-pub fn query_push<N, I, const W: usize>(count: u32, tree: &LightTree<'_, N, I, W>) -> [u32; 6] {
-    let [root, trail_words, live, lights, depth] = bytemuck::cast(TreeWords::of(tree));
-    [count, root, trail_words, live, lights, depth]
+pub fn query_push(count: u32, tree: TreeWords) -> [u32; 10] {
+    let mut push = [count; 10];
+    push[1..].copy_from_slice(&bytemuck::cast::<_, [u32; 9]>(tree));
+    push
 }
 
 #[cfg(all(test, feature = "kernels"))]
 mod tests {
     use super::*;
     use crate::{EQ4, KernelSet, MOMENTS};
-    use lightbvh::{LightBvh, SampledLight};
+    use lightbvh::SampledLight;
 
     const POINT: ShadingPoint = ShadingPoint {
         p: [1.0, 2.0, 3.0],
@@ -144,8 +91,6 @@ mod tests {
             (&EQ4, size_of::<Query>()),
             (&KernelSet::ANY, size_of::<Query>()),
             (&KernelSet::LINKED, size_of::<LinkedQuery>()),
-            (&KernelSet::TRANSMISSIVE, size_of::<TransmissiveQuery>()),
-            (&KernelSet::SEGMENT, size_of::<SegmentQuery>()),
         ] {
             for (kernel, answer) in [
                 (set.sample, size_of::<SampledLight>()),
@@ -156,7 +101,7 @@ mod tests {
                 assert_eq!(stride("results"), answer, "{}", kernel.name);
             }
         }
-        let push = query_push(7, &LightBvh::default().tree());
+        let push = query_push(7, TreeWords::default());
         assert_eq!(size_of_val(&push), MOMENTS.sample.push_constants as usize);
     }
 
@@ -165,9 +110,7 @@ mod tests {
         let query = Query::sample(POINT, 0x0123_4567_89ab_cdef_u64);
         assert_eq!(query.words, [0x0123_4567, 0x89ab_cdef]);
         assert_eq!(Query::pmf(POINT, 8, 9).words, [8, 9]);
-        let bvh = LightBvh::default();
-        let tree = bvh.tree();
-        let expected = [7, tree.root, tree.trail_words, tree.live, tree.lights, tree.depth];
-        assert_eq!(query_push(7, &tree), expected);
+        let tree: TreeWords = bytemuck::cast([1_u32, 2, 3, 4, 5, 6, 7, 8, 9]);
+        assert_eq!(query_push(7, tree), [7, 1, 2, 3, 4, 5, 6, 7, 8, 9]);
     }
 }

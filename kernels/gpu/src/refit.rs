@@ -46,13 +46,15 @@ pub struct Dispatch {
     /// Number of invocations, at least 1: one for each entry, or for each child of each entry's node. [`groups`](crate::groups)
     /// says how many workgroups.
     pub count: u32,
+    /// Index of the top level's first node in the buffer.
+    pub top: u32,
 }
 
 impl Dispatch {
-    /// Its push constants: [`first`](Self::first), [`count`](Self::count).
+    /// Its push constants: [`first`](Self::first), [`count`](Self::count), [`top`](Self::top).
     #[must_use]
-    pub fn push(&self) -> [u32; 2] {
-        [self.first, self.count]
+    pub fn push(&self) -> [u32; 3] {
+        [self.first, self.count, self.top]
     }
 }
 
@@ -74,31 +76,31 @@ impl Refit {
     /// Most nodes that a dispatch computes: enough to keep a large device busy. It bounds [`children`](Self::children).
     pub const AT_A_TIME: usize = 1 << 15;
 
-    /// The refit that `plan` says, of nodes `N`.
+    /// The refit by `plan` of nodes `N`, those of the top level from `top` on.
     #[must_use]
-    pub fn new<N: Node<W>, const W: usize>(plan: &RefitPlan) -> Self {
-        Self::of_at_most::<N, W>(plan, Self::AT_A_TIME)
+    pub fn new<N: Node<W>, const W: usize>(plan: &RefitPlan, top: u32) -> Self {
+        Self::of_at_most::<N, W>(plan, top, Self::AT_A_TIME)
     }
 
     /// In dispatches over at most `most` nodes.
-    fn of_at_most<N: Node<W>, const W: usize>(plan: &RefitPlan, most: usize) -> Self {
+    fn of_at_most<N: Node<W>, const W: usize>(plan: &RefitPlan, top: u32, most: usize) -> Self {
         let mut refit = Self::default();
-        refit.levels::<N, W>(Pass::Bottom, &plan.bottom, most);
+        refit.levels::<N, W>(Pass::Bottom, &plan.bottom, 0, most);
         let first = refit.list.len() as u32;
         refit.list.extend(&plan.roots);
-        refit.dispatch(Pass::Roots, first, plan.roots.len());
-        refit.levels::<N, W>(Pass::Top, &plan.top, most);
+        refit.dispatch(Pass::Roots, first, plan.roots.len(), 0);
+        refit.levels::<N, W>(Pass::Top, &plan.top, top, most);
         refit
     }
 
     /// Appends two dispatches for each level, or for each part of one: over the children, then over the nodes.
-    fn levels<N: Node<W>, const W: usize>(&mut self, pass: Pass, levels: &Levels, most: usize) {
+    fn levels<N: Node<W>, const W: usize>(&mut self, pass: Pass, levels: &Levels, top: u32, most: usize) {
         for range in levels.ranges() {
             for nodes in levels.nodes()[range].chunks(most) {
                 let first = self.list.len() as u32;
-                self.list.extend(nodes);
-                self.dispatch(pass, first, nodes.len() * W);
-                self.dispatch(Pass::Nodes, first, nodes.len());
+                self.list.extend(nodes.iter().map(|node| node + top));
+                self.dispatch(pass, first, nodes.len() * W, top);
+                self.dispatch(Pass::Nodes, first, nodes.len(), top);
                 let children = nodes.len() * W * child_rows::<N, W>() * size_of::<u32>();
                 self.children = self.children.max(children as u64);
             }
@@ -106,10 +108,15 @@ impl Refit {
     }
 
     /// Appends a dispatch, unless it has no invocations.
-    fn dispatch(&mut self, pass: Pass, first: u32, count: usize) {
+    fn dispatch(&mut self, pass: Pass, first: u32, count: usize, top: u32) {
         let count = count as u32;
         if count > 0 {
-            self.dispatches.push(Dispatch { pass, first, count });
+            self.dispatches.push(Dispatch {
+                pass,
+                first,
+                count,
+                top,
+            });
         }
     }
 }
@@ -147,7 +154,7 @@ mod tests {
     #[test]
     fn parts_of_a_level_are_the_level() {
         let plan = plan();
-        let whole = Refit::new::<MomentNode<4>, 4>(&plan);
+        let whole = Refit::new::<MomentNode<4>, 4>(&plan, 100);
         let passes = |refit: &Refit| {
             refit
                 .dispatches
@@ -162,7 +169,7 @@ mod tests {
         );
         assert_eq!(Refit::AT_A_TIME * 8 * 12 * 4, 12 << 20, "as documented");
         for most in [1, 7, 30] {
-            let parts = Refit::of_at_most::<MomentNode<4>, 4>(&plan, most);
+            let parts = Refit::of_at_most::<MomentNode<4>, 4>(&plan, 100, most);
             assert_eq!(parts.list, whole.list);
             assert!(parts.dispatches.len() > whole.dispatches.len());
             let mut next = 0;

@@ -29,10 +29,7 @@ pub struct KernelSet {
 }
 
 /// The kernels of `LightBvh`: `Bvh<MomentNode<8>, Defensive<Moments, 6>, 8>`.
-pub static MOMENTS: KernelSet = DEFAULT;
-
-/// A constant takes others from constants alone.
-const DEFAULT: KernelSet = KernelSet {
+pub static MOMENTS: KernelSet = KernelSet {
     refit_bottom: &table::REFIT_BOTTOM,
     refit_roots: &table::REFIT_ROOTS,
     refit_top: &table::REFIT_TOP,
@@ -70,31 +67,15 @@ impl KernelSet {
     };
 
     /// The kernels of light linking, `Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Leveled<Moments, 9>>, 8>`. They are
-    /// asked [`LinkedQuery`](crate::LinkedQuery)s.
+    /// asked [`LinkedQuery`](crate::LinkedQuery)s. Roots are read from the words that [`ANY`](Self::ANY)'s nodes have too.
     pub const LINKED: Self = Self {
         refit_bottom: &table::REFIT_BOTTOM_LINKED,
-        refit_roots: &table::REFIT_ROOTS_LINKED,
+        refit_roots: &table::REFIT_ROOTS_ANY,
         refit_top: &table::REFIT_TOP_LINKED,
         refit_nodes: &table::REFIT_NODES_LINKED,
         sample: &table::SAMPLE_LINKED,
         pmf: &table::PMF_LINKED,
         light_points: &table::LIGHT_POINTS_LINKED,
-    };
-
-    /// [`MOMENTS`] for receivers with two sides: lights of the same trees, by `LightBvh::by::<Defensive<Transmissive<Moments>,
-    /// 6>>`. They are asked [`TransmissiveQuery`](crate::TransmissiveQuery)s.
-    pub const TRANSMISSIVE: Self = Self {
-        sample: &table::SAMPLE_TRANSMISSIVE,
-        pmf: &table::PMF_TRANSMISSIVE,
-        ..DEFAULT
-    };
-
-    /// [`MOMENTS`] for pieces of rays through a volume, by `LightBvh::by::<Defensive<Subtended<Moments>, 6>>`. They are asked
-    /// [`SegmentQuery`](crate::SegmentQuery)s; kernel `segment_places` chooses a place on each.
-    pub const SEGMENT: Self = Self {
-        sample: &table::SAMPLE_SEGMENT,
-        pmf: &table::PMF_SEGMENT,
-        ..DEFAULT
     };
 }
 
@@ -175,8 +156,12 @@ mod tests {
     fn fits<N: Holds>(set: &KernelSet, suffix: &str) {
         for pass in Pass::ALL {
             let kernel = set.refit(pass);
-            assert_eq!(kernel.name.strip_suffix(suffix), Some(pass.name()));
-            assert_eq!(kernel.push_constants, 8);
+            let suffix = match pass {
+                Pass::Roots => suffix.replace("_linked", "_any"),
+                _ => suffix.into(),
+            };
+            assert_eq!(kernel.name.strip_suffix(&*suffix), Some(pass.name()));
+            assert_eq!(kernel.push_constants, 12);
         }
         assert_eq!(
             set.sample.push_constants as usize,
@@ -254,7 +239,5 @@ mod tests {
         fits::<CompactNode<4>>(&EQ4, "_eq4");
         fits::<Lit<SpotMomentNode<8>, AnyLight>>(&KernelSet::ANY, "_any");
         fits::<Lit<LinkedMomentNode<8>, LinkedTriangle>>(&KernelSet::LINKED, "_linked");
-        fits::<MomentNode<8>>(&KernelSet::TRANSMISSIVE, "");
-        fits::<MomentNode<8>>(&KernelSet::SEGMENT, "");
     }
 }

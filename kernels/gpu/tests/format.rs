@@ -11,8 +11,8 @@ use lightbvh::light::{
 use lightbvh::node::{LinkedMomentNode, LinkedSpotMomentNode, SpotMomentNode};
 use lightbvh::refit::BlasRoot;
 use lightbvh::{
-    CompactNode, EmissiveTriangle, FullMomentNode, FullNode, Instance, LeanMomentNode, LightBvh, MomentNode,
-    SampledLight, TwoSidedMomentNode,
+    CompactNode, EmissiveTriangle, Instance, LightBvh, MomentNode, SampledLight, TreeWords,
+    TwoSidedMomentNode,
 };
 use lightbvh_gpu::{Access, Buffer, KERNELS};
 
@@ -58,13 +58,10 @@ fn layouts_have_their_words() {
         ("MomentNode<8>", size_of::<MomentNode<8>>(), 8),
         ("MomentNode<16>", size_of::<MomentNode<16>>(), 16),
         ("TwoSidedMomentNode<8>", size_of::<TwoSidedMomentNode<8>>(), 8),
-        ("LeanMomentNode<8>", size_of::<LeanMomentNode<8>>(), 8),
-        ("FullMomentNode<8>", size_of::<FullMomentNode<8>>(), 8),
         ("LinkedMomentNode<8>", size_of::<LinkedMomentNode<8>>(), 8),
         ("SpotMomentNode<8>", size_of::<SpotMomentNode<8>>(), 8),
         ("LinkedSpotMomentNode<8>", size_of::<LinkedSpotMomentNode<8>>(), 8),
         ("CompactNode<4>", size_of::<CompactNode<4>>(), 4),
-        ("FullNode<4>", size_of::<FullNode<4>>(), 4),
     ];
     let rows = table("\n## Nodes\n");
     assert_eq!(rows.len(), sizes.len());
@@ -81,7 +78,7 @@ fn layouts_have_their_words() {
 /// The bits of each row of a packed layout, from the highest to the lowest.
 #[test]
 fn bits_of_a_row_are_told_once() {
-    for layout in ["MomentNode", "LeanMomentNode", "CompactNode"] {
+    for layout in ["MomentNode", "CompactNode"] {
         let mut end: Option<(usize, usize)> = None;
         for row in table(&format!("\n### `{layout}`\n")) {
             let at = range(row[0]).start;
@@ -130,11 +127,12 @@ macro_rules! record {
 
 #[test]
 fn records_have_their_fields() {
-    record!(Instance: root, place, above, blas, first, first_triangle, count, listed, columns, translation, inverse, per_inverse,
-        flux, radiance, mirrored, part);
+    record!(Instance: root, blas, first, first_triangle, count, listed, columns, translation, inverse, per_inverse, flux, radiance,
+        mirrored);
     record!(BlasRoot: node, words);
     record!(EmissiveTriangle: p, radiance, mesh, flags);
     record!(SampledLight: light, instance, pmf);
+    record!(TreeWords: root, trail_words, live, lights, depth, top, above, places, parts);
     record("Query", 32, &[("p", 0), ("n", 12)]);
 }
 
@@ -177,25 +175,13 @@ fn buffers_have_their_strides_readers_and_writers() {
     for buffer in Buffer::ALL {
         assert!(rows.iter().any(|row| code(row[0]) == buffer.name()), "{buffer:?}");
     }
-    let own = [
-        "refit_", "sample", "pmf", "render_", "path_", "restir_", "light_", "segment_",
-    ];
-    let layouts = [
-        "_eq4",
-        "_narrow",
-        "_wide",
-        "_any",
-        "_linked",
-        "_transmissive",
-        "_segment",
-    ];
+    let own = ["refit_", "sample", "pmf", "light_"];
+    let layouts = ["_eq4", "_any", "_linked"];
     for kernel in KERNELS {
         let (name, layout) = layouts
             .into_iter()
             .find_map(|suffix| Some((kernel.name.strip_suffix(suffix)?, suffix)))
             .unwrap_or((kernel.name, ""));
-        // Over the default's buffers.
-        let name = name.strip_suffix("_native").unwrap_or(name);
         if !own.iter().any(|own| name.starts_with(own)) {
             continue;
         }
@@ -205,15 +191,15 @@ fn buffers_have_their_strides_readers_and_writers() {
                 continue;
             };
             let (strides, writers, readers) = (row[1], row[2], row[3]);
-            let is_told = ["sample", "pmf", "light_points", "segment_places"].contains(&name);
+            let is_told = ["sample", "pmf", "light_points"].contains(&name);
             if binding.name == "results" && !is_told {
                 continue;
             }
             let stride = match (binding.name, layout) {
-                ("nodes", "_eq4" | "_narrow" | "_wide" | "_any" | "_linked")
+                ("nodes", "_eq4" | "_any" | "_linked")
                 | ("triangles", "_any" | "_linked")
                 | ("children", "_eq4" | "_any" | "_linked")
-                | ("queries", "_linked" | "_transmissive" | "_segment") => {
+                | ("queries", "_linked") => {
                     let own = format!("`{layout}` ");
                     let after = strides.split_once(&*own).expect("its own").1;
                     after.split(',').next().unwrap_or(after)
@@ -263,9 +249,9 @@ fn files_begin_with_their_header() {
     assert_eq!(at("\"LBVH\""), u32::from_le_bytes(*b"LBVH"));
     assert_eq!(at("`FORMAT`"), lightbvh::bvh::FORMAT);
     assert_eq!(at("number of all words"), words.len() as u32);
-    assert_eq!((at("`W`"), at("length of the array of nodes")), (8, 1));
-    // Behind it the one node of the top level with its edits, its quality and what is still to be tried, and its kinds.
-    assert_eq!(words.len(), header + 5 + 1);
+    assert_eq!((at("`W`"), at("length of the array of nodes of the top")), (8, 1));
+    // Behind it the one node of the top level: whether it is in use, its half extents, where it was put, its kinds.
+    assert_eq!(words.len(), header + 1 + 3 + 3 + 1);
     let versions = [
         "lightbvh::node::NODE_FORMAT`, now ",
         "lightbvh::bvh::FORMAT`, now ",

@@ -2,10 +2,11 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use lightbvh::exact::{div, hash};
+use lightbvh::exact::hash;
 
 use super::numbers::r2;
 use super::ray::{FAR, Ray};
+use crate::shading::grid::div;
 
 /// A camera as the frame of its image plane at distance 1; 48 bytes. The host computes it, trigonometry and all.
 #[repr(C)]

@@ -2,13 +2,15 @@
 //! triangles pays for no other.
 
 use glam::Vec3;
-use lightbvh::exact::{abs, clamp, div, flush, max, min, pow2, rsqrt, sqrt};
+use lightbvh::exact::{abs, clamp, flush, max, min, pow2, rsqrt};
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::vector::{dot, length_squared};
 use lightbvh::{EmissiveTriangle, LightPoint, ShadingPoint};
 
 use super::area::{Connection, NEAREST_SQUARED, OFFSET, connect, largest_component, light_density};
-use super::grid::{STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, flush_vector, snap_point};
+use super::grid::{
+    STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, div, flush_vector, snap_point, sqrt,
+};
 use super::material::Material;
 use super::ray::Ray;
 use super::skin::{NoSkin, Skin, SkinView};
@@ -74,7 +76,7 @@ impl Emitter for EmissiveTriangle {
         pmf: f32,
         uv: [f32; 2],
     ) -> Connection {
-        connect(point, wo, material, self, pmf, uv)
+        connect_triangle(*self, *point, wo, *material, pmf, uv)
     }
 
     #[inline]
@@ -231,6 +233,20 @@ fn connect_any(
 ) -> Connection {
     let at = light.point_for(point.position(), uv);
     connect_point(&point, wo, &material, &at, pmf, light.is_met())
+}
+
+/// As [`connect_any`] for triangles alone.
+#[cfg_attr(target_arch = "spirv", inline(never))]
+#[cfg_attr(not(target_arch = "spirv"), inline)]
+fn connect_triangle(
+    light: EmissiveTriangle,
+    point: ShadingPoint,
+    wo: Vec3,
+    material: Material,
+    pmf: f32,
+    uv: [f32; 2],
+) -> Connection {
+    connect(&point, wo, &material, &light, pmf, uv)
 }
 
 /// Densities over solid angle are cut to this, as in [`area`](super::area).

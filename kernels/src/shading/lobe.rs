@@ -4,10 +4,10 @@
 //! of two that is a root of a root, and the density a product of squares. `k = 2` is the cosine-weighted hemisphere.
 
 use glam::Vec3;
-use lightbvh::exact::{div, floor_u32, flush, min, sqrt};
+use lightbvh::exact::{floor_u32, flush, min};
 use lightbvh::vector::{cross, dot, length_squared};
 
-use super::grid::{STEP, flush_vector};
+use super::grid::{STEP, div, flush_vector, sqrt};
 
 /// Coefficients of `sin(x pi / 2) / x` and `cos(x pi / 2)` in powers of `x^2`: the Taylor series, whose first term left
 /// out is below 2^-25 for `|x| <= 1/2`.
@@ -50,9 +50,12 @@ pub fn circle(turns: f32) -> [f32; 2] {
 pub fn power_cosine(u: f32, log2: u32) -> [f32; 2] {
     let mut cosine = 1.0 - u;
     let mut defect = u;
-    for _ in 0..log2 {
+    // No range, as in `cosine_power`.
+    let mut step = 0;
+    while step < log2 {
         cosine = sqrt(cosine);
         defect = div(defect, 1.0 + cosine);
+        step += 1;
     }
     [cosine, sqrt(defect * (1.0 + cosine))]
 }

@@ -2,10 +2,10 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use lightbvh::exact::{clamp, div, floor_u32, flush, max, pow2};
+use lightbvh::exact::{clamp, floor_u32, flush, max, pow2};
 use lightbvh::vector::dot;
 
-use super::grid::{STEP, TINY, flush_vector};
+use super::grid::{STEP, TINY, div, flush_vector};
 use super::lobe::{about, circle, cosine_power, power_cosine};
 
 /// Largest [`Material::exponent_log2`] that counts; larger ones are read as this.
@@ -45,9 +45,10 @@ impl Material {
     }
 
     /// [`eval`](Self::eval), and the density with which [`sample`](Self::sample) chooses `wi`.
-    #[inline]
+    #[cfg_attr(target_arch = "spirv", inline(never))]
+    #[cfg_attr(not(target_arch = "spirv"), inline)]
     #[must_use]
-    pub fn scatter(&self, n: Vec3, wi: Vec3, wo: Vec3) -> Scattering {
+    pub fn scatter(self, n: Vec3, wi: Vec3, wo: Vec3) -> Scattering {
         let specular = self.specular();
         let diffuse = (1.0 - specular) * INV_PI;
         let half = wi + wo;
@@ -84,9 +85,10 @@ impl Material {
     /// A unit direction that light may come from, chosen about as [`eval`](Self::eval) times cosine, with the density
     /// that [`scatter`](Self::scatter) tells: the half vector by the lobe's own power of the cosine, or the direction by
     /// the cosine. It may lie below the surface, where the density of what is reflected is 0.
-    #[inline]
+    #[cfg_attr(target_arch = "spirv", inline(never))]
+    #[cfg_attr(not(target_arch = "spirv"), inline)]
     #[must_use]
-    pub fn sample(&self, n: Vec3, wo: Vec3, u: [f32; 3]) -> Vec3 {
+    pub fn sample(self, n: Vec3, wo: Vec3, u: [f32; 3]) -> Vec3 {
         let glossy = u[2] < self.gloss_share();
         let [cosine, sine] = power_cosine(u[0], if glossy { self.log2() } else { 1 });
         let [across, up] = circle(u[1]);

@@ -1,6 +1,7 @@
 //! Multiple importance sampling: how two techniques that find the same light share it.
 
-use lightbvh::exact::{div, flush, pow2};
+use crate::shading::grid::div;
+use lightbvh::exact::{flush, pow2};
 
 /// Ratios of densities below this count as zero, so that their squares are normal numbers.
 const SMALLEST_RATIO: f32 = pow2(-60);

@@ -2,12 +2,12 @@
 //! (pbrt-v4, sections 13.2 to 13.4; weights by [`mis`](super::mis)).
 
 use glam::Vec3;
-use lightbvh::exact::{div, floor_u32, flush, hash, max, min, unit_f32};
+use lightbvh::exact::{floor_u32, flush, hash, max, min, unit_f32};
 use lightbvh::vector::{dot, length_squared};
 use lightbvh::{Random64, ShadingPoint};
 
 use super::emitter::Emitter;
-use super::grid::{STEP, TINY, bounded_product, flush_vector};
+use super::grid::{STEP, TINY, bounded_product, div, flush_vector};
 use super::mis::power_heuristic;
 use super::pick::PickLight;
 use super::pixel::{Scene, encounter};

@@ -1,7 +1,7 @@
 //! One pixel: what the camera sees, lit by sampled lights.
 
 use glam::Vec3;
-use lightbvh::exact::{div, hash, min, sqrt};
+use lightbvh::exact::{hash, min};
 use lightbvh::reservoir::{MAX_WEIGHT, Reservoir};
 use lightbvh::vector::{cross, dot, length_squared};
 use lightbvh::{EmissiveTriangle, Instance, ShadingPoint};
@@ -10,7 +10,7 @@ use super::area::offset_distance;
 use super::candidates::{Candidates, resampled};
 use super::emitter::Emitter;
 use super::emitters::Emitters;
-use super::grid::{TINY, TINY_AREA, flush_vector};
+use super::grid::{TINY, TINY_AREA, div, flush_vector, sqrt};
 use super::material::Material;
 use super::numbers::{Numbers, Part};
 use super::pick::PickLight;

@@ -1,10 +1,10 @@
 //! A ray against a triangle.
 
 use glam::Vec3;
-use lightbvh::exact::{abs, div, pow2, recip};
+use lightbvh::exact::{abs, pow2, recip};
 use lightbvh::vector::{cross, dot};
 
-use super::grid::{STEP, TINY_AREA, flush_vector, snap_point};
+use super::grid::{STEP, TINY_AREA, div, flush_vector, snap_point};
 
 /// What a missed triangle returns instead of a distance.
 pub const MISS: f32 = -1.0;

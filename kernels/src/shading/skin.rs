@@ -3,9 +3,9 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use lightbvh::exact::{clamp, div, flush, hash, max, unit_f32};
+use lightbvh::exact::{clamp, flush, hash, max, unit_f32};
 
-use super::grid::{STEP, TINY};
+use super::grid::{STEP, TINY, div};
 use super::material::Material;
 use super::picture::{Picture, Rgba, word};
 use super::pixel::load_material;

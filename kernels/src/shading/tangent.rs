@@ -1,10 +1,10 @@
 //! Normals that a texture bends.
 
 use glam::Vec3;
-use lightbvh::exact::{abs, div, pow2, rsqrt};
+use lightbvh::exact::{abs, pow2, rsqrt};
 use lightbvh::vector::{cross, dot, length_squared};
 
-use super::grid::{STEP, TINY_AREA, flush_vector};
+use super::grid::{STEP, TINY_AREA, div, flush_vector, sqrt};
 
 /// Least cosine to the viewer that a bent normal keeps: below it the surface's own is taken.
 const LEAST_COSINE: f32 = pow2(-6);
@@ -42,7 +42,7 @@ pub fn bent(n: Vec3, wo: Vec3, [e1, e2]: [Vec3; 2], uv: [[f32; 2]; 2], map: [f32
         let sum = flush_vector(sum, STEP);
         let length = length_squared(sum);
         if length > LEAST_SQUARED {
-            let found = flush_vector(sum * div(1.0, lightbvh::exact::sqrt(length)), STEP);
+            let found = flush_vector(sum * div(1.0, sqrt(length)), STEP);
             if dot(found, wo) > LEAST_COSINE {
                 normal = found;
             }

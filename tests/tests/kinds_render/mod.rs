@@ -18,8 +18,7 @@ use lightbvh_host::backend::{
 };
 use lightbvh_host::method::{Method, Step, Target};
 use lightbvh_host::scene::{
-    AnalyticKind, AnalyticLight, Camera, Instances, Material, Mesh, Node, Primitive, Scene, SceneData,
-    Transform,
+    AnalyticKind, AnalyticLight, Camera, Instances, Material, Node, Scene, SceneData, Transform,
 };
 use lightbvh_host::vulkan::{Device, Options};
 use lightbvh_host::words::compare_words;
@@ -28,7 +27,7 @@ use lightbvh_kernels::bvh::{Kinds, WIDTH};
 use lightbvh_tests::devices::on_each_device;
 
 use crate::profiles;
-use crate::textures::painted_room;
+use crate::textures::{painted_room, sheet};
 
 const ALBEDO: f32 = 0.5;
 
@@ -72,19 +71,6 @@ pub fn down(translation: [f32; 3]) -> Transform {
     }
 }
 
-fn square(side: f32, material: u32) -> Mesh {
-    let s = side / 2.0;
-    Mesh {
-        name: String::from("square"),
-        primitives: vec![Primitive {
-            positions: vec![[-s, 0.0, -s], [-s, 0.0, s], [s, 0.0, s], [s, 0.0, -s]],
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
-            material,
-            ..Primitive::default()
-        }],
-    }
-}
-
 /// A diffuse floor seen from above by a narrow camera, at `aim` metres from the origin along x: all pixels see about one point.
 fn floor(aim: f32, lights: Vec<(Transform, AnalyticKind, f32)>) -> Scene {
     let eye = Transform::Matrix([
@@ -96,7 +82,7 @@ fn floor(aim: f32, lights: Vec<(Transform, AnalyticKind, f32)>) -> Scene {
     let mut data = SceneData {
         name: String::from("floor"),
         nodes: vec![node(at([0.0; 3]), Some(0)), node(eye, None)],
-        meshes: vec![square(50.0, 0)],
+        meshes: vec![sheet(50.0, 0)],
         materials: vec![Material {
             base_color: [ALBEDO; 3],
             metallic: 0.0,
@@ -145,12 +131,11 @@ pub fn mean(image: &[[f32; 3]]) -> (f64, f64) {
     (mean, (squares / (n * (n - 1.0))).sqrt())
 }
 
-/// The room under a map and two suns.
 /// A room with every kind of light, a mesh light and things in the way; some of the lamps are turned, scaled and mirrored.
 fn room() -> Scene {
     let mut data = SceneData {
         name: String::from("room"),
-        meshes: vec![square(8.0, 0), square(0.8, 1), square(1.2, 2)],
+        meshes: vec![sheet(8.0, 0), sheet(0.8, 1), sheet(1.2, 2)],
         materials: vec![
             Material {
                 base_color: [0.6, 0.5, 0.4],
@@ -217,6 +202,7 @@ fn room() -> Scene {
     Scene::new(data).expect("a sound scene")
 }
 
+/// The room under a map and two suns.
 pub fn open_room() -> Scene {
     let mut data = room().into_data();
     let colors = |[x, y, z]: [f32; 3]| [0.1 + 0.1 * x * x, 0.1 + 0.2 * y.max(0.0), 0.2 + 0.1 * z * z];

@@ -37,7 +37,7 @@ fn a_rectangle_is_its_mesh() {
             ..Material::default()
         });
         // A square whose front is up, turned upside down.
-        data.meshes.push(square(1.0, 3));
+        data.meshes.push(sheet(1.0, 3));
         data.nodes.push(node(
             Transform::Trs {
                 translation: [0.3, 2.0, -0.2],

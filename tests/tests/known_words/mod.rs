@@ -10,7 +10,10 @@ mod scenes;
 mod trees;
 
 use lightbvh::Transform;
+use lightbvh::node::NODE_FORMAT;
+use lightbvh_gpu::self_test as shipped;
 use lightbvh_tests::generate::Random;
+use lightbvh_tests::self_test;
 
 /// Maps without trigonometry: turns by 3:4:5 triangles, scales, mirrorings, and some that are no similarity.
 fn place(random: &mut Random) -> Transform {
@@ -29,4 +32,23 @@ fn place(random: &mut Random) -> Transform {
         columns,
         translation: [0; 3].map(|_| random.between(-20.0, 20.0)),
     }
+}
+
+/// The first entry under "Changes to bits" that names a version names the present one: the newest stand above.
+#[test]
+fn changelog_names_the_version_of_node_words() {
+    let text = include_str!("../../../CHANGELOG.md");
+    let changes = text.split("### Changes to bits").nth(1).expect("the heading");
+    let version = changes.split("`NODE_FORMAT` ").nth(1).expect("a version");
+    assert!(version.starts_with(&format!("{NODE_FORMAT},")), "{NODE_FORMAT}");
+}
+
+/// `cargo run -p lightbvh-tests --example self_test` writes them.
+#[test]
+fn self_test_has_the_answers_of_this_build() {
+    let words = self_test::words();
+    let (operands, answers) = words.split_at(shipped::operands().len());
+    assert_eq!(shipped::operands(), operands);
+    assert_eq!(answers.len(), shipped::ANSWERS_BYTES);
+    assert_eq!(shipped::defect(answers), None);
 }

@@ -2,14 +2,21 @@
 
 use lightbvh::build::Effort;
 use lightbvh::{
-    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, FluxOverDistance, FullNode, Heuristic,
+    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, FluxOverDistance, Heuristic,
     ImportanceModel, LightNode, Lights, MomentNode, Moments, Random64, SampledLight, ShadingPoint, exact,
 };
+use lightbvh_host::backend::{Bvh as TreeOf, Sampler};
+use lightbvh_host::vulkan::{Device, Options};
+use lightbvh_host::workload::build;
+use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice, WIDTH};
+use lightbvh_kernels::query::Query;
+use lightbvh_tests::devices::on_each_device;
 use lightbvh_tests::generate::{self, Random, extreme_triangle, moved, split};
-
 use lightbvh_tests::oracle::pmf_of;
 
 use super::digest::Digest;
+use crate::broken_kernels::different_of;
+use crate::deep::shrinking;
 
 /// Small lights in clusters, some two-sided, some bright; a few of every extreme kind.
 fn lights() -> Lights {
@@ -66,6 +73,9 @@ fn points() -> Vec<ShadingPoint> {
 fn tree<N: LightNode<W>, const W: usize>(digest: &mut Digest, bvh: &Bvh<N, (), W>) {
     let tree = bvh.tree();
     digest.words(tree.nodes);
+    digest.words(bvh.top_nodes());
+    digest.words(tree.links.above);
+    digest.words(tree.links.places);
     digest.words(tree.instances);
     digest.words(tree.trails);
     digest.words(bvh.roots());
@@ -157,46 +167,77 @@ fn bvh<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: [u64; 3
 #[test]
 fn compact_nodes() {
     bvh::<CompactNode<2>, Eq4, 2>([
-        0x43e5_4931_55ee_5731,
-        0x53ee_a8f6_ed37_c70d,
-        0x0388_23c6_e9ba_d285,
+        0x79a6_4706_f585_23ee,
+        0x33b6_a01a_7474_7995,
+        0x31c1_2176_9d47_5685,
     ]);
     bvh::<CompactNode<4>, Eq4, 4>([
-        0xc9ee_c31c_0f6b_20ea,
-        0x2f0f_3222_b289_d70e,
-        0xafae_d1a5_adbd_fa4c,
+        0xd497_4e96_4c33_a9a1,
+        0x54d8_2a9e_0c3e_e8bc,
+        0x43f8_17ae_7a37_cac4,
     ]);
     bvh::<CompactNode<16>, Defensive<Eq4, 5>, 16>([
-        0x02a4_a3ec_f14f_5844,
-        0x6a83_8250_b59a_0137,
-        0xe05a_6a04_fddf_6d0c,
-    ]);
-}
-
-#[test]
-fn full_nodes() {
-    bvh::<FullNode<2>, Eq4, 2>([
-        0x31ba_dab0_2ea7_9042,
-        0x8d8a_20b6_6661_8679,
-        0x6e39_ddc4_23c0_6ca5,
-    ]);
-    bvh::<FullNode<8>, Eq4, 8>([
-        0x0bbf_586c_95e2_5502,
-        0x4033_a72a_e9a3_4334,
-        0xb0c3_c4d2_5004_60d0,
+        0x6103_7819_62eb_88f2,
+        0x3207_34a5_e642_ecd5,
+        0x9130_5eed_cca2_1bc8,
     ]);
 }
 
 #[test]
 fn moment_nodes() {
     bvh::<MomentNode<4>, Moments, 4>([
-        0x2d5f_3068_03ff_a277,
-        0x93b8_fb57_1eaa_ee13,
-        0xf869_a053_4ab2_5673,
+        0x2c90_0d50_7cd9_cb0d,
+        0x8dcd_c8ab_d519_ec49,
+        0x838e_4b8a_e372_6f6f,
     ]);
     bvh::<MomentNode<8>, Defensive<Moments, 6>, 8>([
-        0x65aa_8589_4d00_4020,
-        0xd0d1_10d9_f94d_d864,
-        0xe4a5_0810_372d_ee6c,
+        0x3ef4_f3ef_4199_2ff8,
+        0xde88_c8e1_37b3_a7c2,
+        0x81d2_f384_5e36_045b,
     ]);
+}
+
+/// Trees of `lights` in one level and in two, refitted, sampled and evaluated.
+fn same_on<C: TriangleChoice<W>, const W: usize>(device: &Device, lights: &Lights, params: &BuildParams) {
+    let mut random = Random::new(31);
+    let asked: Vec<Query> = points()
+        .into_iter()
+        .cycle()
+        .take(1000)
+        .map(|point| Query {
+            point,
+            words: [random.bits(), random.bits()],
+        })
+        .collect();
+    for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
+        let bvh: TreeOf<C, W> = build(lights, sampler, params);
+        let different = different_of::<C, W>(device, &bvh, &moved(lights, 31), asked.clone());
+        let name = device.name();
+        assert_eq!(
+            different,
+            [0; 3],
+            "{name}: {} {sampler:?}, depth {}",
+            C::NAME,
+            bvh.depth()
+        );
+    }
+}
+
+/// Lights of every extreme kind, and trees nearly as deep as trails are long.
+#[test]
+fn every_exact_device_has_the_words_of_the_cpu() {
+    let deep = shrinking(130, 26, false);
+    on_each_device(Options::default(), |device| {
+        if !device.self_test().expect("a verdict").exact {
+            eprintln!("{}: not exact, its words are its own", device.name());
+            return;
+        }
+        for (lights, params) in [
+            (&lights(), BuildParams::default()),
+            (&deep, split(Heuristic::Sah, 2)),
+        ] {
+            same_on::<Standard, WIDTH>(device, lights, &params);
+            same_on::<Paper, 4>(device, lights, &params);
+        }
+    });
 }

@@ -5,11 +5,10 @@ use lightbvh::{ShadingPoint, exact};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use lightbvh_kernels::shading::pick::Uniform;
-use lightbvh_kernels::shading::pixel::{Samples, reflected, see};
 use lightbvh_kernels::shading::ray::{FAR, Ray};
 use lightbvh_tests::direct::brute_force;
 use lightbvh_tests::generate::Random;
-use lightbvh_tests::statistics::{Mean, normal_quantile};
+use lightbvh_tests::statistics::normal_quantile;
 
 use super::world::{Nothing, RENDERER_ERROR, TAIL, World, agree, cube, glossy, light, matte, quad};
 
@@ -40,43 +39,6 @@ fn hall(material: Material) -> World {
 fn to_the_floor(x: f32, z: f32) -> Ray {
     let eye = Vec3::new(x - 0.5, 0.8, z + 0.3);
     Ray::new(eye, (Vec3::new(x, 0.0, z) - eye).normalize(), FAR)
-}
-
-/// One reflection is direct lighting: by sampled lights alone (the direct renderer), by directions alone, and by both.
-#[test]
-fn one_bounce_is_direct_lighting() {
-    // Under lamps and half behind the wall; the narrow lobe where it shows a lamp's reflection.
-    let dull = [(0.5, 0.3), (-1.0, 2.5), (2.5, -1.5)];
-    let mirroring = [(-0.8, 1.6), (-2.6, 4.0), (1.2, 2.2)];
-    for (material, points) in [
-        (matte(0.8), dull),
-        (glossy(0.5, 0.3, 3), dull),
-        (glossy(0.0, 1.0, 6), mirroring),
-    ] {
-        let world = hall(material);
-        for (x, z) in points {
-            let ray = to_the_floor(x, z);
-            let seen = see(&world.scene(), &ray, Vec3::ZERO);
-            let mut direct = Mean::default();
-            let uniform = Uniform {
-                count: world.lights.len() as u32,
-            };
-            for sample in 0..120_000 {
-                let value = reflected(
-                    &world.scene(),
-                    &seen,
-                    &uniform,
-                    Samples::of(1),
-                    exact::hash(sample),
-                );
-                direct.add(f64::from(value.x));
-            }
-            for (name, mean) in world.each_picker(&ray, 1, 120_000) {
-                let what = format!("{name} at {x} {z}, {material:?}");
-                agree(&what, &mean, direct.mean(), direct.error());
-            }
-        }
-    }
 }
 
 /// The same against the sum over all lights by brute force in f64.

@@ -1,23 +1,25 @@
-//! A rebuild that panics or is dropped costs nothing but itself.
+//! A build that panics or is dropped costs nothing but itself.
 
 use super::*;
 
 #[test]
-fn a_panic_is_told_once_and_the_next_rebuild_is_sound() {
+fn a_panic_is_reported_once_and_the_next_build_is_sound() {
     const TEST: usize = 3;
     for swap in [Swap::Deterministic, Swap::WhenReady] {
         slowed::spare();
         let random = &mut Random::new(30);
-        let (mut scene, model) = town::<TEST>(random, 30);
+        let (mut scene, mut model, mesh) = town::<TEST>(random, 30);
         let mut rebuilder = Rebuilder::new(params(1, swap));
-        let before = words(&scene, &ids(&model), 0);
-        for _ in 0..3 {
+        // Builds of the top level and of the mesh, in turn.
+        for _ in 0..4 {
+            shuffle(random, &mut scene, &mut model, mesh);
+            let before = scene.to_words();
             slowed::set::<TEST>(Pace::Panic);
             rebuilder.end_frame(&scene);
             let error = loop {
                 match rebuilder.begin_frame(&mut scene) {
                     Err(error) => break error,
-                    Ok(start) => assert!(!start.swapped),
+                    Ok(start) => assert!(!start.swapped && start.meshes == 0),
                 }
             };
             let RebuildError::Panicked { message } = &error else {
@@ -26,15 +28,14 @@ fn a_panic_is_told_once_and_the_next_rebuild_is_sound() {
             assert_eq!(message, "told to panic");
             assert!(error.to_string().contains("told to panic"));
             assert!(!rebuilder.is_busy());
-            assert!(!rebuilder.begin_frame(&mut scene).expect("told once").swapped);
+            let start = rebuilder.begin_frame(&mut scene).expect("reported once");
+            assert!(!start.swapped && start.meshes == 0);
             scene.refit();
-            assert!(before == words(&scene, &ids(&model), 0), "the tree is as it was");
+            assert!(scene.to_words() == before, "the trees are as they were");
         }
-        // Nothing changed, but what failed is still to be built.
         slowed::set::<TEST>(Pace::Full);
-        rebuilder.end_frame(&scene);
-        until_swapped(&mut rebuilder, &mut scene);
-        scene.refit();
+        come_to_rest(&mut rebuilder, &mut scene);
+        assert!(scene.to_words() == rebuilt(&scene));
         check_pmfs(&scene, &model, random);
     }
 }
@@ -45,8 +46,8 @@ fn dropped_while_it_builds_it_ends() {
     let (done, ended) = mpsc::channel();
     let dropping = thread::spawn(move || {
         slowed::spare();
-        let (mut scene, _) = town::<TEST>(&mut Random::new(40), 30);
-        // Never used; idle after a rebuild; in the middle of one.
+        let (mut scene, ..) = town::<TEST>(&mut Random::new(40), 30);
+        // Never used; idle after a build; in the middle of one.
         drop(Rebuilder::<Slowed<TEST>, 4>::new(RebuilderParams::default()));
         let mut idle = Rebuilder::new(params(1, Swap::Deterministic));
         idle.end_frame(&scene);
@@ -70,78 +71,23 @@ fn dropped_while_it_builds_it_ends() {
     dropping.join().expect("no panic");
 }
 
-/// Large for the bytes that a frame may copy: its tree is built by a thread of its own and put in place piece by piece.
+/// Frames that a rebuilder does not see lose no light.
 #[test]
-fn a_panic_over_a_large_mesh_costs_nothing_but_itself() {
-    const TEST: usize = 7;
-    slowed::spare();
-    let random = &mut Random::new(70);
-    let (mut scene, mut model) = town::<TEST>(random, 5);
-    let mut triangles = generate::small_triangles(300, 300, 2.0, 0.2, false, random.bits());
-    let mesh = add(random, &mut scene, &mut model, triangles.clone(), 3);
-    for i in (1..triangles.len()).rev() {
-        triangles.swap(i, random.below(i as u32 + 1) as usize);
-    }
-    model.meshes.insert(mesh, triangles.clone());
-    scene
-        .apply(vec![Edit::SetTriangles { mesh, triangles }])
-        .expect("as many");
-    scene.refit();
-    let due = scene.due(&RebuildParams {
-        top: f64::INFINITY,
-        ..EAGER
-    });
-    assert!(
-        due.len() == 1 && due[0].mesh == Some(mesh) && due[0].drift > 1.1,
-        "{due:?}"
-    );
-    let mut rebuilder = Rebuilder::new(RebuilderParams {
-        rebuild: RebuildParams {
-            top: f64::INFINITY,
-            ..EAGER
-        },
-        bytes: 0,
-        ..params(1, Swap::Deterministic)
-    });
-    let before = words(&scene, &ids(&model), 0);
-    slowed::set::<TEST>(Pace::Panic);
-    let mut frames = 0;
-    let error = loop {
-        match rebuilder.begin_frame(&mut scene) {
-            Err(error) => break error,
-            Ok(start) => assert!(start.adopted == 0 && frames < 100),
+fn two_rebuilders_of_one_scene_lose_no_light() {
+    const TEST: usize = 2;
+    let random = &mut Random::new(60);
+    let (mut scene, mut model, _) = town::<TEST>(random, 10);
+    let mut rebuilders = [1, 2].map(|after| Rebuilder::new(params(after, Swap::Deterministic)));
+    for _ in 0..80 {
+        let takes_part = [0; 2].map(|_| random.below(3) > 0);
+        for (own, _) in rebuilders.iter_mut().zip(takes_part).filter(|(_, part)| *part) {
+            own.begin_frame(&mut scene).expect("no panic");
         }
-        scene.refit();
-        valid(&scene, &model);
-        rebuilder.end_frame(&scene);
-        frames += 1;
-    };
-    assert!(error.to_string().contains("told to panic"));
-    assert!(!rebuilder.is_busy());
-    scene.refit();
-    assert_eq!(before.pmfs, words(&scene, &ids(&model), 0).pmfs);
-    // What failed is still to be built.
-    slowed::set::<TEST>(Pace::Full);
-    let mut edited = 0;
-    loop {
-        rebuilder.end_frame(&scene);
-        let start = rebuilder.begin_frame(&mut scene).expect("no panic");
-        if start.adopted > 0 {
-            break;
-        }
-        edited += 1;
-        assert!(edited < 100);
-        if edited % 3 == 0 {
-            let first = random.below(300);
-            let some = vec![model.meshes[&mesh][299 - first as usize]];
-            model.meshes.get_mut(&mesh).expect("it is there")[first as usize] = some[0];
-            scene.set_triangle_range(mesh, first, some).expect("its own");
-        }
+        edits(random, &mut model, &mut scene, REACH);
         scene.refit();
         check_pmfs(&scene, &model, random);
+        for (own, _) in rebuilders.iter_mut().zip(takes_part).filter(|(_, part)| *part) {
+            own.end_frame(&scene);
+        }
     }
-    scene.refit();
-    check_pmfs(&scene, &model, random);
-    let due = scene.due(&RebuildParams::default());
-    assert!(due.iter().all(|due| due.mesh.is_none()), "{due:?}");
 }

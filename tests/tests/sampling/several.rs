@@ -1,4 +1,4 @@
-//! Several samples of one point: stratified numbers, batches, candidates, splitting.
+//! Several samples of one point: stratified numbers, batches, candidates.
 
 use super::*;
 
@@ -53,9 +53,6 @@ fn squared_error<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 /// 64 stratified numbers, one in each 64th of the range, against 64 independent ones: the squared error is at least 8 times
 /// less. Multiples of the golden ratio, which have no number of samples in mind: at least 4 times less.
 fn stratified_numbers_pay<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
-    if I::UNIFORM_HALVINGS > 0 {
-        return;
-    }
     let lights = floor();
     let bvh = built::<N, W>(&lights, &BuildParams::default(), two);
     let independent = squared_error::<N, I, W>(&bvh, &lights, |random| [0; 64].map(|_| random.bits()));
@@ -84,8 +81,8 @@ fn stratified_numbers_pay<N: LightNode<W>, I: ImportanceModel<N, W>, const W: us
 
 #[test]
 fn stratified_numbers() {
-    each_layout!(stratified_numbers_pay(false));
-    each_layout!(stratified_numbers_pay(true));
+    stratified_numbers_pay::<MomentNode<8>, Moments, 8>(false);
+    stratified_numbers_pay::<MomentNode<8>, Moments, 8>(true);
 }
 
 /// Several walks at once are as many walks one by one, however many, and what is longer than the shortest list is left alone.
@@ -162,71 +159,12 @@ fn candidates_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, cons
 
 #[test]
 fn candidates() {
-    each_layout!(candidates_are_single_samples(false));
-    each_layout!(candidates_are_single_samples(true));
-}
-
-/// Splitting gives every light to one subtree: with as many subtrees as lights all are certain, with one it is a single sample, and
-/// between them the sum of f / pmf is the sum of f in the mean.
-fn splitting_is_unbiased<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
-    const NUMBERS: u32 = 512;
-    for count in [1, 3, 60] {
-        let lights = scene(count, 53);
-        let bvh = built::<N, W>(&lights, &BuildParams::default(), two);
-        let random = &mut Random::new(54);
-        for _ in 0..8 {
-            let point = generate::point(random, 10.0);
-            // Near what lights are chosen by, so that no rare light is most of the sum; never of dark ones.
-            let pmfs = all_pmfs::<_, I, _>(&bvh, &lights, &point);
-            let lit =
-                |t: &EmissiveTriangle| f64::from(u8::from(Summary::phi(&N::Summary::of_triangle(t)) > 0.0));
-            let f: Vec<f64> = (0..)
-                .zip(lights.triangles().iter().zip(pmfs))
-                .map(|(light, (triangle, pmf))| f64::from(light % 3 + 1) * lit(triangle) * f64::from(pmf))
-                .collect();
-            let sum: f64 = f.iter().sum();
-            let estimate = |found: &[SampledLight]| -> f64 {
-                found.iter().map(|s| f[s.light as usize] / f64::from(s.pmf)).sum()
-            };
-            let bvh = bvh.by::<I>();
-            let (all, found) = bvh.sample_split::<64>(&point, number(random));
-            assert!(all[..found].iter().all(|s| s.pmf > 0.0));
-            let relative = estimate(&all[..found]) / sum;
-            assert!(
-                (relative - 1.0).abs() < 1e-6,
-                "{found} of {count} lights: {relative}"
-            );
-            let mut estimates = Vec::new();
-            for k in 0..NUMBERS {
-                let number = number(random).spaced(k, NUMBERS);
-                let (one, found) = bvh.sample_split::<1>(&point, number);
-                let expected = bvh.sample(&point, number);
-                if I::UNIFORM_HALVINGS == 0 {
-                    assert_eq!((found, one[0]), (1, expected));
-                }
-                let (some, found) = bvh.sample_split::<20>(&point, number);
-                assert!(found <= 20 && some[found..].iter().all(|s| *s == SampledLight::NONE));
-                estimates.push(estimate(&some[..found]) / sum);
-            }
-            let mean = estimates.iter().sum::<f64>() / f64::from(NUMBERS);
-            let variance = estimates.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / f64::from(NUMBERS);
-            let deviation = (variance / f64::from(NUMBERS)).sqrt();
-            assert!(
-                (mean - 1.0).abs() <= 5.0 * deviation + 1e-6,
-                "{count}: {mean} +- {deviation}"
-            );
-        }
-    }
-}
-
-#[test]
-fn splitting() {
-    each_layout!(splitting_is_unbiased(false));
-    each_layout!(splitting_is_unbiased(true));
+    candidates_are_single_samples::<CompactNode<4>, Defensive<Eq4, 5>, 4>(false);
+    candidates_are_single_samples::<MomentNode<8>, Moments, 8>(true);
 }
 
 #[test]
 fn batches() {
-    each_layout!(batches_are_single_samples(false));
-    each_layout!(batches_are_single_samples(true));
+    batches_are_single_samples::<CompactNode<4>, Defensive<Eq4, 5>, 4>(false);
+    batches_are_single_samples::<MomentNode<8>, Moments, 8>(true);
 }

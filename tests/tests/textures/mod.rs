@@ -65,7 +65,7 @@ fn painted(paint: Paint) -> Material {
 }
 
 /// A square in the plane y = 0 with its front up, whose texture coordinates go from 0 to 1 along x and z.
-fn sheet(side: f32, material: u32) -> Mesh {
+pub fn sheet(side: f32, material: u32) -> Mesh {
     let s = side / 2.0;
     Mesh {
         name: String::from("sheet"),

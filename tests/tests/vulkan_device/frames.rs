@@ -1,7 +1,8 @@
 //! What a frame of moving lights costs a device: submissions, waits, regions and bytes, counted; and its words.
 
+use lightbvh::bvh::Cursor;
 use lightbvh::{Edit, EmissiveTriangle, InstanceId, LightBvh, MeshId, ShadingPoint, Transform};
-use lightbvh_host::backend::{Backend, CpuBackend, DeviceBackend, Follow};
+use lightbvh_host::backend::{Backend, CpuBackend, DeviceBackend, Follow, node_words, nodes_in_use};
 use lightbvh_host::vulkan::{Counts, Device, Options, Pass, VulkanError};
 use lightbvh_kernels::bvh::Standard;
 use lightbvh_kernels::query::Query;
@@ -65,11 +66,9 @@ pub(super) fn assert_follows(what: &str, bvh: &LightBvh, backend: &mut OnDevice<
         "{what}: samples"
     );
     let found = backend.nodes().expect("nodes");
-    let words = size_of_val(&bvh.nodes()[0]) / 4;
-    let expected: &[u32] = bytemuck::cast_slice(bvh.nodes());
-    let used = bvh.plan_of_everything();
-    for node in used.bottom.nodes().iter().chain(used.top.nodes()) {
-        let at = *node as usize * words..(*node as usize + 1) * words;
+    let (expected, words) = (node_words(bvh), size_of_val(&bvh.nodes()[0]) / 4);
+    for node in nodes_in_use(bvh) {
+        let at = node as usize * words..(node as usize + 1) * words;
         assert!(found[at.clone()] == expected[at], "{what}: node {node}");
     }
 }
@@ -98,11 +97,14 @@ fn a_frame_is_one_submission_without_a_wait_whatever_moves() {
     on_each(|device| {
         let (mut bvh, _, ids) = world(6_000);
         let mut backend = OnDevice::new(device, &bvh).expect("an upload");
+        let mut cursor = Cursor::default();
+        assert!(bvh.plan(&mut cursor).everything);
         // The first frame grows the ring and the list.
         for (time, stride) in (1..).zip([3, 6_000, 60, 3, 1]) {
             let moved = 6_000_u64.div_ceil(stride as u64);
             step(&mut bvh, &ids, stride, time);
-            let refitted = bvh.plan().computed() as u64;
+            bvh.refit();
+            let refitted = bvh.plan(&mut cursor).computed() as u64;
             let counts = counted(device, || {
                 backend.follow_ahead(&bvh).expect("a frame");
                 backend.flush().expect("a submission");
@@ -117,11 +119,9 @@ fn a_frame_is_one_submission_without_a_wait_whatever_moves() {
             let record = size_of::<lightbvh::Instance>() as u64;
             assert_eq!(counts.bytes, moved * record + 4 * refitted + 12 * runs, "{what}");
             assert!(time == 1 || counts.buffers == 0 || stride == 1, "{what}");
-            bvh.refit();
             assert_follows(&what, &bvh, &mut backend);
         }
         let idle = counted(device, || {
-            bvh.plan();
             backend.follow(&bvh).expect("nothing to do");
         });
         assert_eq!(idle, Counts::default(), "{}: nothing changed", device.name());
@@ -136,7 +136,7 @@ fn what_is_asked_next_goes_with_the_frame() {
         let asked = queries(200);
         for time in 1..4 {
             step(&mut bvh, &ids, 5, time);
-            bvh.plan();
+            bvh.refit();
             let mut found = Vec::new();
             let counts = counted(device, || {
                 backend.follow_ahead(&bvh).expect("a frame");
@@ -147,7 +147,6 @@ fn what_is_asked_next_goes_with_the_frame() {
             let what = format!("{}: {counts:?}", device.name());
             assert_eq!(counts.submissions, 1 + reads, "{what}");
             assert!(counts.waits <= 1, "{what}");
-            bvh.refit();
             let mut cpu = CpuBackend::<Standard, 8>::new(bvh.clone());
             assert!(found == cpu.sample(&asked).expect("samples").value, "{what}");
         }
@@ -171,9 +170,8 @@ fn frames_that_grow_copy_what_is_new_and_carry_the_rest() {
                 }
             }
             step(&mut bvh, &ids, 7, time);
-            bvh.plan();
-            let counts = counted(device, || backend.follow_ahead(&bvh).expect("a frame"));
             bvh.refit();
+            let counts = counted(device, || backend.follow_ahead(&bvh).expect("a frame"));
             let what = format!("{} frame {time}: {counts:?}", device.name());
             assert_eq!(counts.waits, 0, "{what}");
             if time % 2 > 0 {
@@ -190,7 +188,7 @@ fn frames_larger_than_what_is_kept_are_submitted_at_once() {
         let (mut bvh, _, ids) = world(30_000);
         let mut backend = OnDevice::new(device, &bvh).expect("an upload");
         step(&mut bvh, &ids, 1, 1);
-        bvh.plan();
+        bvh.refit();
         let counts = counted(device, || backend.follow_ahead(&bvh).expect("a frame"));
         assert!(counts.bytes > 1 << 20, "{}: {counts:?}", device.name());
         assert_eq!(
@@ -199,7 +197,6 @@ fn frames_larger_than_what_is_kept_are_submitted_at_once() {
             "{}: {counts:?}",
             device.name()
         );
-        bvh.refit();
         assert_follows(device.name(), &bvh, &mut backend);
     });
 }

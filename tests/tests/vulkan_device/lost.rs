@@ -1,5 +1,4 @@
-//! A device that is lost in mid-frame: an error that says so, whichever call finds it; the light BVH is whole, and another
-//! device takes over.
+//! A device that is lost in mid-frame: an error that says so, whichever call finds it; another device takes over.
 #![cfg(debug_assertions)]
 
 use lightbvh::LightBvh;
@@ -24,7 +23,7 @@ fn frame(backend: &mut OnDevice<'_>, bvh: &LightBvh, waits: bool) -> Result<(), 
 }
 
 #[test]
-fn a_lost_device_leaves_the_light_bvh_whole_and_another_takes_over() {
+fn where_a_device_is_lost_another_takes_over() {
     let options = Options {
         force_staging: true,
         ..Options::default()
@@ -44,8 +43,7 @@ fn a_lost_device_leaves_the_light_bvh_whole_and_another_takes_over() {
                         .expect("a place"),
                 );
                 step(&mut bvh, &ids, 4, 1);
-                let planned = bvh.plan().clone();
-                let before = bvh.clone();
+                bvh.refit();
                 let result = frame(&mut backend, &bvh, waits);
                 let what = format!("{}, lost after {calls} calls", info.probe.name);
                 let Err(error) = result else {
@@ -63,23 +61,13 @@ fn a_lost_device_leaves_the_light_bvh_whole_and_another_takes_over() {
                     "{what}: {again}"
                 );
 
-                // Nothing of the light BVH has changed: plan, words, and what they are refitted to.
-                assert!(bvh.planned().computed() == planned.computed(), "{what}");
-                assert!(
-                    bvh.nodes() == before.nodes() && bvh.instances() == before.instances(),
-                    "{what}"
-                );
+                // Another device continues, from the frame that the lost device never did.
                 let second = open(info, options);
                 let mut heir = OnDevice::new(&second, &bvh).expect("an upload of everything");
-                let mut refitted = bvh.clone();
-                refitted.refit();
-                assert_follows(&what, &refitted, &mut heir);
-                // The frames go on there, from the plan that the lost one never did.
-                bvh.refit();
+                assert_follows(&what, &bvh, &mut heir);
                 step(&mut bvh, &ids, 3, 2);
-                bvh.plan();
-                heir.follow(&bvh).expect("a frame");
                 bvh.refit();
+                heir.follow(&bvh).expect("a frame");
                 assert_follows(&what, &bvh, &mut heir);
                 drop((backend, heir));
                 let closed = lost.close();
@@ -104,7 +92,7 @@ fn a_question_that_fails_loses_nothing_of_the_frame() {
         let (mut bvh, _, ids) = world(60);
         let mut backend = OnDevice::new(&device, &bvh).expect("an upload");
         step(&mut bvh, &ids, 4, 1);
-        bvh.plan();
+        bvh.refit();
         backend.follow_ahead(&bvh).expect("a frame");
         let other = open(info, Options::default());
         let foreign = other.kernel("sample").expect("a kernel");
@@ -114,7 +102,6 @@ fn a_question_that_fails_loses_nothing_of_the_frame() {
                 .is_err(),
             "a kernel of another device"
         );
-        bvh.refit();
         assert_follows(device.name(), &bvh, &mut backend);
         let mut cpu = CpuBackend::<Standard, 8>::new(bvh.clone());
         let all = queries(50);

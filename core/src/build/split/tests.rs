@@ -13,20 +13,10 @@ use crate::LightBounds;
 use crate::build::cost::{Heuristic, Scales};
 use crate::build::primitive::{Group, Primitive};
 use crate::build::{BuildParams, MAX_BUCKETS};
-use crate::exact::{hash, pow2, unit_f32};
-
-struct Random(u32);
+use crate::exact::pow2;
+use crate::kit::Random;
 
 impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(1);
-        unit_f32(hash(self.0))
-    }
-
-    fn below(&mut self, count: u32) -> u32 {
-        (self.unit() * count as f32) as u32
-    }
-
     fn triple(&mut self) -> [f32; 3] {
         [self.unit(), self.unit(), self.unit()]
     }

@@ -81,7 +81,6 @@ impl<L: Leaves, const W: usize> Emitter<'_, L, W> {
         let nodes = groups + 2 * count / W + 1;
         Topology {
             nodes: Vec::with_capacity(nodes),
-            levels: Vec::with_capacity(nodes),
             trails: Vec::with_capacity(lights),
             depth: 0,
         }
@@ -121,7 +120,6 @@ impl<N> Topology<N> {
         N: Node<W>,
     {
         self.nodes.push(N::EMPTY);
-        self.levels.push(level);
         self.depth = self.depth.max(level + 1);
         self.nodes.len() - 1
     }

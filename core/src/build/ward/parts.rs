@@ -103,20 +103,18 @@ fn put_together<N: Node<W>, const W: usize>(parts: Vec<Part<N>>) -> Topology<N> 
         }
         node
     };
-    let (nodes, (levels, trails)) = rayon::join(
+    let (nodes, trails) = rayon::join(
         || (0..nodes).into_par_iter().with_min_len(1024).map(node).collect(),
         || {
-            let (mut levels, mut trails) = (Vec::with_capacity(nodes), Vec::with_capacity(lights));
-            for part in &parts {
-                levels.extend_from_slice(&part.tree.levels);
-                trails.extend_from_slice(&part.tree.trails);
-            }
-            (levels, trails)
+            let mut trails = Vec::with_capacity(lights);
+            parts
+                .iter()
+                .for_each(|part| trails.extend_from_slice(&part.tree.trails));
+            trails
         },
     );
     Topology {
         nodes,
-        levels,
         trails,
         depth: parts.iter().map(|part| part.tree.depth).max().unwrap_or(0),
     }
@@ -125,7 +123,6 @@ fn put_together<N: Node<W>, const W: usize>(parts: Vec<Part<N>>) -> Topology<N> 
 impl<N> Topology<N> {
     const EMPTY: Self = Self {
         nodes: Vec::new(),
-        levels: Vec::new(),
         trails: Vec::new(),
         depth: 0,
     };

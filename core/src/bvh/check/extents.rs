@@ -11,7 +11,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(super) fn may_be_nearer(&self, edits: &[Edit<N::Light>], reason: &EditReason) -> bool {
         let in_part = |edit: &Edit<N::Light>| matches!(edit, Edit::SetTriangleRange { .. });
         matches!(reason, EditReason::Transform(_))
-            && (edits.iter().any(in_part) || self.blases.iter().any(|blas| !blas.extent.is_exact))
+            && (edits.iter().any(in_part) || self.meshes.iter().any(|mesh| !mesh.extent.is_exact))
     }
 
     /// What is known of a mesh's extent, or once for a batch all of it.
@@ -19,7 +19,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if let Some(&extent) = batch.extents.get(&id) {
             return extent;
         }
-        let known = self.blases[self.meshes[id.index as usize].blas as usize].extent;
+        let known = self.meshes[id.index as usize].extent;
         if batch.copies.is_none() || known.is_exact {
             return known;
         }

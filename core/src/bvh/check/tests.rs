@@ -4,6 +4,8 @@ use crate::light::EmissiveTriangle;
 use alloc::vec;
 
 use super::*;
+use crate::kit::scenes::{moved, scattered};
+use crate::kit::triangle;
 use crate::light::LightError;
 use crate::transform::TransformError;
 use crate::{CompactNode, InstanceId};
@@ -14,26 +16,15 @@ type Tree = Bvh<CompactNode<4>, crate::Eq4, 4>;
 const COUNT: usize = 1 << 12;
 
 fn triangles(count: usize, size: f32) -> Vec<EmissiveTriangle> {
-    let lamp = |i: usize| EmissiveTriangle {
-        p: [
-            [(i % 64) as f32, (i / 64) as f32, 0.0],
-            [size, 0.0, 0.0],
-            [0.0, size, 0.0],
-        ],
-        radiance: [1.0; 3],
-        mesh: 0,
-        flags: 0,
-    };
+    let corner = |i: usize| [(i % 64) as f32, (i / 64) as f32, 0.0];
+    let lamp = |i| triangle([corner(i), [size, 0.0, 0.0], [0.0, size, 0.0]]);
     (0..count).map(lamp).collect()
 }
 
 fn scene(count: usize) -> (Tree, MeshId, InstanceId) {
-    let mut scene = Tree::default();
-    let triangles = triangles(count, 1.0);
-    let added = scene.apply(vec![Edit::AddMesh { triangles }]).expect("a mesh");
-    let mesh = added.meshes[0];
-    let added = scene.apply(vec![add(mesh)]).expect("an instance");
-    (scene, mesh, added.instances[0])
+    let (scene, ids): (Tree, _) = scattered(triangles(count, 1.0), 1, |_| [0.0; 3]);
+    let mesh = scene.mesh_of(ids[0]).expect("a mesh");
+    (scene, mesh, ids[0])
 }
 
 fn add(mesh: MeshId) -> Edit {
@@ -41,13 +32,6 @@ fn add(mesh: MeshId) -> Edit {
         mesh,
         transform: Transform::IDENTITY,
         radiance: 1.0,
-    }
-}
-
-fn move_to(instance: InstanceId, x: f32) -> Edit {
-    Edit::SetTransform {
-        instance,
-        transform: Transform::at([x, 0.0, 0.0]),
     }
 }
 
@@ -99,21 +83,21 @@ fn edits_know_of_those_before() {
     // Just within 2^40 m; 2^30 m more are not.
     let (far, large) = (1.099e12, 1.0e9);
     assert_eq!(
-        check(vec![move_to(instance, far), deform(1.0)])
+        check(vec![moved(instance, [far; 3]), deform(1.0)])
             .expect("small")
             .len(),
         1
     );
     let extents = check(vec![deform(large), deform(1.0)]).expect("near");
     assert_eq!(extents[&mesh], Extent::of(&triangles(2, 1.0)));
-    assert!(too_far(check(vec![move_to(instance, far), deform(large)]), 1));
-    assert!(too_far(check(vec![deform(large), move_to(instance, far)]), 1));
-    check(vec![deform(large), deform(1.0), move_to(instance, far)]).expect("small again");
+    assert!(too_far(check(vec![moved(instance, [far; 3]), deform(large)]), 1));
+    assert!(too_far(check(vec![deform(large), moved(instance, [far; 3])]), 1));
+    check(vec![deform(large), deform(1.0), moved(instance, [far; 3])]).expect("small again");
     let gone = Edit::RemoveInstance(instance);
-    check(vec![move_to(instance, far), gone.clone(), deform(large)]).expect("nothing is there");
+    check(vec![moved(instance, [far; 3]), gone.clone(), deform(large)]).expect("nothing is there");
 
     assert_eq!(
-        check(vec![gone.clone(), move_to(instance, 1.0)]),
+        check(vec![gone.clone(), moved(instance, [1.0; 3])]),
         Err((1, EditReason::UnknownInstance(instance)))
     );
     assert_eq!(

@@ -9,18 +9,10 @@ use crate::node::Node;
 use crate::trail::max_levels;
 
 /// Version of the words of [`Bvh::to_words`](crate::Bvh::to_words).
-pub const FORMAT: u32 = 8;
+pub const FORMAT: u32 = 10;
 
 /// "LBVH" as bytes in little-endian order.
 const MAGIC: u32 = u32::from_le_bytes(*b"LBVH");
-
-/// Bit of a mesh's changes: its next tree waits until instances are closed.
-pub(super) const STAGED_ONLY: u32 = 1 << 31;
-
-/// Bit of a bottom level's changes: it was its mesh's before the one that is, and instances still follow it. Their places among
-/// the mesh's have the bit [`FOLLOWS`].
-pub(super) const OUTGOING: u32 = 1 << 30;
-pub(super) const FOLLOWS: u32 = 1 << 31;
 
 /// Words of a header.
 pub(super) const HEADER_WORDS: usize = 20;
@@ -43,20 +35,19 @@ pub(super) struct Header {
     /// Lengths of the arrays, places not in use included.
     pub nodes: u32,
     pub triangles: u32,
-    pub blases: u32,
     pub meshes: u32,
     pub instances: u32,
     /// One more than the greatest number of a light.
     pub lights: u32,
     /// Number of ranges of lights that are no more.
     pub removed: u32,
+    /// Root of the top level, length of its array of nodes, and number of its free nodes.
     pub top_root: u32,
-    /// Numbers of the top level's nodes, free ones included.
     pub top_nodes: u32,
-    /// Number of bottom levels that may have lost quality.
-    pub refitted: u32,
-    /// Number of instances whose meshes went elsewhere.
-    pub strayed: u32,
+    pub top_free: u32,
+    /// Number of instances that may be opened, and length of the array of parts' places.
+    pub opened: u32,
+    pub parts: u32,
 }
 
 impl Header {
@@ -76,15 +67,15 @@ impl Header {
             self.bottom_depth,
             self.nodes,
             self.triangles,
-            self.blases,
             self.meshes,
             self.instances,
             self.lights,
             self.removed,
             self.top_root,
             self.top_nodes,
-            self.refitted,
-            self.strayed,
+            self.top_free,
+            self.opened,
+            self.parts,
         ]
     }
 
@@ -130,14 +121,16 @@ impl Header {
         words.expect(bottom_depth <= max_levels(W), "levels of the bottom levels")?;
         let [nodes, triangles] = words.array()?;
         words.expect(triangles as usize <= MAX_LIGHTS, "number of triangles")?;
-        let [blases, meshes, instances, lights] = words.array()?;
+        let [meshes, instances, lights] = words.array()?;
         words.expect(lights as usize <= MAX_LIGHTS, "end of the lights' numbers")?;
-        let [removed, top_root, top_nodes, refitted, strayed] = words.array()?;
-        if top_root >= nodes {
+        let [removed, top_root, top_nodes, top_free, opened, parts] = words.array()?;
+        if top_root >= top_nodes {
             return Err(ReadError::Places {
                 what: "the top level's root",
             });
         }
+        // Each place was written once, with a leaf.
+        words.expect(parts as usize <= W * words.len(), "number of parts")?;
         Ok(Self {
             params: BuildParams {
                 heuristic,
@@ -150,15 +143,15 @@ impl Header {
             bottom_depth,
             nodes,
             triangles,
-            blases,
             meshes,
             instances,
             lights,
             removed,
             top_root,
             top_nodes,
-            refitted,
-            strayed,
+            top_free,
+            opened,
+            parts,
         })
     }
 }

@@ -1,9 +1,9 @@
 //! A light BVH as words, to be kept in a file and read again.
 //!
-//! What is written is what cannot be computed: triangles, transforms, links, and what later edits depend on (which places are
-//! free, the order of lists, what was noted of bottom levels when they were built). Nodes' summaries, instances' words, trails
-//! and levels are computed anew, by the functions that a refit calls: so they have the words that they had, whatever machine
-//! reads them. `docs/format.md` lists every word.
+//! Only what cannot be computed is written: triangles, transforms, links, and what later edits depend on (which places are
+//! free, the order of lists, how far apart the children of a node were). Nodes' summaries, instances' words, trails
+//! and levels are computed again, by the functions that a refit calls: they are bit-identical on every machine.
+//! `docs/format.md` lists every word.
 
 mod error;
 mod header;
@@ -41,7 +41,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// and after the same edits, refits and rebuilds the same words if it was refitted when it was written. Places of its
     /// arrays that are not in use hold the words of nothing.
     ///
-    /// It is another BVH, so it has ids of its own: [`mesh_id`](Self::mesh_id) and [`instance_id`](Self::instance_id) give them
+    /// Numbers of lights stay, those that wait in [`removed_lights`](super::Bvh::removed_lights) too. It is another BVH, so it has ids of its own: [`mesh_id`](Self::mesh_id) and [`instance_id`](Self::instance_id) give them
     /// by the indices, which stay; a program that keeps ids in a file keeps [`InstanceId::index`](super::InstanceId::index) and
     /// [`MeshId::index`](super::MeshId::index) in their place. A `Rebuilder` of the one that was written knows nothing of it:
     /// it starts with a new one; where both are to go on alike, so does the one that was written. What was planned for a mirror

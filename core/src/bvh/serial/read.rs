@@ -1,28 +1,20 @@
 //! From words to what they say. Every number is checked before anything is done by it.
 
 use alloc::vec::Vec;
-use core::ops::Range;
 
 use super::error::ReadError;
-use super::header::{FOLLOWS, Header, OUTGOING, STAGED_ONLY};
+use super::header::Header;
 use super::places::{read_indices, read_range, read_ranges, taken};
 use super::words::Words;
-use crate::bvh::blas::Blas;
 use crate::bvh::check::factor;
-use crate::bvh::known_flux::KnownFlux;
 use crate::bvh::powers::Powers;
-use crate::bvh::stage::{MISFITS, Outgoing};
-use crate::bvh::top::{MOST_EDITS, Top};
-use crate::bvh::unsettled::MOST;
-use crate::bvh::{Bvh, EditReason, InstanceState, Mesh};
+use crate::bvh::records::Mesh;
+use crate::bvh::top::{Opened, Shape, Top};
+use crate::bvh::{Bvh, EditReason, InstanceState};
 use crate::light::Light;
 use crate::node::{Node, kind};
 use crate::transform::{Extent, Transform};
 use crate::tree::INVALID;
-
-const BOTTOMS: ReadError = ReadError::Places {
-    what: "bottom levels",
-};
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     pub(super) fn read(words: &mut Words<'_>) -> Result<Self, ReadError> {
@@ -31,264 +23,150 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         bvh.single = header.single;
         bvh.forgotten = header.forgotten;
         bvh.bottom_depth = header.bottom_depth;
-        bvh.read_bottoms(words, &header)?;
-        let behind = bvh.read_instances(words, &header)?;
+        bvh.read_meshes(words, &header)?;
+        bvh.read_instances(words, &header)?;
         bvh.removed_lights = read_ranges(words, header.removed, header.lights, "removed lights")?;
         words.expect(!header.forgotten || header.removed > 0, "removed lights")?;
-        bvh.top = Top {
-            root: header.top_root,
-            nodes: Vec::with_capacity(words.need(header.top_nodes)?),
-            ..Top::default()
-        };
-        let mut top_built = Vec::with_capacity(words.need(header.top_nodes)?);
-        for _ in 0..header.top_nodes {
-            let node = words.one()?;
-            words.expect(node < header.nodes || node == INVALID, "node of the top level")?;
-            bvh.top.nodes.push(node);
-            let [edits, built, stirred, changes] = match node {
-                INVALID => [0, INVALID, 0, 0],
-                _ => words.array()?,
-            };
-            let (rests, edits) = (edits & Top::FLAGS, edits & !Top::FLAGS);
-            words.expect(edits <= MOST_EDITS, "edits below a node of the top level")?;
-            let is_share = built == INVALID || (0.0..=1.0).contains(&f32::from_bits(built));
-            words.expect(is_share, "quality of a node")?;
-            bvh.top.edits.push(edits);
-            bvh.top.stirred.push(stirred);
-            bvh.top.changes.push(changes);
-            bvh.top.set_what_rests(rests);
-            top_built.push(built);
+        bvh.read_top(words, &header)?;
+        let count = words.need(header.nodes)?;
+        bvh.nodes = alloc::vec![N::EMPTY; count];
+        for index in 0..count {
+            bvh.nodes[index] = read_node(words)?;
         }
-        let refitted = read_indices(words, header.refitted, header.blases, "refitted bottom level")?;
-        let built = bvh.read_quality(words, &refitted)?;
-        let strayed = read_indices(words, header.strayed, header.instances, "strayed instance")?;
-        let is_sound = |&index: &u32| bvh.placed[index as usize].live;
-        words.expect(
-            strayed.is_sorted_by(|a, b| a < b) && strayed.iter().all(is_sound),
-            "strayed instances",
-        )?;
-        bvh.read_nodes(words, &header)?;
         bvh.read_triangles(words, &header)?;
-        bvh.restore(&header, &behind)?;
-        bvh.restore_changes(refitted, built)?;
-        bvh.note_sizes();
-        bvh.reserve_room();
-        bvh.restore_top_quality(&top_built);
-        // Where what was written was not refitted.
-        let all = Vec::from_iter(0..header.blases);
-        strayed.into_iter().for_each(|index| bvh.note(index));
-        bvh.note_fluxes(&all);
-        bvh.note_centers(&all);
+        bvh.restore(&header)?;
         Ok(bvh)
     }
 
-    fn read_bottoms(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
-        let mut outgoing = Vec::new();
-        self.blases = Vec::with_capacity(words.need(header.blases)?);
-        for _ in 0..header.blases {
-            let mesh = words.one()?;
-            let mut blas = Blas::none::<N::Light>(mesh);
-            if mesh != INVALID {
-                words.expect(mesh < header.meshes, "mesh of a bottom level")?;
-                blas.nodes = read_range(words, header.nodes, "nodes of a bottom level")?;
-                blas.triangles = read_range(words, header.triangles, "triangles of a bottom level")?;
-                blas.parts = read_parts(words, header.blases)?;
-                blas.center = words.array()?.map(f32::from_bits);
-                let known = KnownFlux::from_word(words.one()?);
-                blas.known_flux = known.ok_or_else(|| words.wrong("flux of a mesh"))?;
-                let unsettled = words.one()?;
-                blas.is_staged_only = unsettled & STAGED_ONLY != 0;
-                blas.is_outgoing = unsettled & OUTGOING != 0;
-                blas.unsettled = unsettled & !(STAGED_ONLY | OUTGOING);
-                words.expect(blas.unsettled <= MOST, "changes of a mesh")?;
-                let misfits = words.one()?;
-                words.expect(misfits as usize <= MISFITS, "number of subtrees without another")?;
-                for _ in 0..misfits {
-                    let node = words.one()?;
-                    words.expect(blas.nodes.contains(&node), "subtree without another")?;
-                    blas.misfits.push(node);
-                }
-                if blas.is_outgoing {
-                    outgoing.push((self.blases.len() as u32, words.one()?));
-                }
-            }
-            self.blases.push(blas);
-        }
-        let live = |(_, blas): &(u32, &Blas)| !blas.nodes.is_empty();
-        let used = (0..).zip(&self.blases).filter(live);
-        let used = used.flat_map(|(i, blas)| [i..i + 1, blas.parts.clone()]);
-        self.blas_ranges = taken(header.blases, used.collect(), "bottom levels")?;
-        let used = self.blases.iter().map(|blas| blas.triangles.clone()).collect();
-        self.triangle_ranges = taken(header.triangles, used, "triangles")?;
-
+    fn read_meshes(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
         self.meshes = Vec::with_capacity(words.need(header.meshes)?);
         for index in 0..header.meshes {
-            let blas = words.one()?;
-            let live = blas != INVALID;
-            if live {
-                let own = self.blases.get(blas as usize).filter(|own| own.mesh == index);
-                words.expect(own.is_some(), "bottom level of a mesh")?;
-            }
-            self.meshes.push(Mesh {
-                live,
+            let start = words.one()?;
+            let mut mesh = Mesh {
+                live: start != INVALID,
                 generation: 0,
-                blas: if live { blas } else { 0 },
                 users: Vec::new(),
-            });
-        }
-        for (index, blas) in (0..).zip(&self.blases).filter(live) {
-            let mesh = &self.meshes[blas.mesh as usize];
-            if !mesh.live || (mesh.blas == index) == blas.is_outgoing {
-                return Err(BOTTOMS);
+                nodes: 0..0,
+                room: 0,
+                triangles: 0..0,
+                depth: 0,
+                extent: Extent::of::<N::Light>(&[]),
+                powers: Powers::default(),
+                version: 0,
+            };
+            if mesh.live {
+                let [end, room] = words.array()?;
+                let is_range = start < end && end <= room && room <= header.nodes;
+                words.expect(is_range, "nodes of a mesh")?;
+                (mesh.nodes, mesh.room) = (start..end, room);
+                mesh.triangles = read_range(words, header.triangles, "triangles of a mesh")?;
+                let reshaped = words.one()?;
+                words.expect(reshaped < 2, "whether a mesh changed")?;
+                if reshaped == 1 {
+                    self.reshaped.insert(index);
+                }
             }
+            self.meshes.push(mesh);
         }
-        for (index, next) in outgoing {
-            let old = &self.blases[index as usize];
-            let (mesh, count) = (old.mesh, old.triangles.len());
-            let blas = self.meshes[mesh as usize].blas;
-            let own = &mut self.blases[blas as usize];
-            if own.outgoing.is_some() || own.triangles.len() != count {
-                return Err(BOTTOMS);
-            }
-            own.outgoing = Some(Outgoing {
-                blas: index,
-                left: 0,
-                next,
-            });
-            self.handing.push(blas);
-        }
-        self.handing.sort_unstable();
-        let used = (0..).zip(&self.meshes).filter(|(_, mesh)| mesh.live);
-        self.mesh_ranges = taken(header.meshes, used.map(|(i, _)| i..i + 1).collect(), "meshes")?;
+        let live = || (0u32..).zip(&self.meshes).filter(|(_, mesh)| mesh.live);
+        let nodes = live().map(|(_, mesh)| mesh.nodes.start..mesh.room);
+        self.node_ranges = taken(header.nodes, nodes.collect(), "nodes")?;
+        let triangles = live().map(|(_, mesh)| mesh.triangles.clone());
+        self.triangle_ranges = taken(header.triangles, triangles.collect(), "triangles")?;
+        let meshes = live().map(|(index, _)| index..index + 1).collect();
+        self.mesh_ranges = taken(header.meshes, meshes, "meshes")?;
         Ok(())
     }
 
-    /// Returns those that follow trees that go.
-    fn read_instances(&mut self, words: &mut Words<'_>, header: &Header) -> Result<Vec<u32>, ReadError> {
+    fn read_instances(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
         self.placed = Vec::with_capacity(words.need(header.instances)?);
-        let (mut hung, mut behind) = (Vec::new(), Vec::new());
         for _ in 0..header.instances {
             let mesh = words.one()?;
-            let mut placed = InstanceState {
-                live: mesh != INVALID,
-                generation: 0,
-                mesh: 0,
-                user: 0,
-                transform: Transform::IDENTITY,
-                radiance: 0.0,
-                listed: 0,
-                lights: 0..0,
-                node: INVALID,
-                slot: 0,
-                hung: 0,
-                hung_radiance: 0.0,
-                flickers: false,
-                hung_center: [f32::NAN; 3],
-                mark: 0,
-                changed: 0,
-                parts: 0..0,
-                part_of: INVALID,
-            };
+            let mut placed = InstanceState::NONE;
+            placed.live = mesh != INVALID;
             if placed.live {
                 let own = self.meshes.get(mesh as usize).filter(|own| own.live);
                 let Some(own) = own else {
                     return Err(words.wrong("mesh of an instance"));
                 };
                 placed.mesh = mesh;
-                let user = words.one()?;
-                placed.user = user & !FOLLOWS;
-                if user & FOLLOWS != 0 {
-                    let outgoing = &mut self.blases[own.blas as usize].outgoing;
-                    let Some(outgoing) = outgoing else {
-                        return Err(words.wrong("tree that an instance follows"));
-                    };
-                    outgoing.left += 1;
-                    behind.push(self.placed.len() as u32);
-                }
+                placed.user = words.one()?;
                 placed.listed = words.one()?;
                 let first = words.one()?;
-                let triangles = self.blases[own.blas as usize].triangles.len() as u32;
+                let triangles = own.triangles.len() as u32;
                 let lights = first.checked_add(triangles).filter(|&end| end <= header.lights);
                 let Some(end) = lights else {
                     return Err(words.wrong("first light of an instance"));
                 };
                 placed.lights = first..end;
                 placed.radiance = f32::from_bits(words.one()?);
-                placed.set_hung_words(words.array()?);
                 let entries = words.array::<12>()?.map(f32::from_bits);
                 let column = |k: usize| [entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]];
                 placed.transform = Transform {
                     columns: [column(0), column(1), column(2)],
                     translation: column(3),
                 };
-                placed.parts = read_parts(words, header.instances)?;
-                words.need((placed.parts.len() as u32).saturating_mul(4))?;
-                for part in placed.parts.clone() {
-                    hung.push((part, words.array()?));
-                }
             }
             self.placed.push(placed);
         }
-        for (part, own) in hung {
-            self.placed[part as usize].set_hung_words(own);
-        }
         let used = (0..).zip(&self.placed).filter(|(_, placed)| placed.live);
-        let used = used.flat_map(|(i, placed)| [i..i + 1, placed.parts.clone()]);
-        self.placed_ranges = taken(header.instances, used.collect(), "instances")?;
-        let mut handing = self.handing.iter();
-        let left = |blas: &u32| self.blases[*blas as usize].outgoing.map_or(0, |own| own.left);
-        if handing.any(|blas| left(blas) == 0) {
-            return Err(BOTTOMS);
-        }
-        Ok(behind)
+        let used = used.map(|(index, _)| index..index + 1).collect();
+        self.placed_ranges = taken(header.instances, used, "instances")?;
+        Ok(())
     }
 
-    /// What was noted of the nodes of bottom levels that were refitted since they were built.
-    fn read_quality(&self, words: &mut Words<'_>, refitted: &[u32]) -> Result<Vec<Vec<f32>>, ReadError> {
-        let mut all = Vec::with_capacity(refitted.len());
-        for &blas in refitted {
-            let count = self.blases[blas as usize].nodes.len() as u32;
-            let mut built = Vec::with_capacity(words.need(count)?);
-            for _ in 0..count {
-                let share = f32::from_bits(words.one()?);
-                words.expect((0.0..=1.0).contains(&share), "quality of a node")?;
-                built.push(share);
+    fn read_top(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
+        let mut top = Top {
+            root: header.top_root,
+            free: read_indices(words, header.top_free, header.top_nodes, "free node")?,
+            ..Top::default()
+        };
+        words.need(header.opened)?;
+        let mut places = Vec::new();
+        for _ in 0..header.opened {
+            let [instance, first] = words.array()?;
+            words.expect(instance < header.instances, "instance that may be opened")?;
+            if first != INVALID {
+                let is_within = u64::from(first) + W as u64 <= u64::from(header.parts);
+                words.expect(is_within, "parts of an instance")?;
+                places.push(first..first + W as u32);
             }
-            all.push(built);
+            let own = Opened {
+                first,
+                parts: Vec::new(),
+            };
+            let known = top.opened.insert(instance, own);
+            words.expect(known.is_none(), "instance that may be opened")?;
         }
-        Ok(all)
-    }
-
-    fn read_nodes(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
-        let count = words.need(header.nodes)?;
-        self.nodes = alloc::vec![N::EMPTY; count];
-        self.parents = alloc::vec![INVALID; count];
-        for index in 0..count {
-            let kinds = words.one()?;
-            words.expect(
-                kinds.checked_shr(2 * W as u32).unwrap_or(0) == 0,
-                "kinds of a node",
-            )?;
-            for slot in 0..W {
-                let to = (kinds >> (2 * slot)) & 3;
-                if to != kind::EMPTY {
-                    let link = words.one()?;
-                    self.nodes[index].set_child(slot, to, link);
-                    if to == kind::INNER {
-                        let parent = self.parents.get_mut(link as usize);
-                        *parent.ok_or_else(|| words.wrong("link of a node"))? = index as u32;
-                    }
-                }
+        taken(header.parts, places, "parts")?;
+        top.parts = alloc::vec![INVALID; header.parts as usize];
+        top.nodes = Vec::with_capacity(words.need(header.top_nodes)?);
+        let mut free = alloc::vec![false; header.top_nodes as usize];
+        top.free.iter().for_each(|&node| free[node as usize] = true);
+        for is_free in free {
+            let used = words.one()?;
+            words.expect(used == u32::from(!is_free), "whether a node is in use")?;
+            let mut shape = Shape::default();
+            if is_free {
+                top.nodes.push(N::EMPTY);
+            } else {
+                shape.half = words.array()?.map(f32::from_bits);
+                shape.from = words.array()?.map(f32::from_bits);
+                shape.height = 1;
+                top.nodes.push(read_node(words)?);
             }
+            top.shapes.push(shape);
         }
+        top.above = alloc::vec![INVALID; top.nodes.len()];
+        self.top = top;
         Ok(())
     }
 
     fn read_triangles(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
         self.triangles = alloc::vec![N::Light::DARK; words.need(header.triangles)?];
-        for (blas, own) in (0..).zip(&self.blases).filter(|(_, own)| !own.is_outgoing) {
-            for light in &mut self.triangles[own.triangles.start as usize..own.triangles.end as usize] {
-                *light = light.of_mesh(blas);
+        for (index, mesh) in (0..).zip(&self.meshes) {
+            for light in &mut self.triangles[mesh.triangles.start as usize..mesh.triangles.end as usize] {
+                *light = light.of_mesh(index);
             }
         }
         for (index, light) in (0..).zip(&mut self.triangles) {
@@ -311,24 +189,14 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 error,
             })?;
         }
-        for &blas in &self.handing {
-            let own = &self.blases[blas as usize];
-            let Some(Outgoing { blas: old, .. }) = own.outgoing else {
-                continue;
-            };
-            let to = self.blases[old as usize].triangles.clone();
-            for (from, to) in own.triangles.clone().zip(to) {
-                self.triangles[to as usize] = self.triangles[from as usize].of_mesh(old);
-            }
-        }
-        for blas in &mut self.blases {
-            let range = blas.triangles.start as usize..blas.triangles.end as usize;
-            blas.extent = Extent::of(&self.triangles[range.clone()]);
-            blas.powers = Powers::of(&self.triangles[range]);
+        for mesh in &mut self.meshes {
+            let range = mesh.triangles.start as usize..mesh.triangles.end as usize;
+            mesh.extent = Extent::of(&self.triangles[range.clone()]);
+            mesh.powers = Powers::of(&self.triangles[range]);
         }
         for (instance, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
             let wrong = |reason| ReadError::Instance { instance, reason };
-            let checked = placed.transform.check(&self.blas_of(placed).extent);
+            let checked = placed.transform.check(&self.meshes[placed.mesh as usize].extent);
             checked.map_err(|error| wrong(EditReason::Transform(error)))?;
             factor(placed.radiance).map_err(wrong)?;
         }
@@ -336,13 +204,19 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 }
 
-/// A range of parts below `end`, or one word that there are none.
-fn read_parts(words: &mut Words<'_>, end: u32) -> Result<Range<u32>, ReadError> {
-    let from = words.one()?;
-    if from == INVALID {
-        return Ok(0..0);
+/// A node with kinds and links.
+fn read_node<N: Node<W>, const W: usize>(words: &mut Words<'_>) -> Result<N, ReadError> {
+    let kinds = words.one()?;
+    words.expect(
+        kinds.checked_shr(2 * W as u32).unwrap_or(0) == 0,
+        "kinds of a node",
+    )?;
+    let mut node = N::EMPTY;
+    for slot in 0..W {
+        let to = (kinds >> (2 * slot)) & 3;
+        if to != kind::EMPTY {
+            node.set_child(slot, to, words.one()?);
+        }
     }
-    let to = words.one()?;
-    words.expect(from < to && to <= end, "parts")?;
-    Ok(from..to)
+    Ok(node)
 }

@@ -3,8 +3,9 @@
 use alloc::vec;
 
 use super::*;
-use crate::trail::max_levels;
-use crate::{BuildParams, CompactNode, Edit, EmissiveTriangle, Transform};
+use crate::kit::triangle;
+use crate::trail::{leaf, max_levels, place_parts};
+use crate::{BuildParams, CompactNode, Edit, Transform};
 
 type Tree = Bvh<CompactNode<2>, crate::Eq4, 2>;
 
@@ -12,12 +13,7 @@ type Tree = Bvh<CompactNode<2>, crate::Eq4, 2>;
 fn scene() -> Tree {
     let lamp = |i: u16| {
         let x = f32::from(i);
-        EmissiveTriangle {
-            p: [[x, 0.0, 0.0], [x + 0.5, 0.0, 0.0], [x, 0.5, 0.25]],
-            radiance: [1.0; 3],
-            mesh: 0,
-            flags: 0,
-        }
+        triangle([[x, 0.0, 0.0], [x + 0.5, 0.0, 0.0], [x, 0.5, 0.25]])
     };
     let mut scene = Tree::new(BuildParams {
         opens: false,
@@ -55,8 +51,8 @@ fn finds(what: What, break_it: impl FnOnce(&mut Tree)) {
 fn a_sound_scene_is_counted() {
     let scene = scene();
     let stats = scene.validate().expect("sound");
-    let used = scene.blases.iter().map(|blas| blas.nodes.len());
-    let used = used.sum::<usize>() + scene.top.len();
+    let used = scene.meshes.iter().map(|mesh| mesh.nodes.len());
+    let used = used.sum::<usize>() + scene.top.nodes.len();
     assert_eq!(
         stats,
         Stats {
@@ -64,44 +60,67 @@ fn a_sound_scene_is_counted() {
             instances: 6,
             blases: 2,
             lights: 3 * 9,
-            depth: scene.top.depth() + scene.blases.iter().map(|blas| blas.depth).max().expect("two"),
+            depth: scene.depth(),
         }
     );
+}
+
+/// A node of the top level and its slot that hold the leaf of an instance.
+fn place_of(s: &Tree, instance: usize) -> (usize, usize) {
+    let (node, slot) = place_parts::<2>(s.top.places[instance]);
+    (node as usize, slot as usize)
 }
 
 #[test]
 fn broken_trees_are_found() {
     let root = scene().top.root;
     let at = root as usize;
-    assert_eq!(scene().nodes[at].kind(0), kind::INNER);
+    assert_eq!(scene().top.nodes[at].kind(0), kind::INNER);
     finds(What::Root, |s| s.roots[0].node += 1);
-    finds(What::Link, |s| s.nodes[at].relink(0, 9999));
-    let end = scene().nodes.len() as u32;
+    finds(What::Link, |s| s.top.nodes[at].relink(0, 9999));
+    let end = scene().top.nodes.len() as u32;
     let mut broken = scene();
-    broken.nodes[at].relink(1, end);
+    broken.top.nodes[at].relink(1, end);
     assert_eq!(broken.validate(), Err(bad(root, 1, What::Link, end - 1, end)));
     let end = scene().placed.len() as u32;
     let mut broken = scene();
-    let leaf = broken.placed[2].clone();
-    broken.nodes[leaf.node as usize].relink(leaf.slot as usize, end);
-    assert_eq!(
-        broken.validate(),
-        Err(bad(leaf.node, leaf.slot, What::Mesh, INVALID, end))
-    );
-    finds(What::Reached, |s| s.nodes[at].relink(0, root));
+    let (node, slot) = place_of(&broken, 2);
+    broken.top.nodes[node].relink(slot, end);
+    let found = bad(node as u32, slot as u32, What::Mesh, INVALID, end);
+    assert_eq!(broken.validate(), Err(found));
+    finds(What::Mesh, |s| {
+        // A part of an instance that is not opened.
+        let (node, slot) = place_of(s, 2);
+        s.top.nodes[node].relink(slot, leaf(2, 1));
+    });
+    finds(What::Reached, |s| s.top.nodes[at].relink(0, root));
     finds(What::Reached, |s| {
-        let blas = s.blases[0].nodes.start;
-        s.nodes[at].relink(0, blas);
+        let nodes = &mut s.nodes[s.meshes[0].nodes.start as usize..];
+        nodes[0].set_child(0, kind::INNER, 0);
     });
-    finds(What::Kind, |s| {
-        s.nodes[at].set_child(0, kind::LIGHT, 0);
+    finds(What::Kind, |s| s.top.nodes[at].set_child(0, kind::LIGHT, 0));
+    finds(What::Place, |s| {
+        let child = s.top.nodes[at].link(0) as usize;
+        s.top.above[child] += 1;
     });
-    finds(What::Link, |s| {
-        let child = s.nodes[at].link(0) as usize;
-        s.parents[child] += 1;
+    finds(What::Place, |s| s.top.above[at] = 0);
+    finds(What::Mesh, |s| s.top.nodes[at].set_child(0, kind::EMPTY, 0));
+    finds(What::Level, |s| s.top.shapes[at].height += 1);
+    finds(What::Mesh, |s| s.top.shapes[at].words[0] += 1.0);
+    finds(What::Listed, |s| s.top.free.push(0));
+    finds(What::Children, |s| {
+        // A node between the root and one of its nodes.
+        let below = s.top.nodes[at].link(0);
+        let between = s.top.nodes.len() as u32;
+        s.top.nodes.push(CompactNode::EMPTY);
+        s.top.above.push(INVALID);
+        s.top.shapes.push(Default::default());
+        s.top.attach(root, 0, kind::INNER, between);
+        s.top.attach(between, 0, kind::INNER, below);
+        [between, root]
+            .into_iter()
+            .for_each(|node| s.top.refit_node(node));
     });
-    finds(What::Link, |s| s.parents[at] = 0);
-    finds(What::Mesh, |s| s.nodes[at].set_child(0, kind::EMPTY, 0));
 }
 
 #[test]
@@ -113,6 +132,7 @@ fn trees_deeper_than_a_trail_are_found() {
         while scene.live.len() <= levels as usize {
             scene.add_instance(mesh, Transform::IDENTITY).expect("one more");
         }
+        scene.refit();
         let mut nodes = vec![CompactNode::EMPTY; levels as usize];
         for (link, node) in (1..).zip(&mut nodes) {
             node.set_child(1, kind::MESH, link);
@@ -122,9 +142,8 @@ fn trees_deeper_than_a_trail_are_found() {
                 node.set_child(0, kind::MESH, 0);
             }
         }
-        scene.replace_top(&nodes);
-        scene.changes.new.whole_top = true;
-        scene.refit();
+        scene.top.replace(nodes);
+        (0..levels).rev().for_each(|node| scene.top.refit_node(node));
         scene
     };
     let most = max_levels(2);
@@ -139,7 +158,7 @@ fn trees_deeper_than_a_trail_are_found() {
 #[test]
 fn broken_triangles_are_found() {
     let leaf = |s: &Tree| {
-        let nodes = s.blases[1].nodes.clone();
+        let nodes = s.meshes[1].nodes.clone();
         nodes
             .flat_map(|node| [(node as usize, 0), (node as usize, 1)])
             .find(|&(node, slot)| s.nodes[node].kind(slot) == kind::LIGHT)
@@ -147,8 +166,8 @@ fn broken_triangles_are_found() {
     };
     // Of the bottom level before it, and of the one after it.
     for triangle in [
-        scene().blases[1].triangles.start - 1,
-        scene().blases[1].triangles.end,
+        scene().meshes[1].triangles.start - 1,
+        scene().meshes[1].triangles.end,
     ] {
         finds(What::Owner, |s| {
             let (node, slot) = leaf(s);
@@ -158,7 +177,7 @@ fn broken_triangles_are_found() {
     finds(What::TrailLow, |s| {
         let (node, slot) = leaf(s);
         let link = s.nodes[node].link(slot);
-        let other = if link == s.blases[1].triangles.start {
+        let other = if link == s.meshes[1].triangles.start {
             link + 1
         } else {
             link - 1
@@ -185,46 +204,42 @@ fn broken_triangles_are_found() {
     });
     finds(What::Owner, |s| s.triangles[3].mesh += 1);
     // Moved without a refit.
-    finds(What::Word(1), |s| s.triangles[0].p[0][0] -= 8.0);
+    finds(What::Bounds("least x"), |s| s.triangles[0].p[0][0] -= 8.0);
 }
 
 #[test]
 fn broken_instances_are_found() {
-    finds(What::Mesh, |s| s.placed[2].live = false);
-    finds(What::Link, |s| s.placed[2].node += 1);
-    finds(What::Link, |s| s.placed[2].slot ^= 1);
-    finds(What::TrailLow, |s| s.instances[2].place ^= 1);
-    finds(What::TrailLow, |s| s.instances[2].place = INVALID);
-    // The link upward of a node, in the record of its number.
-    finds(What::TrailLow, |s| s.instances[1].above ^= 1);
-    finds(What::ListedLevel, |s| s.top.heights[0] += 1);
-    finds(What::Listed, |s| s.top.counts[0] += 1);
-    finds(What::Listed, |s| s.top.nodes.swap(0, 1));
-    finds(What::Children, |s| {
-        // A node between the root and one of its nodes.
-        let root = s.top.root;
-        let slot = (0..2)
-            .find(|&slot| s.nodes[root as usize].kind(slot) == kind::INNER)
-            .expect("a node");
-        let below = s.nodes[root as usize].link(slot);
-        let between = s.new_top_node();
-        s.hang(between, 0, kind::INNER, below);
-        s.hang(root, slot, kind::INNER, between);
-        s.update_path(between);
+    finds(What::Mesh, |s| {
+        // An instance in use, but in no leaf.
+        let (node, slot) = place_of(s, 2);
+        s.top.nodes[node].set_child(slot, kind::EMPTY, 0);
     });
-    finds(What::Blas, |s| s.instances[2].blas = 1);
-    finds(What::Root, |s| s.instances[2].root += 1);
-    finds(What::First, |s| s.instances[2].first += 1);
-    finds(What::First, |s| s.instances[2].first_triangle += 1);
+    finds(What::Place, |s| s.top.places[2] ^= 1);
+    finds(What::Place, |s| s.top.places[2] = INVALID);
+    finds(What::Mesh, |s| {
+        s.top.leaves[2].as_mut().expect("a leaf")[0] += 1.0
+    });
+    finds(What::Mesh, |s| {
+        s.placed[2].live = false;
+        s.instances[2] = Instance {
+            listed: s.instances[2].listed,
+            ..NO_INSTANCE
+        };
+    });
+    // The words of a record, in their order.
+    finds(What::Word(0), |s| s.instances[2].root += 1);
+    finds(What::Word(1), |s| s.instances[2].blas = 1);
+    finds(What::Word(2), |s| s.instances[2].first += 1);
+    finds(What::Word(3), |s| s.instances[2].first_triangle += 1);
+    finds(What::Word(4), |s| s.instances[2].count += 1);
+    finds(What::Word(6), |s| s.placed[2].transform.columns[0][0] = 3.0);
+    finds(What::Word(15), |s| s.instances[2].translation[0] = 0.5);
     finds(What::First, |s| s.placed[2].lights.end += 1);
     // The lights of another instance of the mesh.
     finds(What::First, |s| {
         s.placed[2].lights = s.placed[0].lights.clone();
         s.instances[2].first = s.instances[0].first;
     });
-    finds(What::Word(17), |s| s.instances[2].translation[0] = 0.5);
-    finds(What::Word(8), |s| s.placed[2].transform.columns[0][0] = 3.0);
-    finds(What::Word(6), |s| s.instances[2].count += 1);
     // The list of instances in use: a wrong entry, and a record that is not at its place.
     finds(What::Listed, |s| s.instances[2].listed ^= 1);
     finds(What::Listed, |s| s.live.swap(2, 3));
@@ -235,10 +250,10 @@ fn broken_bounds_are_found() {
     let root = scene().top.root as usize;
     // The words of flux, two slots each.
     finds(What::Bounds("flux"), |s| {
-        bytemuck::cast_slice_mut::<_, u32>(&mut s.nodes[root..=root])[10] ^= 1 << 20;
+        bytemuck::cast_slice_mut::<_, u32>(&mut s.top.nodes[root..=root])[10] ^= 1 << 20;
     });
     finds(What::Bounds("least x"), |s| {
-        let node = s.blases[0].nodes.start as usize;
+        let node = s.meshes[0].nodes.start as usize;
         let mut children = [s.nodes[node].summary(0), s.nodes[node].summary(1)];
         children[0].min -= 1.0;
         s.nodes[node].set_summaries(&children);

@@ -10,7 +10,8 @@ use formula::{FLOOR, HORIZON, Lights, SLACK};
 
 use super::{Random, dot, minus, narrow, normalize, times, wide};
 use crate::importance::{Eq4, ImportanceModel};
-use crate::node::{BoundsNode, CompactNode, FullNode};
+use crate::kit::plain::PlainNode;
+use crate::node::{BoundsNode, CompactNode};
 use crate::point::ShadingPoint;
 use crate::vector::cross;
 use crate::{LightBounds, exact};
@@ -20,7 +21,7 @@ const ROUGH: f64 = 2.0 * (3e-3 + 7e-4);
 
 /// A point light straight above the point, in the direction that is up in a volume, that shines everywhere: its factor is
 /// 1 + 2^-8.
-pub fn known(point: &ShadingPoint, distance: f32) -> LightBounds {
+fn known(point: &ShadingPoint, distance: f32) -> LightBounds {
     let n = point.normal();
     let up = if n == Vec3::ZERO { Vec3::Z } else { n };
     let at = point.position() + up * distance;
@@ -45,7 +46,7 @@ fn weight<N: BoundsNode<2>>(bounds: &LightBounds, point: &ShadingPoint, distance
 }
 
 /// A set of lights, and a point near it or far off, above the horizon, below it, or in a volume.
-pub fn sight(random: &mut Random) -> (LightBounds, ShadingPoint) {
+fn sight(random: &mut Random) -> (LightBounds, ShadingPoint) {
     let size = random.power(-20, 20);
     let distance = size * random.power(-3, 6);
     let center = random.vector() * size;
@@ -81,7 +82,7 @@ pub fn sight(random: &mut Random) -> (LightBounds, ShadingPoint) {
 const EMITTED: f64 = 6e-3;
 
 #[test]
-fn weights_of_full_nodes_are_those_of_eq_4() {
+fn weights_are_those_of_eq_4() {
     let random = &mut Random(1);
     let (mut cosines, mut below, mut behind, mut cut) = (0, 0, 0, 0);
     for _ in 0..40_000 {
@@ -91,7 +92,7 @@ fn weights_of_full_nodes_are_those_of_eq_4() {
         if lights.at_a_step(n, EMITTED) {
             continue;
         }
-        let found = weight::<FullNode<2>>(&bounds, &point, lights.d() as f32);
+        let found = weight::<PlainNode<2>>(&bounds, &point, lights.d() as f32);
         let [least, most] = [-EMITTED, EMITTED].map(|e| lights.factor(n, e) * lights.over_distance());
         assert!(
             (least * (1.0 - ROUGH)..=most * (1.0 + ROUGH)).contains(&found),
@@ -194,7 +195,7 @@ fn slack_and_floor_are_those_stated() {
         }
         let reach = (emitted + SLACK).max(0.0);
         let expected = (incident * reach).max(FLOOR) * f64::from(bounds.phi) / f64::from(distance).powi(2);
-        let found = weight::<FullNode<2>>(&bounds, &point, distance);
+        let found = weight::<PlainNode<2>>(&bounds, &point, distance);
         assert!(
             (found / expected - 1.0).abs() < error,
             "{found}, expected {expected}: cosines {received} {emitted}"

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::{Random, dot, minus, wide};
 use crate::importance::{Flux, FluxOverDistance, ImportanceModel};
-use crate::node::{CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightNode, MomentNode};
+use crate::node::{CompactNode, LightNode, MomentNode};
 use crate::point::ShadingPoint;
 use crate::{LightBounds, LightMoments, Summary, exact};
 
@@ -70,7 +70,6 @@ fn flux_over_distance_of_bounds() {
             let sides = minus(wide(b.max), wide(b.min));
             (b.phi, (b.min + b.max) * 0.5, dot(sides, sides) / 12.0)
         };
-        check::<FullNode<4>>(random, &sets, size, of);
         check::<CompactNode<4>>(random, &sets, size, of);
     }
 }
@@ -93,9 +92,7 @@ fn flux_over_distance_of_moments() {
             let (across, along) = (f64::from(s.across), f64::from(s.along));
             (s.phi, s.c, 2.0 * across.powi(2) + along.powi(2))
         };
-        check::<FullMomentNode<4>>(random, &sets, size, of);
         check::<MomentNode<4>>(random, &sets, size, of);
-        check::<LeanMomentNode<4>>(random, &sets, size, of);
     }
 }
 
@@ -122,13 +119,11 @@ fn flux_alone_is_flux() {
             phi,
             ..LightBounds::EMPTY
         });
-        check::<FullNode<4>>(random, &bounds);
         check::<CompactNode<4>>(random, &bounds);
         let moments = phi.map(|phi| LightMoments {
             phi,
             ..LightMoments::EMPTY
         });
-        check::<FullMomentNode<4>>(random, &moments);
         check::<MomentNode<4>>(random, &moments);
     }
 }

@@ -4,13 +4,12 @@ extern crate std;
 
 use std::vec::Vec;
 
-use super::{Random, cross, dot, minus};
+use super::Random;
 #[cfg(feature = "std")]
 use crate::importance::NativeMath;
-use crate::importance::{
-    Cycles, Eq4, Falcor, Flux, FluxOverDistance, ImportanceModel, Moments, Pbrt, SphericalGaussian,
-};
-use crate::node::{CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightNode, MomentNode};
+use crate::importance::{Eq4, Flux, FluxOverDistance, ImportanceModel, Moments};
+use crate::kit::scenes::sent;
+use crate::node::{CompactNode, LightNode, MomentNode};
 use crate::{BuildParams, Bvh, EmissiveTriangle, INVALID, Lights, ShadingPoint, Summary};
 
 /// 40 triangles in four meshes, two-sided and dark ones among them, as far as 100 times their size from each other or all at
@@ -39,26 +38,6 @@ fn point(random: &mut Random, lights: &Lights) -> ShadingPoint {
         random.direction().to_array()
     };
     ShadingPoint { p, n }
-}
-
-/// What a triangle sends to a point from its centroid, unshadowed.
-fn sent(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
-    let p = triangle.p.map(|v| v.map(f64::from));
-    let center = [0, 1, 2].map(|k| (p[0][k] + p[1][k] + p[2][k]) / 3.0);
-    let across = cross(minus(p[1], p[0]), minus(p[2], p[0]));
-    let v = minus(center, point.p.map(f64::from));
-    let received = if point.n == [0.0; 3] {
-        dot(v, v).sqrt()
-    } else {
-        dot(point.n.map(f64::from), v).max(0.0)
-    };
-    let along = -dot(across, v);
-    let emitted = if triangle.is_two_sided() {
-        along.abs()
-    } else {
-        along.max(0.0)
-    };
-    f64::from(triangle.radiance[0]) * received * emitted / dot(v, v).powi(2)
 }
 
 /// Numbers at equal distances, of which each light has as many as its pmf says, but for two.
@@ -125,21 +104,10 @@ fn each_importance_is_unbiased() {
     check::<MomentNode<8>, Flux, 8>(3);
     check::<MomentNode<8>, FluxOverDistance, 8>(4);
     check::<MomentNode<8>, Moments, 8>(5);
-    check::<CompactNode<4>, Pbrt, 4>(6);
-    check::<FullNode<2>, Pbrt, 2>(7);
-    check::<CompactNode<4>, Falcor, 4>(8);
-    check::<FullNode<8>, Falcor, 8>(9);
-    check::<CompactNode<4>, Cycles, 4>(10);
-    check::<FullNode<2>, Cycles, 2>(11);
-    check::<MomentNode<8>, SphericalGaussian, 8>(12);
-    check::<FullMomentNode<4>, SphericalGaussian, 4>(13);
-    check::<LeanMomentNode<16>, SphericalGaussian, 16>(14);
 }
 
 #[test]
 #[cfg(feature = "std")]
 fn native_operations_are_unbiased() {
     check::<MomentNode<8>, Moments<NativeMath>, 8>(15);
-    check::<FullMomentNode<4>, Moments<NativeMath>, 4>(16);
-    check::<LeanMomentNode<16>, Moments<NativeMath>, 16>(17);
 }

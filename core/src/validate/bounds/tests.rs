@@ -5,8 +5,9 @@ extern crate std;
 use glam::Vec3;
 
 use super::*;
+use crate::LightBounds;
 use crate::cone::Cone;
-use crate::{FullNode, LightBounds};
+use crate::kit::plain::PlainNode;
 
 const OUTER: LightBounds = LightBounds {
     min: Vec3::new(-1.0, -2.0, -3.0),
@@ -17,8 +18,8 @@ const OUTER: LightBounds = LightBounds {
     phi: 8.0,
 };
 
-fn node(bounds: &LightBounds) -> FullNode<2> {
-    let mut node = FullNode::EMPTY;
+fn node(bounds: &LightBounds) -> PlainNode<2> {
+    let mut node = PlainNode::EMPTY;
     node.set_child(1, kind::LIGHT, 3);
     node.set_summaries(&[LightBounds::EMPTY, *bounds]);
     node

@@ -1,10 +1,11 @@
-//! One level and two, edits, rebuilt parts, opened meshes.
+//! One level and two, edits, trees built in the background, opened meshes.
 
 use super::*;
-use lightbvh::bvh::{RebuildParams, RebuilderParams, StaticMeshBvh, Swap};
+use lightbvh::bvh::{RebuilderParams, StaticMeshBvh, Swap};
 use lightbvh::exact::hash;
 use lightbvh::light::LinkedTriangle;
 use lightbvh::node::Lit;
+use lightbvh::tree::OPENED;
 use lightbvh::{BuildParams, Bvh, Edit, Lights, MomentNode, Moments, Rebuilder, Transform};
 
 fn one_level<L: Shines>(light: fn(&mut Random) -> L) {
@@ -93,10 +94,7 @@ fn two_levels<L: Shines>(light: fn(&mut Random) -> L) {
                 check_all(&bvh, 3, random, &mut seen);
             }
         }
-        // All built anew.
-        let rebuilt = bvh.rebuild(&RebuildParams::eager()).run();
-        bvh.install(rebuilt).expect("of this one");
-        bvh.refit();
+        bvh.rebuild();
         check_all(&bvh, 6, random, &mut seen);
         // Through a file, to the words.
         let words = bvh.to_words();
@@ -119,9 +117,8 @@ fn two_levels_of_any_lights() {
     two_levels(any);
 }
 
-/// So many instances that the top level is rebuilt part by part, beside the frames, and keeps subtrees.
 #[test]
-fn parts_of_large_top_levels() {
+fn top_levels_that_are_edited_and_swapped() {
     let random = &mut Random(31);
     let mut bvh = Tree::<LinkedTriangle>::default();
     let meshes: Vec<_> = (0..40)
@@ -143,9 +140,9 @@ fn parts_of_large_top_levels() {
         swap: Swap::Deterministic,
         ..RebuilderParams::default()
     });
-    let mut seen = Seen::default();
+    let (mut seen, mut swapped) = (Seen::default(), 0);
     for frame in 0..60 {
-        rebuilder.begin_frame(&mut bvh).expect("no panic");
+        swapped += u32::from(rebuilder.begin_frame(&mut bvh).expect("no panic").swapped);
         for _ in 0..40 {
             let id = ids[random.below(3000) as usize];
             bvh.set_transform(id, wide_place(random)).expect("in the domain");
@@ -160,7 +157,7 @@ fn parts_of_large_top_levels() {
             check_all(&bvh, 2, random, &mut seen);
         }
     }
-    assert!(seen.partial > 3, "{seen:?}");
+    assert!(seen.partial > 3 && swapped > 10, "{seen:?}, {swapped}");
 }
 
 /// A large mesh among small ones is opened: parts of it are leaves of the top level.
@@ -185,11 +182,8 @@ fn opened_meshes() {
         bvh.add_instance(small, place(random)).expect("in the domain");
     }
     bvh.refit();
-    let rebuilt = bvh.rebuild(&RebuildParams::eager()).run();
-    bvh.install(rebuilt).expect("of this one");
-    bvh.refit();
-    let is_opened = bvh.instances()[large_one.index() as usize].part != u32::MAX;
-    assert!(is_opened, "nothing is tested");
+    let place = bvh.tree().links.places[large_one.index() as usize];
+    assert!(place != u32::MAX && place & OPENED != 0, "nothing is tested");
     let mut seen = Seen::default();
     check_all(&bvh, 10, random, &mut seen);
     for own in &mut large {

@@ -6,7 +6,7 @@ use lightbvh::exact::{hash, pow2};
 use lightbvh::importance::{Linked, LinkedPoint, RaySegment, Subtended};
 use lightbvh::light::LinkedTriangle;
 use lightbvh::node::{LinkedMomentNode, Lit};
-use lightbvh::{BuildParams, Bvh, Defensive, Lights, MomentNode, Moments, Transform};
+use lightbvh::{BuildParams, Bvh, Defensive, Lights, MomentNode, Moments};
 
 /// Steps even in `u` have that much of the density between them, and the density is nearly that of the angle.
 #[test]
@@ -156,20 +156,7 @@ fn places_of_degenerate_segments_are_sound() {
 fn estimates_converge() {
     const SAMPLES: u32 = 60_000;
     let random = &mut Random(8);
-    let mut bvh: Bvh<MomentNode<8>, Defensive<Subtended<Moments>, 6>, 8> = Bvh::default();
-    let own = room(random);
-    let mesh = bvh
-        .add_mesh(own.triangles()[..40].to_vec())
-        .expect("in the domain");
-    for k in 0..3 {
-        let s = if k % 2 == 0 { 1.0 } else { -1.0 };
-        let map = Transform {
-            columns: [[0.0, 1.5, 0.0], [-0.7, 0.0, 0.2], [0.0, 0.1, s]],
-            translation: random.vector(6.0),
-        };
-        bvh.add_instance(mesh, map).expect("in the domain");
-    }
-    bvh.refit();
+    let bvh: Bvh<MomentNode<8>, Defensive<Subtended<Moments>, 6>, 8> = rooms(random, 40, 3);
     let world = bvh.world_lights();
     for long in [0.7, 5.0, 25.0] {
         let segment = random.segment(5.0, long).checked().expect("in the domain");

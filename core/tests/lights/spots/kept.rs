@@ -1,7 +1,7 @@
 //! What edits, rebuilds and files keep, and what is as it was without beams or with masks.
 
 use super::*;
-use lightbvh::bvh::{RebuildParams, RebuilderParams, Swap};
+use lightbvh::bvh::{RebuilderParams, Swap};
 use lightbvh::exact::hash;
 use lightbvh::importance::{Leveled, Linked, LinkedPoint};
 use lightbvh::light::{AnyLight, LinkedAny};
@@ -60,7 +60,7 @@ fn edits_and_rebuilds_keep_beams_and_probabilities() {
         bvh.refit();
         let mut rebuilder = Rebuilder::new(RebuilderParams {
             swap: Swap::Deterministic,
-            rebuild: RebuildParams::eager(),
+            idle: 0.0,
             ..RebuilderParams::default()
         });
         for frame in 0..40 {

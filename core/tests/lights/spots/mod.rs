@@ -11,7 +11,8 @@ use glam::Vec3;
 use lightbvh::light::{AnyLight, DiscLight, Light, PointLight, SphereLight, SpotLight};
 use lightbvh::node::{Lit, MomentNode, Node, SpotMomentNode, kind};
 use lightbvh::refit::world_light;
-use lightbvh::{Bvh, EmissiveTriangle, ImportanceModel, Instance, Moments, ShadingPoint, Transform};
+use lightbvh::trail::leaf_parts;
+use lightbvh::{Bvh, EmissiveTriangle, ImportanceModel, Moments, ShadingPoint, Transform};
 
 type Tree<L> = Bvh<Lit<SpotMomentNode<8>, L>, Moments, 8>;
 
@@ -145,38 +146,38 @@ fn told<L: Light, I: ImportanceModel<Lit<SpotMomentNode<8>, L>, 8>>(
 ) -> Vec<Told> {
     let tree = bvh.tree();
     let mut found = Vec::new();
-    // Node, leaf of the top level, factor so far.
+    // Node, instance above it, factor so far.
     let mut open = vec![(tree.root, u32::MAX, 1.0_f32)];
-    while let Some((index, leaf, least)) = open.pop() {
-        let node = &tree.nodes[index as usize];
-        let (local, slack) = match tree.instances.get(leaf as usize) {
-            Some(instance) => (instance.to_local(point), instance.slack()),
-            None => (*point, 0.0),
+    while let Some((index, above, least)) = open.pop() {
+        let (node, local, slack) = match tree.instances.get(above as usize) {
+            Some(own) => (&tree.nodes[index as usize], own.to_local(point), own.slack()),
+            None => (&tree.top[index as usize], *point, 0.0),
         };
         let with = I::weights_in(node, &local, slack);
         let without = I::weights_in(node, &local, -1.0);
         for slot in 0..8 {
-            let to = node.kind(slot);
+            let (to, link) = (node.kind(slot), node.link(slot));
             if to == kind::EMPTY || without[slot] == 0.0 {
                 continue;
             }
             assert!(with[slot] > 0.0);
             let least = least.min(with[slot] / without[slot]);
             match to {
-                kind::INNER => open.push((node.link(slot), leaf, least)),
+                kind::INNER => open.push((link, above, least)),
                 kind::MESH => {
-                    let instance = &tree.instances[node.link(slot) as usize];
-                    open.push((instance.root, node.link(slot), least));
+                    let (instance, part) = leaf_parts(link);
+                    let root = tree.instances[instance as usize].root;
+                    let below = match part {
+                        0 => root,
+                        _ => tree.nodes[root as usize].link(part as usize - 1),
+                    };
+                    open.push((below, instance, least));
                 }
                 _ => {
-                    let own = owner(tree.instances, leaf);
-                    let light = match tree.instances.get(own as usize) {
-                        Some(instance) => instance.light_of(node.link(slot)),
-                        None => node.link(slot),
-                    };
+                    let own = tree.instances.get(above as usize);
                     found.push(Told {
-                        light,
-                        instance: own,
+                        light: own.map_or(link, |own| own.light_of(link)),
+                        instance: above,
                         least,
                     });
                 }
@@ -184,14 +185,6 @@ fn told<L: Light, I: ImportanceModel<Lit<SpotMomentNode<8>, L>, 8>>(
         }
     }
     found
-}
-
-/// The instance that a leaf of the top level is, or is a part of.
-fn owner(instances: &[Instance], leaf: u32) -> u32 {
-    match instances.get(leaf as usize) {
-        Some(instance) if instance.is_part() => instance.part,
-        _ => leaf,
-    }
 }
 
 /// What the light sends to `p`, as the sum of its channels.

@@ -7,7 +7,7 @@ use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::emitters::Emitters;
 use lightbvh_kernels::shading::pick::PickLight;
 use lightbvh_kernels::shading::pixel::Scene;
-use lightbvh_kernels::shading::restir::combine::{Biased, Combine, Unbiased};
+use lightbvh_kernels::shading::restir::combine::Combine;
 use lightbvh_kernels::shading::restir::initial::{first_reservoir, first_surface};
 use lightbvh_kernels::shading::restir::shade::shade;
 use lightbvh_kernels::shading::restir::spatial::spatial;
@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use crate::scene::SceneLight;
 
-use super::{Combination, History, Last, LightRemap, Restir, RestirFrame, params};
+use super::{History, Last, LightRemap, Restir, RestirFrame, params};
 
 /// What a frame leaves on the CPU.
 pub(super) struct Left<L> {
@@ -44,6 +44,7 @@ pub(in crate::backend) fn resample<L: SceneLight, P: PickLight + Sync>(
     picker: &P,
 ) -> Vec<[f32; 3]> {
     let options = restir.options;
+    let is_unbiased = options.combination.is_unbiased();
     let mut params = params(&options, frame);
     let (gbuffer, mut reservoirs) = initial(view, &frame.scene.camera, &params, picker);
     if let Some(last) = restir.history(frame)
@@ -56,19 +57,15 @@ pub(in crate::backend) fn resample<L: SceneLight, P: PickLight + Sync>(
             params: &params,
             gbuffer: &gbuffer,
         };
-        reservoirs = match options.combination {
-            Combination::Unbiased => {
-                let combine = Unbiased {
-                    surfaces: last.scene.surfaces(),
-                    emitters: Emitters {
-                        triangles: &left.triangles,
-                        instances: &left.instances,
-                    },
-                };
-                reuse.over_time(&combine, last, left, remap, &reservoirs)
-            }
-            Combination::Biased => reuse.over_time(&Biased, last, left, remap, &reservoirs),
+        let combine = Combine {
+            is_unbiased,
+            surfaces: last.scene.surfaces(),
+            emitters: Emitters {
+                triangles: &left.triangles,
+                instances: &left.instances,
+            },
         };
+        reservoirs = reuse.over_time(&combine, last, left, remap, &reservoirs);
     }
     for spatial_pass in 0..options.spatial_passes {
         params.spatial_pass = spatial_pass;
@@ -77,16 +74,12 @@ pub(in crate::backend) fn resample<L: SceneLight, P: PickLight + Sync>(
             params: &params,
             gbuffer: &gbuffer,
         };
-        reservoirs = match options.combination {
-            Combination::Unbiased => {
-                let combine = Unbiased {
-                    surfaces: view.surfaces,
-                    emitters: view.emitters,
-                };
-                reuse.over_pixels(&combine, &reservoirs)
-            }
-            Combination::Biased => reuse.over_pixels(&Biased, &reservoirs),
+        let combine = Combine {
+            is_unbiased,
+            surfaces: view.surfaces,
+            emitters: view.emitters,
         };
+        reservoirs = reuse.over_pixels(&combine, &reservoirs);
     }
     let (shaded, kept): (Vec<_>, Vec<_>) = gbuffer
         .par_iter()
@@ -131,9 +124,9 @@ struct Reuse<'a, 's, L: SceneLight> {
 
 impl<L: SceneLight> Reuse<'_, '_, L> {
     /// Pass 2.
-    fn over_time<C: Combine + Sync>(
+    fn over_time(
         &self,
-        combine: &C,
+        combine: &Combine<'_, L>,
         last: &Last<L>,
         left: &Left<L>,
         remap: &LightRemap,
@@ -164,11 +157,7 @@ impl<L: SceneLight> Reuse<'_, '_, L> {
     }
 
     /// Pass 3.
-    fn over_pixels<C: Combine + Sync>(
-        &self,
-        combine: &C,
-        reservoirs: &[PixelReservoir],
-    ) -> Vec<PixelReservoir> {
+    fn over_pixels(&self, combine: &Combine<'_, L>, reservoirs: &[PixelReservoir]) -> Vec<PixelReservoir> {
         (0..self.gbuffer.len() as u32)
             .into_par_iter()
             .map(|pixel| {

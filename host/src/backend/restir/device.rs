@@ -12,11 +12,11 @@ use lightbvh_kernels::shading::restir::shade::Shaded;
 use lightbvh_kernels::shading::restir::surface::Surface;
 use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
 
-use super::{Combination, History, Restir, RestirFrame, params};
-use crate::backend::device_arrays::{DeviceScene, HeldScene, device_time, kernel_name};
+use super::{History, Restir, RestirFrame, params};
+use crate::backend::device_arrays::{DeviceScene, HeldScene, choosing, device_time};
 use crate::backend::{BackendError, DeviceBackend, Timed};
 use crate::scene::SceneLight;
-use crate::vulkan::{Binding, Buffer, Device, Pass, Submission};
+use crate::vulkan::{Binding, Buffer, Device, Kernel, Pass, Submission};
 
 /// Candidates or neighbours per submission: keeps one well below the seconds after which a driver gives up on it.
 const WORK_PER_PASS: usize = 1 << 21;
@@ -75,19 +75,14 @@ fn render<C: Choice<W, Light: SceneLight>, const W: usize>(
         submitted: Vec::new(),
     };
 
-    let inputs = scene.with_lights(options.source, &backend.tree);
-    let surroundings = scene.surroundings();
-    let bindings = [
-        inputs.as_slice(),
-        &[gbuffer.bind(), reservoirs.bind()],
-        &surroundings,
-    ]
-    .concat();
-    let kernel = kernel_name::<C, W>("restir_initial", options.source);
+    let inputs = scene.with_lights(&backend.tree);
+    let bindings = [inputs.as_slice(), &[gbuffer.bind(), reservoirs.bind()]].concat();
+    let kernel = device.kernel_with(&format!("restir_initial{}", C::SUFFIX), choosing(options.source))?;
     passes.run(backend, &kernel, &bindings, &params, tree, options.candidates)?;
 
     let none = TreeWords::default();
-    let of_lights = |kernel: &str| format!("{kernel}{}", C::Light::SUFFIX);
+    let is_unbiased = u32::from(options.combination.is_unbiased());
+    let reusing = |pass: &str| device.kernel_with(&format!("{pass}{}", C::Light::SUFFIX), is_unbiased);
     if let Some(last) = restir.history(frame)
         && let super::Left::Device(left) = &last.left
         && left.gbuffer.is_on(device)
@@ -111,35 +106,27 @@ fn render<C: Choice<W, Light: SceneLight>, const W: usize>(
             gbuffer.bind(),
             reservoirs.bind(),
         ];
-        let (kernel, bindings) = match options.combination {
-            Combination::Unbiased => (
-                "restir_temporal_unbiased",
-                [then.as_slice(), common.as_slice(), &left.scene.skin()].concat(),
-            ),
-            Combination::Biased => ("restir_temporal_biased", common.to_vec()),
-        };
-        passes.run(backend, &of_lights(kernel), &bindings, &params, none, 4)?;
+        let bindings = [then.as_slice(), common.as_slice(), &left.scene.skin()].concat();
+        let kernel = reusing("restir_temporal")?;
+        passes.run(backend, &kernel, &bindings, &params, none, 4)?;
     }
     for spatial_pass in 0..options.spatial_passes {
         params.spatial_pass = spatial_pass;
         let merged = device.buffer::<PixelReservoir>(pixels, 0)?;
         passes.pass.clear(&merged);
         let pixel_buffers = [gbuffer.bind(), reservoirs.bind(), merged.bind()];
-        let all = [scene.view().as_slice(), &pixel_buffers].concat();
-        let (kernel, bindings) = match options.combination {
-            Combination::Unbiased => ("restir_spatial_unbiased", [all, scene.skin()].concat()),
-            // No rays, no buffers to trace them through.
-            Combination::Biased => ("restir_spatial_biased", all[2..].to_vec()),
-        };
+        let bindings = [scene.view().as_slice(), &pixel_buffers, &scene.skin()].concat();
         let work = options.neighbors.saturating_add(1).saturating_mul(2);
-        passes.run(backend, &of_lights(kernel), &bindings, &params, none, work)?;
+        let kernel = reusing("restir_spatial")?;
+        passes.run(backend, &kernel, &bindings, &params, none, work)?;
         reservoirs = merged;
     }
     let output = device.buffer::<Shaded>(pixels, 0)?;
     passes.pass.clear(&output);
     let pixel_buffers = [gbuffer.bind(), reservoirs.bind(), output.bind()];
-    let bindings = [scene.view().as_slice(), &pixel_buffers, &surroundings].concat();
-    passes.run(backend, &of_lights("restir_shade"), &bindings, &params, none, 2)?;
+    let bindings = [scene.view().as_slice(), &pixel_buffers, &scene.surroundings()].concat();
+    let kernel = device.kernel(&format!("restir_shade{}", C::Light::SUFFIX))?;
+    passes.run(backend, &kernel, &bindings, &params, none, 2)?;
     let submitted = passes.end(backend)?;
     let shaded = output.read()?;
     let mut time = Duration::ZERO;
@@ -184,13 +171,12 @@ impl<'a> Passes<'a> {
     fn run<C: Choice<W>, const W: usize>(
         &mut self,
         backend: &mut DeviceBackend<'_, C, W>,
-        kernel: &str,
+        kernel: &Arc<Kernel>,
         bindings: &[Binding],
         params: &RestirParams,
         tree: TreeWords,
         work: u32,
     ) -> Result<(), BackendError> {
-        let kernel = backend.device.kernel(kernel)?;
         let pixels = params.width as usize * params.height as usize;
         let per_pixel = work.max(1) as usize;
         let per_pass = (WORK_PER_PASS / per_pixel).max(64);
@@ -205,7 +191,7 @@ impl<'a> Passes<'a> {
             if self.work > 0 && self.work + more > WORK_PER_PASS {
                 self.submit(backend)?;
             }
-            self.pass.dispatch(&kernel, bindings, bytes_of(&push), push.count);
+            self.pass.dispatch(kernel, bindings, bytes_of(&push), push.count);
             self.work += more;
         }
         Ok(())

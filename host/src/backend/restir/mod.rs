@@ -46,8 +46,7 @@ impl Combination {
 /// What ReSTIR does in each frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RestirOptions {
-    /// What initial candidates are chosen by: power, as in the paper on ReSTIR, or a light BVH. There is no kernel for
-    /// [`Sampler::Uniform`], so devices refuse it.
+    /// What initial candidates are chosen by: power, as in the paper on ReSTIR, or a light BVH.
     pub source: Sampler,
     /// How reservoirs are combined.
     pub combination: Combination,

@@ -1,249 +1,201 @@
-//! `lightbvh bench --dynamic`: what a frame of moving lights costs, and that it follows what changed.
+//! `lightbvh bench --dynamic`: thread time of frames of moving lights, and the variance of their trees relative to trees built
+//! over the same lights.
 
-pub(super) mod lone;
-mod report;
+mod scenes;
 mod world;
 
-use std::hint::black_box;
-use std::time::Duration;
+use std::f32::consts::TAU;
+use std::time::{Duration, Instant};
 
-use lightbvh::bvh::RebuildParams;
-use lightbvh::{BuildParams, Edit, Instance, LightBvh};
-use lightbvh_kernels::bvh::Node;
+use lightbvh::{EmissiveTriangle, Rebuilder, ShadingPoint};
+use lightbvh_gpu::Mirror;
+use rayon::prelude::*;
+use serde::Serialize;
 
-pub(super) use self::report::print;
-use self::report::{Report, Row, Spread};
-use self::world::{Change, World};
-use crate::backend::{DeviceBackend, Follow};
-use crate::cli::devices::Opened;
-use crate::cli::table::news;
-use crate::cli::times::timed;
+use self::scenes::Scene;
+use self::world::World;
+use crate::backend::Bvh;
+use crate::cli::measure::times::Spread;
+use crate::cli::measure::{irradiance::irradiance, variance};
+use crate::cli::table::{self, news};
 use crate::error::HostError;
+use crate::stability::random::Random;
 
-/// Frames that count, and those before them that do not.
-const FRAMES: usize = 20;
-const WARM: usize = 2;
-/// Frames on a device that count; a software device takes seconds for each.
-const DEVICE_FRAMES: usize = 3;
-/// Refits of the single-level tree.
-const SINGLE_LEVEL: usize = 5;
+/// Frames begin at 60 Hz, so that the worker thread has as much time as with a renderer.
+const PACE: Duration = Duration::from_micros(16_667);
 
-/// What the refits are compared with.
-struct Scale {
-    copy: f64,
-    single_level: f64,
+/// Results of a scene.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Row {
+    scene: &'static str,
+    instances: usize,
+    /// Thread time of begin, apply, refit and end, µs.
+    frame_us: Spread,
+    /// Thread time of begin and end, µs.
+    begin_end_us: Spread,
+    variance: Option<Variance>,
+    /// Bytes that a device copies, the median of frames in which no top level was swapped in; none if there are none.
+    bytes: Option<f64>,
 }
 
-/// Measures scenes of `instances` × `mesh_triangles` triangles.
-pub(super) fn report(instances: u32, mesh_triangles: u32, opened: &[Opened]) -> Result<Report, HostError> {
-    let one = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .build()
-        .expect("a pool of one thread");
-    let mut world = World::of_instances(instances, mesh_triangles);
-    news!("single level");
-    let single_level = single_level(&world, &one);
-    let (copy, top_level_bytes) = copy(&mut world);
-    let scale = Scale {
-        copy: copy.median,
-        single_level: single_level.median,
-    };
-
-    let mut rows = Vec::new();
-    let shares = [100, 10, 1].map(|share| (instances / share).max(1));
-    for (change, changed) in shares
-        .map(|changed| (Change::Move, changed))
-        .into_iter()
-        .chain([(Change::Shine, shares[0])])
-    {
-        let name: &str = change.into();
-        news!("{name} {changed} of {instances}");
-        rows.push(one.install(|| cpu(&mut world, change, changed, 1, &scale)));
-    }
-    // The same number in a smaller scene.
-    let fewer = (instances / 10).max(shares[0]);
-    news!("move {} of {fewer}", shares[0]);
-    let mut small = World::of_instances(fewer, mesh_triangles);
-    rows.push(one.install(|| cpu(&mut small, Change::Move, shares[0], 1, &scale)));
-    for o in opened {
-        news!("move {instances} on {}", o.device.name());
-        rows.push(device(&mut world, Change::Move, instances, o, &scale)?);
-    }
-
-    let triangles = instances * mesh_triangles;
-    let mut mesh = World::of_one_mesh(triangles);
-    let all = rayon::current_num_threads();
-    news!("deform {triangles}");
-    rows.push(one.install(|| cpu(&mut mesh, Change::Deform, triangles, 1, &scale)));
-    if all > 1 {
-        rows.push(cpu(&mut mesh, Change::Deform, triangles, all, &scale));
-    }
-    for o in opened {
-        news!("deform {triangles} on {}", o.device.name());
-        rows.push(device(&mut mesh, Change::Deform, triangles, o, &scale)?);
-    }
-    Ok(Report {
-        copy_ms: copy,
-        top_level_bytes,
-        single_level_refit_ms: single_level,
-        rows,
-    })
+/// Relative variance of one sample, divided by that of a tree built over the same lights.
+#[derive(Clone, Copy, Debug, Serialize)]
+struct Variance {
+    /// Over frames, the mean of ratios of the means over points.
+    mean: f64,
+    /// The geometric mean of the ratios at points.
+    geometric: f64,
+    /// Greatest ratio of means of a frame.
+    most: f64,
 }
 
-/// Frames on the CPU, by the threads of the current pool.
-fn cpu(world: &mut World, change: Change, changed: u32, threads: usize, scale: &Scale) -> Row {
-    let (mut update, mut refit) = (Vec::new(), Vec::new());
-    let mut nodes = 0;
-    for frame in 0..WARM + FRAMES {
-        let edits = world.edits(change, changed, frame as u32);
-        let times = frame_of(world, edits);
-        nodes = world.scene.work().computed();
-        if frame >= WARM {
-            update.push(times.0);
-            refit.push(times.1);
-        }
-    }
-    let refit_ms = Spread::of(refit);
-    let swapped = (change != Change::Deform).then(|| swapping(world, change, changed));
-    Row {
-        update_ms: Spread::of(update),
-        rebuild_ms: swapped.map(|[rebuild, _, _]| rebuild),
-        swap_ms: swapped.map(|[_, swap, _]| swap),
-        refit_after_swap_ms: swapped.map(|[_, _, refit]| refit),
-        ..row(
-            world,
-            change,
-            changed,
-            ("cpu", threads, FRAMES),
-            refit_ms,
-            nodes,
-            scale,
-        )
-    }
+/// Measures all scenes, or those of a quick run.
+///
+/// # Errors
+/// [`HostError::Rebuild`] if a build panics.
+pub(super) fn rows(is_quick: bool) -> Result<Vec<Row>, HostError> {
+    scenes::scenes(is_quick).into_iter().map(measure).collect()
 }
 
-/// Frames that each swap in the top level rebuilt beside the one before: its rebuild, the swap, the refit after it.
-fn swapping(world: &mut World, change: Change, changed: u32) -> [Spread; 3] {
-    let params = RebuildParams {
-        top: 1.0,
-        drift: f64::INFINITY,
-    };
-    let (mut rebuild, mut swap, mut refit) = (Vec::new(), Vec::new(), Vec::new());
-    for frame in 0..FRAMES {
-        let mut built = None;
-        rebuild.push(timed(|| built = Some(world.scene.rebuild(&params).run())));
-        let edits = world.edits(change, changed, (WARM + FRAMES + frame) as u32);
-        swap.push(timed(|| {
-            if let Some(built) = built {
-                world.scene.install(built).expect("of the same light BVH");
+fn measure(mut scene: Scene) -> Result<Row, HostError> {
+    news!("{}, {}", scene.name, scene.lamps.len());
+    // A refit that builds uses all threads of its pool; with one thread, all of it counts as thread time.
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let one = one.expect("a pool of one thread");
+    let mut world = World::new(std::mem::take(&mut scene.triangles));
+    for (at, radiance) in std::mem::take(&mut scene.lamps) {
+        world.add(at, radiance);
+    }
+    let mut rebuilder = Rebuilder::default();
+    world.start();
+    let mut instances = world.count();
+    let mut mirror = Mirror::default();
+    mirror.frame(&world.bvh);
+    let mut random = Random::new(12);
+    let (mut times, mut bytes, mut looks) = (Vec::new(), Vec::new(), Vec::new());
+    for frame in 0..scene.frames {
+        let began = Instant::now();
+        (scene.step)(frame, &mut world);
+        let spent = one.install(|| world.frame(&mut rebuilder))?;
+        instances = instances.max(world.count());
+        let copied = mirror.frame(&world.bvh).staged_bytes() as f64;
+        if frame >= scene.warm {
+            times.push(spent);
+            bytes.extend((!spent.has_swapped).then_some(copied));
+            if times.len().is_multiple_of(scene.look) {
+                looks.extend(look(&world, &scene, &mut random));
             }
-        }));
-        refit.push(frame_of(world, edits).1);
-    }
-    [rebuild, swap, refit].map(Spread::of)
-}
-
-/// Time of update and refit.
-fn frame_of(world: &mut World, edits: Vec<Edit>) -> (Duration, Duration) {
-    let scene = &mut world.scene;
-    let update = timed(|| {
-        scene.apply(edits).expect("the edits are within the domain");
-    });
-    (update, timed(|| scene.refit()))
-}
-
-/// Frames on a device, which follows the scene; its own time counts.
-fn device(
-    world: &mut World,
-    change: Change,
-    changed: u32,
-    opened: &Opened,
-    scale: &Scale,
-) -> Result<Row, HostError> {
-    let mut backend: DeviceBackend<'_> = DeviceBackend::new(&opened.device, &world.scene)?;
-    let (mut update, mut refit) = (Vec::new(), Vec::new());
-    let mut nodes = 0;
-    // The first frame compiles.
-    for frame in 0..=DEVICE_FRAMES {
-        let edits = world.edits(change, changed, frame as u32);
-        let update_time = timed(|| {
-            world.scene.apply(edits).expect("the edits are within the domain");
-        });
-        nodes = world.scene.plan().computed();
-        let time = backend.follow(&world.scene)?.time;
-        world.scene.refit();
-        if frame > 0 {
-            update.push(update_time);
-            refit.push(time);
         }
+        std::thread::sleep(PACE.saturating_sub(began.elapsed()));
     }
-    let how = (opened.device.name(), 0, DEVICE_FRAMES);
+    let mean = |of: fn(&[f64; 2]) -> f64| looks.iter().map(of).sum::<f64>() / looks.len() as f64;
     Ok(Row {
-        update_ms: Spread::of(update),
-        ..row(world, change, changed, how, Spread::of(refit), nodes, scale)
+        scene: scene.name,
+        instances,
+        frame_us: Spread::of(times.iter().map(|spent| spent.frame)),
+        begin_end_us: Spread::of(times.iter().map(|spent| spent.begin_end)),
+        variance: (!looks.is_empty()).then(|| Variance {
+            mean: mean(|look| look[0]),
+            geometric: mean(|look| look[1]),
+            most: looks.iter().map(|look| look[0]).fold(0.0, f64::max),
+        }),
+        bytes: (!bytes.is_empty()).then(|| Spread::of(bytes).median),
     })
 }
 
-fn row(
-    world: &World,
-    change: Change,
-    changed: u32,
-    (backend, threads, frames): (&str, usize, usize),
-    refit_ms: Spread,
-    nodes: usize,
-    scale: &Scale,
-) -> Row {
-    Row {
-        change: change.into(),
-        instances: world.instance_count(),
-        triangles: world.scene.light_count() as u64,
-        changed,
-        backend: backend.to_owned(),
-        threads,
-        frames,
-        update_ms: Spread::default(),
-        refit_ms,
-        rebuild_ms: None,
-        swap_ms: None,
-        refit_after_swap_ms: None,
-        nodes,
-        copies: refit_ms.median / scale.copy,
-        of_single_level: refit_ms.median / scale.single_level,
+/// The ratio of means, and the geometric mean of ratios, of the variance now and with a new tree; none without light.
+fn look(world: &World, scene: &Scene, random: &mut Random) -> Option<[f64; 2]> {
+    let lights = world.bvh.world_lights();
+    let lit: Vec<&EmissiveTriangle> = lights.iter().filter(|light| light.luminance() > 0.0).collect();
+    if lit.is_empty() {
+        return None;
+    }
+    let points = (0..scene.points).map(|_| {
+        let light = lit[random.below(lit.len() as u32) as usize];
+        point(light, scene.side, random)
+    });
+    let points: Vec<ShadingPoint> = points.collect();
+    let now = variances(&world.bvh, &lights, &points);
+    let fresh = world.fresh();
+    let pairs = now
+        .into_iter()
+        .zip(variances(&fresh, &fresh.world_lights(), &points));
+    let pairs: Vec<(f64, f64)> = pairs.filter(|&(now, fresh)| now > 0.0 && fresh > 0.0).collect();
+    let sum = |of: fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>();
+    let geometric = (sum(|(now, fresh)| (now / fresh).ln()) / pairs.len() as f64).exp();
+    (!pairs.is_empty()).then(|| [sum(|pair| pair.0) / sum(|pair| pair.1), geometric])
+}
+
+/// A point near the floor that looks about upward: in the square of side `side`, or else below a light.
+fn point(light: &EmissiveTriangle, side: Option<f32>, random: &mut Random) -> ShadingPoint {
+    let [x, z] = match side {
+        Some(side) => [(); 2].map(|()| random.between(0.0, side)),
+        None => [0, 2].map(|axis| light.p[0][axis] + random.between(-2.0, 2.0)),
+    };
+    let (up, (s, c)) = (random.between(0.6, 1.0), random.between(0.0, TAU).sin_cos());
+    let flat = (1.0 - up * up).sqrt();
+    ShadingPoint {
+        p: [x, 0.3, z],
+        n: [flat * c, up, flat * s],
     }
 }
 
-/// Refit of one tree over all triangles in the world by one thread, as without instances.
-fn single_level(world: &World, one: &rayon::ThreadPool) -> Spread {
-    let lights = world.lights();
-    let mut bvh = LightBvh::single_level(&lights, &BuildParams::default());
-    let times = (0..SINGLE_LEVEL)
-        .map(|_| one.install(|| timed(|| bvh.follow(&lights).expect("the lights that it was built over"))));
-    Spread::of(times.collect())
+/// Exact relative variance of one sample at each point: by all lights, which have their instance's index.
+fn variances(bvh: &Bvh, lights: &[EmissiveTriangle], points: &[ShadingPoint]) -> Vec<f64> {
+    let of = |point: &ShadingPoint| {
+        let lights = (0..).zip(lights).map(|(light, triangle)| {
+            let sent = irradiance(triangle, point);
+            let pmf = if sent > 0.0 {
+                bvh.pmf(point, light, triangle.mesh)
+            } else {
+                0.0
+            };
+            (sent, f64::from(pmf))
+        });
+        // Points in the dark are left out by their zeros.
+        variance(lights).unwrap_or(0.0)
+    };
+    points.par_iter().map(of).collect()
 }
 
-/// Copies of the top level's nodes and instances, and their size in bytes.
-fn copy(world: &mut World) -> (Spread, usize) {
-    let all = world.instance_count();
-    let edits: Vec<Edit> = world.edits(Change::Move, all, 0);
-    let scene = &mut world.scene;
-    scene.apply(edits).expect("the edits are within the domain");
-    scene.refit();
-    let work = scene.work();
-    let nodes: Vec<Node> = work
-        .top
-        .nodes()
-        .iter()
-        .map(|&i| scene.nodes()[i as usize])
-        .collect();
-    let instances: Vec<Instance> = scene.instances().to_vec();
-    let (mut to_nodes, mut to_instances) = (nodes.clone(), instances.clone());
-    let times = (0..FRAMES).map(|_| {
-        timed(|| {
-            to_nodes.copy_from_slice(black_box(&nodes));
-            to_instances.copy_from_slice(black_box(&instances));
-            black_box((&to_nodes, &to_instances));
-        })
-    });
-    let bytes = size_of_val(&*nodes) + size_of_val(&*instances);
-    (Spread::of(times.collect()), bytes)
+pub(super) fn print(rows: &[Row]) -> std::io::Result<()> {
+    fn ratio(row: &Row, of: fn(&Variance) -> f64) -> String {
+        table::known(row.variance.as_ref().map(of), 2)
+    }
+    table::print(
+        rows,
+        &[
+            ("scene", |r| r.scene.to_owned()),
+            ("instances", |r| r.instances.to_string()),
+            ("µs", |r| format!("{:.0}", r.frame_us.median)),
+            ("99 %", |r| format!("{:.0}", r.frame_us.p99)),
+            ("most", |r| format!("{:.0}", r.frame_us.most)),
+            ("begin + end", |r| format!("{:.0}", r.begin_end_us.median)),
+            ("99 %", |r| format!("{:.0}", r.begin_end_us.p99)),
+            ("variance", |r| ratio(r, |it| it.mean)),
+            ("geometric", |r| ratio(r, |it| it.geometric)),
+            ("most", |r| ratio(r, |it| it.most)),
+            ("kB", |r| table::known(r.bytes.map(|bytes| bytes * 1e-3), 1)),
+        ],
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn first_frames_are_as_good_as_fresh_builds() {
+        let scenes = scenes::scenes(true).into_iter();
+        for mut scene in scenes.filter(|scene| (1..50_000).contains(&scene.lamps.len())) {
+            (scene.frames, scene.warm, scene.look) = (3, 0, 3);
+            let row = measure(scene).expect("no build panics");
+            assert!(
+                row.begin_end_us.median > 0.0 && row.frame_us.most > row.begin_end_us.median,
+                "{row:?}"
+            );
+            let variance = row.variance.expect("there is light");
+            assert!((0.5..2.0).contains(&variance.geometric), "{row:?}");
+        }
+    }
 }

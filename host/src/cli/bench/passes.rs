@@ -7,8 +7,8 @@ use lightbvh::{Lights, Random64, SampledLight, ShadingPoint};
 use lightbvh_kernels::query::Query;
 use rayon::prelude::*;
 
-use crate::backend::{Backend, Bvh};
-use crate::cli::times::timed;
+use crate::backend::{Backend, BackendError, Bvh};
+use crate::cli::measure::times::timed;
 use crate::error::HostError;
 
 /// Samples of a batch that one thread takes.
@@ -17,7 +17,7 @@ const BATCH: usize = 4096;
 const RUNS: usize = 5;
 /// Time of runs before them: a device compiles at the first dispatch, and one that was idle has slow clocks for a while (an
 /// NVIDIA H100 a fifth of its full ones).
-pub(super) const WARM: Duration = Duration::from_secs(1);
+const WARM: Duration = Duration::from_secs(1);
 
 /// Times of several runs of each pass.
 pub(super) struct Times {
@@ -26,9 +26,10 @@ pub(super) struct Times {
     pub pmf: Vec<Duration>,
 }
 
-pub(super) fn passes(
-    backend: &mut dyn Backend,
-    lights: &Lights,
+/// The passes of a backend; `refit` refits all of it, and returns its time.
+pub(super) fn passes<B: Backend>(
+    backend: &mut B,
+    mut refit: impl FnMut(&mut B) -> Result<Duration, BackendError>,
     queries: &[Query],
 ) -> Result<Times, HostError> {
     let mut times = Times {
@@ -39,7 +40,7 @@ pub(super) fn passes(
     let start = Instant::now();
     let mut is_warm = false;
     while times.pmf.len() < RUNS {
-        let refit = backend.refit(lights)?.time;
+        let refit = refit(backend)?;
         let sampled = backend.sample(queries)?;
         let asked: Vec<Query> = queries
             .iter()

@@ -11,7 +11,7 @@ const EDGE: f32 = 0.1;
 const CELLS: u32 = 10;
 
 /// Small triangles anywhere in the box, grouped into mesh lights by the cell that they lie in.
-pub(in crate::cli) fn random_lights(count: u32) -> Lights {
+pub(super) fn random_lights(count: u32) -> Lights {
     let draw = |i: u32, k: u32| unit_f32(hash(hash(i).wrapping_add(k)));
     let mut triangles: Vec<(u32, EmissiveTriangle)> = (0..count)
         .map(|i| {
@@ -45,7 +45,7 @@ pub(in crate::cli) fn random_lights(count: u32) -> Lights {
 }
 
 /// Points in the box with any normal.
-pub(in crate::cli) fn random_queries(count: u32) -> Vec<Query> {
+pub(super) fn random_queries(count: u32) -> Vec<Query> {
     (0..count)
         .map(|i| {
             let draw = |k: u32| unit_f32(hash(hash(!i).wrapping_add(k)));

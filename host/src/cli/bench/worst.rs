@@ -14,6 +14,7 @@ use serde_json::json;
 use self::scenes::{Scene, hostile, scenes};
 use super::super::{Context, Outcome, table};
 use crate::backend::Bvh;
+use crate::cli::measure::times::quantiles;
 use crate::cli::table::say;
 use crate::error::HostError;
 
@@ -95,9 +96,8 @@ fn measure<C: TriangleChoice<W>, const W: usize>(scene: &Scene) -> Vec<Case> {
             ask(what, &tree, &point, random, light);
             times.push(start.elapsed().as_nanos() as f64);
         }
-        for (unit, mut values) in [("nodes", nodes), ("ns", times)] {
-            values.sort_by(f64::total_cmp);
-            let part = |share: f64| values[((values.len() - 1) as f64 * share) as usize];
+        for (unit, values) in [("nodes", nodes), ("ns", times)] {
+            let [median, p99, p999, most] = quantiles(values, [0.5, 0.99, 0.999, 1.0]);
             cases.push(Case {
                 what,
                 importance: C::NAME,
@@ -105,10 +105,10 @@ fn measure<C: TriangleChoice<W>, const W: usize>(scene: &Scene) -> Vec<Case> {
                 lights,
                 depth: tree.depth,
                 unit,
-                median: part(0.5),
-                p99: part(0.99),
-                p999: part(0.999),
-                most: part(1.0),
+                median,
+                p99,
+                p999,
+                most,
             });
         }
     }

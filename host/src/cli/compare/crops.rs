@@ -1,29 +1,30 @@
 //! Close-ups as the paper's Figure 6: regions of the last frame by every method, side by side.
 
 use std::collections::BTreeMap;
+use std::fmt::Write;
 use std::path::Path;
 
+use image::ExtendedColorType;
 use serde::Serialize;
 
 use super::graphs::shown;
 use super::plan::Plan;
+use crate::cli::target::store;
 use crate::error::HostError;
 use crate::method::Method;
 use crate::metrics::{Judge, Judged, Quality, Region, mean_squared_error};
-use crate::plot::{Canvas, text_size};
+use crate::plot::{escape, png_url};
 use crate::render::Film;
 
 /// Regions shown.
 const REGIONS: usize = 3;
 /// A region's share of the image's width and height.
 const SHARE: u32 = 6;
-/// Least width of an enlarged region: the longest label must fit.
+/// Width of the marked reference and of an enlarged region, pixels; their distance, and the height of a line of text.
+const OVERVIEW: u32 = 640;
 const CELL: u32 = 250;
-const MARGIN: u32 = 10;
-const TEXT: u32 = 2;
-const PAPER: [u8; 3] = [255; 3];
-const INK: [u8; 3] = [30; 3];
-const MARK: [u8; 3] = [255, 60, 60];
+const GAP: u32 = 10;
+const LINE: u32 = 24;
 
 /// A region and how good a method is in it.
 #[derive(Clone, Debug, Serialize)]
@@ -68,18 +69,16 @@ pub(super) fn write(
             });
         }
     }
-    sheet(plan, scene, judge, &columns, &regions, &crops).write_png(path)?;
+    store(
+        path,
+        sheet(plan, scene, judge, &columns, &regions, &crops)?.as_bytes(),
+    )?;
     Ok(crops)
 }
 
 /// The `count` regions where the methods' errors are furthest apart, without overlap: the greatest MSE less the least. Each has
 /// one part in `share` of the image's width and height.
-pub(in crate::cli) fn choose(
-    judge: &Judge,
-    columns: &[(Method, Judged<'_>)],
-    share: u32,
-    count: usize,
-) -> Vec<Region> {
+fn choose(judge: &Judge, columns: &[(Method, Judged<'_>)], share: u32, count: usize) -> Vec<Region> {
     let (width, height) = judge.size();
     let (across, down) = (width.div_ceil(share), height.div_ceil(share));
     let steps = |all: u32, size: u32| (0..=all - size).step_by((size as usize / 4).max(1));
@@ -114,7 +113,7 @@ pub(in crate::cli) fn choose(
     chosen
 }
 
-/// The reference with the regions marked, above a row of close-ups for each region.
+/// The reference with the regions marked, above a row of close-ups for each region, as SVG.
 fn sheet(
     plan: &Plan,
     scene: &str,
@@ -122,61 +121,70 @@ fn sheet(
     columns: &[(Method, Judged<'_>)],
     regions: &[Region],
     crops: &[Crop],
-) -> Canvas {
+) -> Result<String, HostError> {
     let (width, height) = judge.size();
-    let (across, down) = regions
+    let down = regions
         .first()
-        .map_or((1, 1), |region| (region.width, region.height));
-    let zoom = CELL.div_ceil(across);
-    let line = text_size("", TEXT).1 + MARGIN;
-    let cell = (across * zoom, down * zoom);
-    let count = columns.len() as u32 + 1;
-    let overview = 640_u32.div_ceil(width).max(1);
-    let title = format!(
-        "{scene}, frame {}, {} shadow rays per pixel",
+        .map_or(0, |region| CELL * region.height / region.width);
+    let zoom = f64::from(OVERVIEW) / f64::from(width);
+    let top = 2 * LINE + OVERVIEW * height / width;
+    let row_height = down + 2 * LINE;
+    let whole = (
+        OVERVIEW.max((columns.len() as u32 + 1) * (CELL + GAP)) + 2 * GAP,
+        top + regions.len() as u32 * row_height + GAP,
+    );
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" font-family=\"sans-serif\" \
+         font-size=\"14\">\n<style>image {{ image-rendering: pixelated }}</style>\n<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
+        whole.0, whole.1
+    );
+    // Writing to a string does not fail.
+    let mut line = |text: std::fmt::Arguments<'_>| {
+        let _ = writeln!(svg, "{text}");
+    };
+    line(format_args!(
+        "<text x=\"{GAP}\" y=\"{}\">{}, frame {}, {} shadow rays per pixel</text>",
+        LINE - 7,
+        escape(scene),
         plan.last(),
         plan.samples
-    );
-    let canvas_width = (MARGIN + count * (cell.0 + MARGIN))
-        .max(2 * MARGIN + width * overview)
-        .max(2 * MARGIN + text_size(&title, TEXT).0);
-    let rows_top = MARGIN + line + height * overview + MARGIN;
-    let canvas_height = rows_top + regions.len() as u32 * (cell.1 + 2 * line + MARGIN);
-    let mut canvas = Canvas::new(canvas_width, canvas_height, PAPER);
-
-    canvas.text((MARGIN, MARGIN), &title, TEXT, INK);
-    let at = (MARGIN, MARGIN + line);
-    canvas.image(at, judge.shown().as_chunks::<3>().0, width, overview);
+    ));
+    let url = png_url(judge.shown(), (width, height), ExtendedColorType::Rgb8)?;
+    line(format_args!(
+        "<image x=\"{GAP}\" y=\"{LINE}\" width=\"{OVERVIEW}\" href=\"{url}\"/>"
+    ));
     for (number, region) in (1..).zip(regions) {
-        let corner = (at.0 + region.x * overview, at.1 + region.y * overview);
-        canvas.outline(corner, (region.width * overview, region.height * overview), MARK);
-        let text = format!("{number}");
-        let size = text_size(&text, TEXT);
-        canvas.fill(corner, (size.0 + 6, size.1 + 6), MARK);
-        canvas.text((corner.0 + 3, corner.1 + 3), &text, TEXT, PAPER);
+        let [x, y, w, h] = [region.x, region.y, region.width, region.height].map(|k| f64::from(k) * zoom);
+        let (x, y) = (x + f64::from(GAP), y + f64::from(LINE));
+        line(format_args!(
+            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"none\" stroke=\"#ff3c3c\"/>\
+             <text x=\"{:.1}\" y=\"{:.1}\" fill=\"#ff3c3c\">{number}</text>",
+            x + 4.0,
+            y + 15.0
+        ));
     }
     for (row, region) in (0..).zip(regions) {
-        let y = rows_top + row * (cell.1 + 2 * line + MARGIN);
-        let mut draw = |column: u32, name: &str, shown: &[u8], below: &str| {
-            let x = MARGIN + column * (cell.0 + MARGIN);
-            canvas.text((x, y), name, TEXT, INK);
+        let y = top + row * row_height;
+        let shown = columns
+            .iter()
+            .map(|(method, judged)| (method.name(), judged.shown(), Some(*method)));
+        for (column, (name, shown, method)) in (0..).zip(shown.chain([("reference", judge.shown(), None)])) {
+            let is_it = |crop: &&Crop| Some(crop.method) == method && crop.region == *region;
+            let below = match crops.iter().find(is_it) {
+                Some(crop) => format!("MSE {:.1}", crop.quality.mse),
+                None => format!("region {}", row + 1),
+            };
             let pixels = region.cut(shown.as_chunks::<3>().0, width);
-            canvas.image((x, y + line), &pixels, region.width, zoom);
-            canvas.text((x, y + line + cell.1 + MARGIN / 2), below, TEXT, INK);
-        };
-        for (column, (method, judged)) in (0..).zip(columns) {
-            let own = crops
-                .iter()
-                .find(|crop| crop.method == *method && crop.region == *region);
-            let below = own.map_or(String::new(), |crop| format!("MSE {:.1}", crop.quality.mse));
-            draw(column, method.name(), judged.shown(), &below);
+            let size = (region.width, region.height);
+            let url = png_url(pixels.as_flattened(), size, ExtendedColorType::Rgb8)?;
+            let x = GAP + column * (CELL + GAP);
+            line(format_args!(
+                "<text x=\"{x}\" y=\"{}\">{name}</text><image x=\"{x}\" y=\"{y}\" width=\"{CELL}\" href=\"{url}\"/>\
+                 <text x=\"{x}\" y=\"{}\">{below}</text>",
+                y - 5,
+                y + down + 16
+            ));
         }
-        draw(
-            count - 1,
-            "reference",
-            judge.shown(),
-            &format!("region {}", row + 1),
-        );
     }
-    canvas
+    Ok(svg + "</svg>\n")
 }

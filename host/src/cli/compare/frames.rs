@@ -3,10 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use bytemuck::cast_slice;
 use lightbvh::Lights;
 
-use super::store::fingerprint;
 use crate::backend::SceneArrays;
 use crate::error::HostError;
 use crate::method::Step;
@@ -19,7 +17,6 @@ pub(super) struct Frames<'a> {
     size: (u32, u32),
     lights: BTreeMap<u32, Lights>,
     arrays: BTreeMap<u32, Arc<SceneArrays>>,
-    prints: BTreeMap<u32, String>,
 }
 
 impl<'a> Frames<'a> {
@@ -29,7 +26,6 @@ impl<'a> Frames<'a> {
             size,
             lights: BTreeMap::new(),
             arrays: BTreeMap::new(),
-            prints: BTreeMap::new(),
         }
     }
 
@@ -67,30 +63,5 @@ impl<'a> Frames<'a> {
     pub fn clear(&mut self) {
         self.lights.clear();
         self.arrays.clear();
-    }
-
-    /// Tells scenes of one name apart: the first frame, this one and the one half-way.
-    pub fn print(&mut self, frame: u32) -> String {
-        let parts: Vec<String> = [0, frame / 2, frame]
-            .into_iter()
-            .map(|f| self.one_print(f))
-            .collect();
-        fingerprint(parts.concat().as_bytes())
-    }
-
-    fn one_print(&mut self, frame: u32) -> String {
-        let scene = self.scene;
-        let make = || {
-            let data = scene.frame(frame);
-            let rest = format!("{:?} {:?}", data.camera, data.background);
-            [
-                fingerprint(cast_slice(&data.triangles)),
-                fingerprint(cast_slice(&data.emissive)),
-                fingerprint(cast_slice(&data.materials)),
-                fingerprint(rest.as_bytes()),
-            ]
-            .concat()
-        };
-        self.prints.entry(frame).or_insert_with(make).clone()
     }
 }

@@ -3,26 +3,21 @@
 use std::path::Path;
 
 use super::plan::Plan;
-use super::summary::{Errors, Row};
+use super::summary::Row;
+use crate::cli::target::store;
 use crate::error::HostError;
 use crate::method::Method;
 use crate::plot::{Chart, Point, Series};
 
-/// A mean and half its confidence interval.
-type Measure = fn(&Errors) -> (f64, Option<f64>);
-
 /// Writes the graphs of one scene on one backend; returns their file names.
 pub(super) fn write(folder: &Path, plan: &Plan, stem: &str, rows: &[Row]) -> Result<Vec<String>, HostError> {
-    let graphs: [(&str, &str, bool, Measure); 2] = [
-        ("mse", "MSE", true, |e| (e.mse, e.mse_ci95)),
-        ("ssim", "SSIM", false, |e| (e.ssim, e.ssim_ci95)),
-    ];
+    let graphs = [("mse", "MSE", true), ("ssim", "SSIM", false)];
     let mut files = Vec::new();
-    for (file, label, from_zero, measure) in graphs {
+    for (file, label, from_zero) in graphs {
         let series = shown(plan).into_iter().map(|method| {
             let own = rows.iter().filter(|row| row.method == method);
             let points = own.map(|row| {
-                let (y, error) = measure(&row.errors);
+                let (y, error) = row.errors.get(file);
                 Point {
                     x: f64::from(row.frame),
                     y,
@@ -45,10 +40,7 @@ pub(super) fn write(folder: &Path, plan: &Plan, stem: &str, rows: &[Row]) -> Res
             series: series.collect(),
         };
         let name = format!("{file}-{stem}.svg");
-        let path = folder.join(&name);
-        chart
-            .write(&path)
-            .map_err(|source| HostError::Store { path, source })?;
+        store(&folder.join(&name), chart.svg().as_bytes())?;
         files.push(name);
     }
     Ok(files)

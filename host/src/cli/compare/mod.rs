@@ -1,15 +1,13 @@
 //! `lightbvh compare`: the paper's comparison. Table 1 (errors), Figures 4 and 5 (errors over frames), Figure 6
 //! (close-ups) and Table 2 (times), for every method that there is.
 
-pub(super) mod crops;
+mod crops;
 mod frames;
 mod graphs;
-mod job;
 mod measure;
 mod plan;
 mod reference;
 mod report;
-pub(super) mod store;
 mod summary;
 
 use std::path::Path;
@@ -17,22 +15,19 @@ use std::path::Path;
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
 
-use super::{Context, Outcome, devices, progress, table};
+use super::{Context, Outcome, devices, progress, table, target};
 use crate::cli::table::news;
 use crate::error::HostError;
 use crate::method::Target;
-use crate::render::write_whole;
 use crate::scene::Scene;
 use crate::vulkan::VulkanError;
 
 use frames::Frames;
-use job::Job;
-use measure::Results;
+use measure::{Job, Results};
 pub(super) use plan::Args;
 use plan::{BLOCK, Backends, Plan};
-use reference::references;
+use reference::{Noise, references};
 use report::{Report, SceneReport};
-use store::{Store, fingerprint, stem};
 use summary::summarize;
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
@@ -40,7 +35,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let scenes = plan
         .scenes
         .iter()
-        .map(|name| Scene::open(name))
+        .map(|name| args.reading.open(name))
         .collect::<Result<Vec<_>, _>>()?;
     for scene in &scenes {
         scene.require_lights()?;
@@ -57,11 +52,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .into_iter()
         .chain(opened.iter().map(|o| Target::Device(&o.device)))
         .collect();
-    let store = Store::open(&args.out.join("results"))?;
+    target::folder(&args.out)?;
     let mut run = Run {
         plan: &plan,
-        store,
-        program: program(),
         progress: progress::bar(
             0,
             "{bar:30} {percent:>3} % {elapsed} passed, {eta} left  {wide_msg}",
@@ -74,8 +67,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             rows: Vec::new(),
             averages: Vec::new(),
             crops: Vec::new(),
-            computed: 0,
-            reused: 0,
             different: 0,
         },
     };
@@ -87,8 +78,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     }
     run.progress
         .set_length(scenes.len() as u64 * all_work(&plan, &targets));
-    for scene in &scenes {
-        run.scene(scene, &targets, &args.out)?;
+    let stems = target::stems(plan.scenes.iter().map(String::as_str));
+    for (scene, stem) in scenes.iter().zip(stems) {
+        run.scene(scene, &stem, &targets, &args.out)?;
     }
     run.progress.finish_and_clear();
     let report = run.report;
@@ -99,8 +91,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let mut json = serde_json::to_vec_pretty(&report).map_err(std::io::Error::from)?;
     json.push(b'\n');
     for (name, bytes) in [("compare.json", json.as_slice()), ("compare.md", text.as_bytes())] {
-        let path = args.out.join(name);
-        write_whole(&path, bytes).map_err(|source| HostError::Store { path, source })?;
+        target::store(&args.out.join(name), bytes)?;
     }
     if context.json {
         table::print_json(&report)?;
@@ -112,27 +103,29 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
 
 struct Run<'p> {
     plan: &'p Plan,
-    store: Store,
-    program: String,
     progress: ProgressBar,
     report: Report,
 }
 
 impl Run<'_> {
-    fn scene(&mut self, scene: &Scene, targets: &[Target<'_>], folder: &Path) -> Result<(), HostError> {
+    fn scene(
+        &mut self,
+        scene: &Scene,
+        stem: &str,
+        targets: &[Target<'_>],
+        folder: &Path,
+    ) -> Result<(), HostError> {
         let plan = self.plan;
         let mut frames = Frames::new(scene, plan.size());
-        let references = references(&mut frames, plan, &self.store, &self.progress)?;
+        let references = references(&mut frames, plan, &self.progress)?;
         let jobs: Vec<Job<'_, '_>> = targets
             .iter()
             .map(|&target| Job {
                 plan,
-                store: &self.store,
                 references: &references,
                 target,
                 seeds: seeds(plan, &target),
                 blocks: blocks(plan, &target),
-                program: &self.program,
                 progress: &self.progress,
             })
             .collect();
@@ -141,21 +134,18 @@ impl Run<'_> {
             .map(|job| job.run(&mut frames))
             .collect::<Result<Vec<Results>, _>>()?;
 
-        let stem = stem(scene.name());
         let mut figures = Vec::new();
         for (target, results) in targets.iter().zip(&all) {
             let (rows, averages) = summarize(plan, scene.name(), target.name(), results);
             // All backends show the same images, so one gives the figures.
             if figures.is_empty() {
-                figures = graphs::write(folder, plan, &stem, &rows)?;
+                figures = graphs::write(folder, plan, stem, &rows)?;
             }
             self.report.rows.extend(rows);
             self.report.averages.extend(averages);
-            self.report.computed += results.computed;
-            self.report.reused += results.reused;
             self.report.different += results.different_from(&all[0]);
         }
-        let crops = format!("crops-{stem}.png");
+        let crops = format!("crops-{stem}.svg");
         let (last, films) = (&references[references.len() - 1], &all[0].films);
         self.report.crops.extend(crops::write(
             &folder.join(&crops),
@@ -168,9 +158,16 @@ impl Run<'_> {
         self.report.scenes.push(SceneReport {
             scene: scene.name().to_owned(),
             exposure: last.judge.exposure(),
-            references: references
+            references: plan
+                .frames
                 .iter()
-                .map(|reference| reference.noise.clone())
+                .zip(&references)
+                .map(|(&frame, reference)| Noise {
+                    frame,
+                    samples: plan.reference_samples,
+                    mse: reference.noise,
+                    linear_mse: reference.linear_noise,
+                })
                 .collect(),
             figures,
         });
@@ -203,13 +200,6 @@ fn blocks(plan: &Plan, target: &Target<'_>) -> Vec<u32> {
         Target::Cpu => plan.timed_frames,
         Target::Device(_) => plan.timed_on_devices,
     })
-}
-
-/// Tells this program from others, whose results may differ: its own file's bytes.
-fn program() -> String {
-    let own = std::env::current_exe().and_then(std::fs::read);
-    // Without them the version must do.
-    fingerprint(&own.unwrap_or_else(|_| env!("CARGO_PKG_VERSION").into()))
 }
 
 fn settings(plan: &Plan) -> Value {

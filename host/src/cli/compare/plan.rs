@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::cli::range::{self, given};
+use crate::cli::reading::Reading;
 use crate::error::HostError;
 use crate::method::Method;
 use crate::scene::BUILT_IN;
@@ -14,14 +15,15 @@ pub(super) const BLOCK: u32 = 8;
 
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct Args {
-    /// A built-in scene (street, square, carousel) or a .gltf, .glb, .pbrt, .obj or .ply file; all built-in ones by default.
-    /// May be repeated.
+    /// A built-in scene or a .gltf, .glb, .obj or .ply file; may be repeated [default: all built-in ones].
     #[arg(long)]
     scene: Vec<String>,
-    /// Frames to measure; the animation runs from frame 0 to the last of them [default: 0,50,100,150].
+    #[command(flatten)]
+    pub(super) reading: Reading,
+    /// Frames to measure; the animation runs from 0 to the last of them [default: 0,50,100,150].
     #[arg(long, value_delimiter = ',', value_name = "N,N,...")]
     frames: Vec<u32>,
-    /// Shadow rays per pixel of every method; ReSTIR takes as many histories of six as that allows [default: 6].
+    /// Shadow rays per pixel; ReSTIR takes as many histories of six as that allows [default: 6].
     #[arg(long)]
     samples: Option<u32>,
     /// Images of each frame, each with its own random numbers [default: 8].
@@ -36,16 +38,16 @@ pub(in crate::cli) struct Args {
     /// Shadow rays per pixel of the reference [default: 1024].
     #[arg(long)]
     reference_samples: Option<u32>,
-    /// Frames of the animation that times are averaged over, in runs of seven [default: 35, on devices 7].
+    /// Frames that times are averaged over, in runs of seven [default: 35, on devices 7].
     #[arg(long)]
     timed_frames: Option<u32>,
-    /// Methods to compare; all by default. May be repeated.
+    /// Methods to compare; may be repeated [default: all].
     #[arg(long, value_enum)]
     method: Vec<Method>,
     /// What renders; devices render one image of each frame [default: all, with --quick: cpu].
     #[arg(long, value_enum)]
     backend: Option<Backends>,
-    /// Folder for tables, figures and results; made if it is not there. Results found there are not computed again.
+    /// Folder for tables and figures; made if it is not there.
     #[arg(long, default_value = "compare", value_name = "DIR")]
     pub(super) out: PathBuf,
     /// Small images and few frames: a look within a minute. Other options still count.

@@ -20,9 +20,6 @@ pub(super) struct Report {
     pub rows: Vec<Row>,
     pub averages: Vec<Average>,
     pub crops: Vec<Crop>,
-    /// Results that this run computed, and those that it found in the folder.
-    pub computed: u64,
-    pub reused: u64,
     /// Images of devices with other words than the CPU's.
     pub different: u64,
 }
@@ -64,19 +61,22 @@ fn measured(mean: f64, ci95: Option<f64>, decimals: usize) -> String {
     }
 }
 
-type Cell = fn(&Errors) -> String;
-
-/// The measures of Table 1 and how they are written.
-const MEASURES: [(&str, Cell); 5] = [
-    ("MSE", |e| measured(e.mse, e.mse_ci95, 1)),
-    ("SSIM", |e| measured(e.ssim, e.ssim_ci95, 4)),
-    ("PSNR", |e| measured(e.psnr, e.psnr_ci95, 2)),
-    ("FLIP", |e| measured(e.flip, e.flip_ci95, 4)),
-    ("linear MSE", |e| match e.linear_mse_ci95 {
-        Some(ci95) => format!("{:.3e} ± {ci95:.1e}", e.linear_mse),
-        None => format!("{:.3e}", e.linear_mse),
-    }),
+/// The measures of Table 1, their names in JSON, and their decimals: none for powers.
+const MEASURES: [(&str, &str, Option<usize>); 5] = [
+    ("MSE", "mse", Some(1)),
+    ("SSIM", "ssim", Some(4)),
+    ("PSNR", "psnr", Some(2)),
+    ("FLIP", "flip", Some(4)),
+    ("linear MSE", "linear_mse", None),
 ];
+
+fn cell(errors: &Errors, name: &str, decimals: Option<usize>) -> String {
+    match (errors.get(name), decimals) {
+        ((mean, ci95), Some(decimals)) => measured(mean, ci95, decimals),
+        ((mean, Some(ci95)), None) => format!("{mean:.3e} ± {ci95:.1e}"),
+        ((mean, None), None) => format!("{mean:.3e}"),
+    }
+}
 
 /// All tables.
 pub(super) fn markdown(plan: &Plan, report: &Report) -> String {
@@ -118,9 +118,8 @@ pub(super) fn markdown(plan: &Plan, report: &Report) -> String {
         }
     }
     line(format!(
-        "{} results computed, {} found in the folder. Images of devices with other words than the \
-         CPU's: {}.",
-        report.computed, report.reused, report.different
+        "Images of devices with other words than the CPU's: {}.",
+        report.different
     ));
     out
 }
@@ -143,7 +142,7 @@ fn errors(plan: &Plan, report: &Report, scene: &SceneReport, backend: &str) -> S
         frames.join(" | ")
     );
     out += &format!("|---|---|{}---|\n", "---|".repeat(frames.len()));
-    for (name, cell) in MEASURES {
+    for (title, name, decimals) in MEASURES {
         for &method in &plan.methods {
             let of_frame = |frame: u32| {
                 let is_it = |row: &&Row| {
@@ -156,13 +155,13 @@ fn errors(plan: &Plan, report: &Report, scene: &SceneReport, backend: &str) -> S
                     .rows
                     .iter()
                     .find(is_it)
-                    .map_or(String::new(), |row| cell(&row.errors))
+                    .map_or(String::new(), |row| cell(&row.errors, name, decimals))
             };
             let is_it = |a: &&Average| a.scene == scene.scene && a.backend == backend && a.method == method;
             let average = report.averages.iter().find(is_it);
             let mut cells: Vec<String> = plan.frames.iter().map(|&frame| of_frame(frame)).collect();
-            cells.push(average.map_or(String::new(), |a| cell(&a.errors)));
-            out += &format!("| {name} | {} | {} |\n", method.name(), cells.join(" | "));
+            cells.push(average.map_or(String::new(), |a| cell(&a.errors, name, decimals)));
+            out += &format!("| {title} | {} | {} |\n", method.name(), cells.join(" | "));
         }
     }
     out

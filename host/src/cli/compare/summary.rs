@@ -9,22 +9,24 @@ use super::plan::Plan;
 use crate::method::Method;
 use crate::metrics::{Estimate, Quality};
 
-/// Every measure as a mean over seeds; `null` in JSON for the PSNR of images without any error.
+type Measure = fn(&Quality) -> f64;
+
+/// The measures of an image by their names in JSON; errors after them have names that end in `_ci95`.
+const MEASURES: [(&str, Measure); 6] = [
+    ("mse", |q| q.mse),
+    ("ssim", |q| q.ssim),
+    ("psnr", Quality::psnr),
+    ("flip", |q| q.flip),
+    ("linear_mse", |q| q.linear_mse),
+    ("relative_mse", |q| q.relative_mse),
+];
+
+/// Every measure as a mean over seeds, and half the 95 % confidence interval of each: `null` in JSON for one seed, as the PSNR of
+/// images without any error.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Errors {
-    pub mse: f64,
-    pub ssim: f64,
-    pub psnr: f64,
-    pub flip: f64,
-    pub linear_mse: f64,
-    pub relative_mse: f64,
-    /// Half the 95 % confidence interval of each; `null` for one seed.
-    pub mse_ci95: Option<f64>,
-    pub ssim_ci95: Option<f64>,
-    pub psnr_ci95: Option<f64>,
-    pub flip_ci95: Option<f64>,
-    pub linear_mse_ci95: Option<f64>,
-    pub relative_mse_ci95: Option<f64>,
+    #[serde(flatten)]
+    measures: BTreeMap<String, Option<f64>>,
     pub seeds: usize,
 }
 
@@ -87,33 +89,24 @@ const BASELINES: [Method; 4] = [
 ];
 
 impl Errors {
-    /// Of several measurements, at least one.
-    fn of(qualities: &[Quality]) -> Option<Self> {
-        let estimate = |measure: fn(&Quality) -> f64| {
-            let values: Vec<f64> = qualities.iter().map(measure).collect();
-            Estimate::of(&values)
-        };
-        let mse = estimate(|q| q.mse)?;
-        let ssim = estimate(|q| q.ssim)?;
-        let psnr = estimate(Quality::psnr)?;
-        let flip = estimate(|q| q.flip)?;
-        let linear = estimate(|q| q.linear_mse)?;
-        let relative = estimate(|q| q.relative_mse)?;
-        Some(Self {
-            mse: mse.mean,
-            ssim: ssim.mean,
-            psnr: psnr.mean,
-            flip: flip.mean,
-            linear_mse: linear.mean,
-            relative_mse: relative.mean,
-            mse_ci95: mse.ci95,
-            ssim_ci95: ssim.ci95,
-            psnr_ci95: psnr.ci95,
-            flip_ci95: flip.ci95,
-            linear_mse_ci95: linear.ci95,
-            relative_mse_ci95: relative.ci95,
-            seeds: mse.count,
-        })
+    /// Of the images of each seed, frame by frame: each seed's mean over the frames is one measurement, as in the paper's last
+    /// column, PSNR included.
+    fn of(seeds: &[Vec<Quality>]) -> Option<Self> {
+        let mut measures = BTreeMap::new();
+        for (name, measure) in MEASURES {
+            let values: Vec<f64> = seeds.iter().map(|frames| mean(frames, measure)).collect();
+            let estimate = Estimate::of(&values)?;
+            measures.insert(name.to_owned(), Some(estimate.mean));
+            measures.insert(format!("{name}_ci95"), estimate.ci95);
+        }
+        let seeds = seeds.len();
+        Some(Self { measures, seeds })
+    }
+
+    /// The mean of a measure, and half its interval.
+    pub fn get(&self, measure: &str) -> (f64, Option<f64>) {
+        let of = |name: &str| self.measures.get(name).copied().flatten();
+        (of(measure).unwrap_or(f64::NAN), of(&format!("{measure}_ci95")))
     }
 }
 
@@ -125,17 +118,14 @@ pub(super) fn summarize(
     results: &Results,
 ) -> (Vec<Row>, Vec<Average>) {
     let mut qualities: BTreeMap<(Method, u32), Vec<Quality>> = BTreeMap::new();
-    for (&(method, frame, _), measured) in &results.images {
-        qualities
-            .entry((method, frame))
-            .or_default()
-            .push(measured.quality);
+    for (&(method, frame, _), &(quality, _)) in &results.images {
+        qualities.entry((method, frame)).or_default().push(quality);
     }
     let (mut rows, mut averages) = (Vec::new(), Vec::new());
     for &method in &plan.methods {
         let times = times(results, method);
         for &frame in &plan.frames {
-            let Some(errors) = qualities.get(&(method, frame)).and_then(|all| Errors::of(all)) else {
+            let Some(errors) = Errors::of(&by_seed(&qualities, method, &[frame])) else {
                 continue;
             };
             rows.push(Row {
@@ -147,7 +137,7 @@ pub(super) fn summarize(
                 times: times.clone(),
             });
         }
-        if let Some(errors) = averaged(&qualities, method, &plan.frames) {
+        if let Some(errors) = Errors::of(&by_seed(&qualities, method, &plan.frames)) {
             averages.push(Average {
                 scene: scene.to_owned(),
                 method,
@@ -179,33 +169,6 @@ fn by_seed(
 
 fn mean(qualities: &[Quality], measure: impl Fn(&Quality) -> f64) -> f64 {
     qualities.iter().map(measure).sum::<f64>() / qualities.len() as f64
-}
-
-/// As the paper's last column: the mean of the frames' values, PSNR included.
-fn averaged(
-    qualities: &BTreeMap<(Method, u32), Vec<Quality>>,
-    method: Method,
-    frames: &[u32],
-) -> Option<Errors> {
-    let seeds = by_seed(qualities, method, frames);
-    let means: Vec<Quality> = seeds
-        .iter()
-        .map(|frames| Quality {
-            mse: mean(frames, |q| q.mse),
-            ssim: mean(frames, |q| q.ssim),
-            flip: mean(frames, |q| q.flip),
-            linear_mse: mean(frames, |q| q.linear_mse),
-            relative_mse: mean(frames, |q| q.relative_mse),
-        })
-        .collect();
-    let psnrs: Vec<f64> = seeds.iter().map(|frames| mean(frames, Quality::psnr)).collect();
-    let psnr = Estimate::of(&psnrs)?;
-    let errors = Errors::of(&means)?;
-    Some(Errors {
-        psnr: psnr.mean,
-        psnr_ci95: psnr.ci95,
-        ..errors
-    })
 }
 
 fn changes(plan: &Plan, qualities: &BTreeMap<(Method, u32), Vec<Quality>>, method: Method) -> Vec<Change> {

@@ -5,7 +5,7 @@ use lightbvh::{EmissiveTriangle, ShadingPoint};
 use rayon::prelude::*;
 
 use super::subject::Subject;
-use crate::cli::variance::irradiance::irradiance;
+use crate::cli::measure::{irradiance::irradiance, variance};
 
 /// Samples of a point that are compared where no probability of a given light can be asked for.
 const SAMPLES: u32 = 64;
@@ -44,10 +44,7 @@ impl<'a> Light<'a> {
         let lights = self.lights.len().max(1);
         let points = self.sent.iter().zip(pmfs.chunks(lights));
         let lit = points.filter_map(|(sent, pmfs)| {
-            let mean: f64 = sent.iter().sum();
-            let pairs = sent.iter().zip(pmfs).filter(|(sent, _)| **sent > 0.0);
-            let square: f64 = pairs.map(|(sent, &pmf)| sent * sent / f64::from(pmf)).sum();
-            (mean > 0.0).then(|| (square / (mean * mean) - 1.0).max(0.0))
+            variance(sent.iter().zip(pmfs).map(|(&sent, &pmf)| (sent, f64::from(pmf))))
         });
         lit.collect()
     }

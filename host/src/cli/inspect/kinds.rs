@@ -7,20 +7,22 @@ use lightbvh::exact::hash;
 use lightbvh::importance::DefaultImportance;
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::node::{Holds, Lit, Node};
-use lightbvh::requirements::{Declared, LightKinds};
+use lightbvh::requirements::Declared;
 use lightbvh::{BuildParams, Lights, MomentNode, ShadingPoint};
-use lightbvh_kernels::bvh::{AnyNode, WIDTH};
+use lightbvh_kernels::bvh::{AnyNode, Kinds, WIDTH};
 use serde::Serialize;
 use serde_json::json;
 
+use super::light_kinds::LightKinds;
 use super::motion::Motion;
 use super::options::Args;
 use super::report::line;
+use super::said::changes;
 use super::surfaces::Surfaces;
 use super::{MOST_PROBABILITIES, animations, declared};
-use crate::cli::times::ms;
-use crate::cli::trade::quantile::Interval;
-use crate::cli::variance::{NOT_MEASURED, kinds::irradiance_of, mean_of, points};
+use crate::cli::measure::interval::Interval;
+use crate::cli::measure::times::ms;
+use crate::cli::measure::{NOT_MEASURED, kinds::irradiance_of, mean_of, points, variance};
 use crate::cli::{Context, Outcome, table};
 use crate::error::HostError;
 use crate::scene::{Instances, Scene};
@@ -61,17 +63,17 @@ impl Checked {
 /// The whole command for such a scene.
 pub(super) fn run(context: &Context, args: &Args, scene: &Scene) -> Result<Outcome, HostError> {
     let parts = ["layout", "levels", "uniform share", "updates"];
-    if args.width.is_some() || parts.iter().any(|part| args.asks_for(part)) {
+    if parts.iter().any(|part| args.asks_for(part)) {
         return Err(HostError::Usage {
-            option: "--layout, --levels, --width, --uniform or --updates",
+            option: "--layout, --levels, --uniform or --updates",
             needs: "a scene with emissive triangles; over lights of other kinds there is one tree to choose",
         });
     }
-    let motion = Motion::of::<AnyNode>(scene)?;
+    let motion = Motion::of::<Kinds>(scene)?;
     let surfaces = Surfaces::of(scene);
-    let declared = declared(args, &motion, &surfaces);
+    let declared = declared(args, &motion);
     // What is refitted is looked at after a refit.
-    let moved = args.frame + u32::from(declared.changes.transforms);
+    let moved = args.frame + u32::from(declared.transforms);
     let lights = lights_of::<AnyLight>(scene, moved)?;
     let most = MOST_PROBABILITIES / lights.triangles().len().max(1);
     let count = args.points.min((most as u32).max(1));
@@ -87,7 +89,7 @@ pub(super) fn run(context: &Context, args: &Args, scene: &Scene) -> Result<Outco
     let tree = format!("Bvh<{}, Defensive<Moments, 6>, {WIDTH}>", kinds.node_type(WIDTH));
     if context.json {
         table::print_json(&json!({
-            "scene": args.scene, "frame": args.frame, "checked_frame": moved, "lights": lights.triangles().len(),
+            "scene": scene.name(), "frame": args.frame, "checked_frame": moved, "lights": lights.triangles().len(),
             "kinds": { "said": kinds.said(), "narrow": kinds.narrow, "light": kinds.light_type(), "node": kinds.node_type(WIDTH) },
             "suns": scene.sun_count(), "environment": scene.data().environment.is_some(),
             "motion": motion, "animations": animations(scene), "surfaces": surfaces, "tree": checked.as_ref().map(|_| tree), "checked": checked, "holds": holds,
@@ -127,7 +129,7 @@ impl About<'_> {
         let [gloss, masks] = self.surfaces.said();
         let mut text = format!(
             "{} in frame {}, lit by {}\n\nwhat it requires\n",
-            self.args.scene,
+            scene.name(),
             self.args.frame,
             scene.other_lights()
         );
@@ -146,10 +148,10 @@ impl About<'_> {
                 "suns and environment maps (lightbvh::light::infinite)",
             );
         }
-        let Declared { changes, glossy, pmf } = self.declared;
-        text += &line("changes", &table::yes(changes.any()));
-        text += &line("glossy receivers", &format!("{}: {gloss}", table::yes(glossy)));
-        text += &line("pmf of given lights", &table::yes(pmf));
+        let is_glossy = table::yes(self.surfaces.glossy > 0);
+        text += &line("changes", &table::yes(!changes(&self.declared).is_empty()));
+        text += &line("glossy receivers", &format!("{is_glossy}: {gloss}"));
+        text += &line("pmf of given lights", &table::yes(self.declared.pmf));
         text += &line("masks", &masks);
         text += &line("animation", &self.motion.said());
         for note in self.motion.notes() {
@@ -209,20 +211,15 @@ where
     let lights = lights.triangles();
     let (mut unreached, mut variances) = (0, Vec::new());
     for point in points {
-        let (mut sum, mut square) = (0.0, 0.0);
-        for (number, light) in (0..).zip(lights) {
+        variances.extend(variance((0..).zip(lights).map(|(number, light)| {
             let sent = irradiance_of(light, point);
-            if sent > 0.0 {
-                let pmf = f64::from(bvh.pmf(point, number, light.mesh()));
-                unreached += usize::from(pmf <= 0.0);
-                sum += sent;
-                square += sent * sent / pmf;
+            if sent <= 0.0 {
+                return (sent, 0.0);
             }
-        }
-        if sum > 0.0 {
-            // Below zero by rounding only, where one light counts.
-            variances.push((square / (sum * sum) - 1.0).max(0.0));
-        }
+            let pmf = f64::from(bvh.pmf(point, number, light.mesh()));
+            unreached += usize::from(pmf <= 0.0);
+            (sent, pmf)
+        })));
     }
     let passes = SAMPLES_IN_A_TURN.div_ceil((points.len() as u32).max(1));
     let times = (0..TURNS).map(|turn| {
@@ -248,7 +245,7 @@ where
         probabilities: points.len() * lights.len(),
         unreached,
         variance: mean_of(&variances),
-        nodes: bvh.nodes().len(),
+        nodes: bvh.nodes().len() + bvh.top_nodes().len(),
         depth: bvh.depth(),
         bytes_per_light: per_light(bvh.bytes()),
         memory_per_light: per_light(bvh.memory()),
@@ -259,10 +256,10 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli::variance::tests::room;
+    use crate::cli::measure::tests::room;
 
     fn checked(is_lit: bool) -> Checked {
-        let scene = room(is_lit, "LightSource \"point\" \"point3 from\" [0.2 0.2 -1]");
+        let scene = room(is_lit, Some([0.2, 0.2, -1.0]));
         let lights = lights_of::<AnyLight>(&scene, 0).expect("lights");
         let points = points::on_surfaces(&scene, 0, 16);
         check::<Plain>(&scene, [0; 2], &lights, &points).expect("a tree")

@@ -3,29 +3,33 @@
 mod compare;
 mod keys;
 mod kinds;
+mod light_kinds;
 mod motion;
 mod options;
 mod ratio;
 mod report;
+mod said;
 mod steps;
 mod subject;
 mod surfaces;
 
 use lightbvh::BuildParams;
+use lightbvh::importance::DefaultImportance;
 use lightbvh::light::AnyLight;
-use lightbvh::requirements::{Changes, Declared, LightKinds, Requirements};
+use lightbvh::requirements::{Declared, Model, Requirements, Updates};
 use lightbvh_gpu::KernelSet;
-use lightbvh_kernels::bvh::{Node, WIDTH};
+use lightbvh_kernels::bvh::{Node, Standard, WIDTH};
 use serde_json::{Value, json};
 
+use self::light_kinds::LightKinds;
 use self::motion::Motion;
 use self::options::{BackendName, Change};
 use self::report::Report;
 use self::steps::check;
-use self::subject::{Source, is_known};
+use self::subject::Source;
 use self::surfaces::Surfaces;
-use super::variance::points;
 use super::{Context, Outcome, table};
+use crate::cli::measure::points;
 use crate::cli::table::news;
 use crate::error::HostError;
 use crate::scene::{Instances, Scene};
@@ -37,7 +41,7 @@ pub(super) use self::options::Args;
 const MOST_PROBABILITIES: usize = 1 << 25;
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
-    let scene = Scene::open(&args.scene)?;
+    let scene = args.reading.open(&args.scene)?;
     for warning in scene.warnings() {
         news!("{}: {warning}", scene.name());
     }
@@ -48,22 +52,17 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     if let Some(left_out) = scene.unknown_in_figures() {
         news!("{}: {left_out}", scene.name());
     }
-    let motion = Motion::of::<Node>(&scene)?;
+    let motion = Motion::of::<Standard>(&scene)?;
     let surfaces = Surfaces::of(&scene);
-    let (bvh, _) = Instances::new::<Node, (), WIDTH>(&scene, args.frame, BuildParams::default())
-        .map_err(|error| HostError::in_frame(scene.name(), args.frame, error))?;
-    let requirements = Requirements::of(&bvh, declared(args, &motion, &surfaces));
+    let (bvh, _) =
+        Instances::new::<Node, DefaultImportance, WIDTH>(&scene, args.frame, BuildParams::default())
+            .map_err(|error| HostError::in_frame(scene.name(), args.frame, error))?;
+    let requirements = Requirements::of(&bvh, declared(args, &motion));
     let chosen = requirements.model();
     let model = args.overrides(chosen);
-    model.check(&requirements)?;
-    if !is_known(&model) {
-        return Err(HostError::Usage {
-            option: "--width 4 or 16",
-            needs: "--layout moments or two-sided",
-        });
-    }
+    sufficient(&model, &chosen)?;
     // What is refitted is looked at after a refit.
-    let moved = args.frame + u32::from(requirements.declared.changes.transforms);
+    let moved = args.frame + u32::from(requirements.declared.transforms);
     let lights = lights_at(&scene, moved)?;
     let most = MOST_PROBABILITIES / lights.triangles().len().max(1);
     let count = args.points.min((most as u32).max(1));
@@ -81,6 +80,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     }
     let report = Report {
         args,
+        scene: scene.name(),
         points: count,
         moved,
         motion,
@@ -99,6 +99,29 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         report.print()?;
     }
     Ok(Outcome::good_if(report.holds()))
+}
+
+/// Whether a model has what the smallest that is sufficient has.
+fn sufficient(model: &Model, least: &Model) -> Result<(), HostError> {
+    let (option, needs) = if model.updates < least.updates && least.updates == Updates::Meshes {
+        (
+            "--updates",
+            "meshes that stay as they are; keep updates of meshes",
+        )
+    } else if model.updates < least.updates {
+        (
+            "--updates nothing",
+            "instances that stay as they are; keep updates of instances",
+        )
+    } else if model.single_level && !least.single_level {
+        (
+            "--levels one",
+            "instances that stay as they are, each with a mesh of its own; take two levels",
+        )
+    } else {
+        return Ok(());
+    };
+    Err(HostError::Usage { option, needs })
 }
 
 /// The kinds of light of a scene, where there are others than triangles.
@@ -126,18 +149,14 @@ fn animations(scene: &Scene) -> Value {
         .collect()
 }
 
-fn declared(args: &Args, motion: &Motion, surfaces: &Surfaces) -> Declared {
-    let has = |change| args.changes.contains(&change);
-    let changes = Changes {
-        transforms: has(Change::Transforms) || motion.moving > 0,
+fn declared(args: &Args, motion: &Motion) -> Declared {
+    let has = |change| !args.still && args.changes.contains(&change);
+    Declared {
+        transforms: has(Change::Transforms) || !args.still && motion.moving > 0,
         radiance: has(Change::Radiance),
-        triangles: has(Change::Triangles) || motion.bending > 0,
+        triangles: has(Change::Triangles) || !args.still && motion.bending > 0,
         instances: has(Change::Instances),
         meshes: has(Change::Meshes),
-    };
-    Declared {
-        changes: if args.still { Changes::NONE } else { changes },
-        glossy: surfaces.glossy > 0,
         pmf: !args.no_mis,
     }
 }

@@ -3,9 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use lightbvh::node::{Holds, Node};
 use lightbvh::{BuildParams, Edit};
-use lightbvh_kernels::bvh::WIDTH;
+use lightbvh_kernels::bvh::{Choice, WIDTH};
 use serde::Serialize;
 
 use super::keys;
@@ -68,11 +67,11 @@ fn names<L: SceneLight>(scene: &Scene) -> Vec<String> {
 }
 
 impl Motion {
-    /// Of the lights that the nodes of a tree hold.
-    pub fn of<N: Node<WIDTH> + Holds<Light: SceneLight>>(scene: &Scene) -> Result<Self, HostError> {
+    /// Of the lights that trees of a choice hold.
+    pub fn of<C: Choice<WIDTH, Light: SceneLight>>(scene: &Scene) -> Result<Self, HostError> {
         let (mut frames, mut rounds) = (0, 0);
-        let names = names::<N::Light>(scene);
-        let (_, mut instances) = Instances::<N::Light>::new::<N, (), WIDTH>(scene, 0, BuildParams::FAST)
+        let names = names::<C::Light>(scene);
+        let (_, mut instances) = Instances::new::<C::Node, C::Importance, WIDTH>(scene, 0, BuildParams::FAST)
             .map_err(|error| HostError::in_frame(scene.name(), 0, error))?;
         let mut moves = vec![0_u32; names.len()];
         let mut bends = vec![false; names.len()];

@@ -1,11 +1,16 @@
 //! What may be declared of a scene, and what may be asked for instead of what is chosen.
 
-use lightbvh::requirements::{Layout, Model, Structure, Updates};
+use std::ffi::OsString;
+
+use crate::cli::reading::Reading;
+use lightbvh::requirements::{Layout, Model, Updates};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .pbrt, .obj or .ply file.
-    pub scene: String,
+    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .obj or .ply file.
+    pub scene: OsString,
+    #[command(flatten)]
+    pub(in crate::cli) reading: Reading,
     /// Lights stay as they are in this frame, whatever the scene's animations say.
     #[arg(long = "static", conflicts_with = "changes")]
     pub still: bool,
@@ -21,22 +26,19 @@ pub struct Args {
     /// One level or two, instead of what is chosen.
     #[arg(long, value_enum)]
     pub levels: Option<LevelsName>,
-    /// Children of a node, instead of 8: 4 or 16, of moments and two-sided moments.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(4..=16))]
-    pub width: Option<u32>,
     /// Share of uniform choice, instead of what is chosen.
     #[arg(long, value_enum)]
     pub uniform: Option<Share>,
     /// What may be changed, instead of what is chosen.
     #[arg(long, value_enum)]
     pub updates: Option<UpdatesName>,
-    /// Where lights are sampled. On devices a model whose kernels are not compiled is refused, with the command that compiles them.
+    /// Where lights are sampled; for devices, a model whose kernels are not compiled is refused.
     #[arg(long, value_enum, default_value_t = BackendName::Cpu)]
     pub backend: BackendName,
-    /// Points on the surfaces of the scene that probabilities are compared at, fewer where there are more than 131,072 lights.
+    /// Points on surfaces that probabilities are compared at; fewer for more than 131,072 lights.
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub points: u32,
-    /// Frame of the animation that trees are built in; where instances move they are compared one frame later.
+    /// Frame that trees are built in; if instances move, they are compared one frame later.
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=1_000_000))]
     pub frame: u32,
 }
@@ -61,10 +63,6 @@ pub enum LayoutName {
     Moments,
     /// The same without mean normals: 20 bytes.
     TwoSided,
-    /// Without boxes and with one deviation: 20 bytes.
-    Lean,
-    /// Not quantised: 60 bytes.
-    Full,
 }
 
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
@@ -102,7 +100,6 @@ impl Args {
         match part {
             "layout" => self.layout.is_some(),
             "levels" => self.levels.is_some(),
-            "width" => self.width.is_some(),
             "uniform share" => self.uniform.is_some(),
             _ => self.updates.is_some(),
         }
@@ -120,15 +117,11 @@ impl Args {
                 None => chosen.layout,
                 Some(LayoutName::Moments) => Layout::Moments,
                 Some(LayoutName::TwoSided) => Layout::TwoSidedMoments,
-                Some(LayoutName::Lean) => Layout::LeanMoments,
-                Some(LayoutName::Full) => Layout::FullMoments,
             },
-            structure: match self.levels {
-                None => chosen.structure,
-                Some(LevelsName::One) => Structure::SingleLevel,
-                Some(LevelsName::Two) => Structure::TwoLevel,
+            single_level: match self.levels {
+                None => chosen.single_level,
+                Some(levels) => matches!(levels, LevelsName::One),
             },
-            width: self.width.map_or(chosen.width, |width| width as usize),
             uniform_halvings,
             // A share of uniform choice finds its lights by trails.
             trails: chosen.trails || uniform_halvings > 0,
@@ -140,6 +133,7 @@ impl Args {
                 Some(UpdatesName::Instances) => Updates::Instances,
                 Some(UpdatesName::Meshes) => Updates::Meshes,
             },
+            ..chosen
         }
     }
 }

@@ -1,22 +1,26 @@
 //! What `lightbvh inspect` says.
 
-use lightbvh::requirements::{Fact, LightKinds, Model, Requirements, Structure};
+use lightbvh::requirements::{Model, Requirements};
 use lightbvh_kernels::bvh::WIDTH;
 use serde_json::{Value, json};
 
+use super::light_kinds::LightKinds;
 use super::motion::Motion;
 use super::options::Args;
 use super::ratio::MeanRatio;
+use super::said::{self, Fact};
 use super::steps::{Checked, Cost, MOST_VARIANCE, Promise, Step};
 use super::surfaces::Surfaces;
+use crate::cli::measure::NOT_MEASURED;
+use crate::cli::measure::interval::Interval;
 use crate::cli::table;
-use crate::cli::trade::quantile::Interval;
-use crate::cli::variance::NOT_MEASURED;
 use crate::error::HostError;
 
 /// Everything that is said.
 pub(super) struct Report<'a> {
     pub args: &'a Args,
+    /// Its name.
+    pub scene: &'a str,
     /// How many were looked at.
     pub points: u32,
     /// The frame in which they were.
@@ -45,18 +49,20 @@ impl Report<'_> {
             .all(|step| step.held || step.promise == Promise::Variance)
     }
 
+    fn facts(&self) -> Vec<Fact> {
+        said::facts(&self.requirements, self.surfaces.glossy > 0)
+    }
+
+    fn reasons(&self) -> Vec<String> {
+        said::reasons(&self.requirements, self.surfaces.glossy > 0)
+    }
+
     pub fn json(&self) -> Value {
-        let facts: Vec<Value> = self
-            .requirements
-            .facts()
-            .into_iter()
-            .map(|fact| json!({ "name": fact.name, "found": fact.found, "reason": fact.reason }))
-            .collect();
         let Checked { default, cost, .. } = self.checked;
         json!({
-            "scene": self.args.scene, "frame": self.args.frame, "checked_frame": self.moved, "points": self.points,
+            "scene": self.scene, "frame": self.args.frame, "checked_frame": self.moved, "points": self.points,
             "lights": self.requirements.lights,
-            "facts": facts,
+            "facts": self.facts(),
             "motion": self.motion,
             "animations": self.animations,
             "surfaces": self.surfaces,
@@ -64,7 +70,7 @@ impl Report<'_> {
                 "said": kinds.said(), "narrow": kinds.narrow, "light": kinds.light_type(), "node": kinds.node_type(WIDTH),
             })),
             "chosen": model_json(&self.chosen),
-            "reasons": self.requirements.reasons(),
+            "reasons": self.reasons(),
             "model": model_json(&self.checked.model),
             "overridden": self.asked_for,
             "kernels": { "committed": self.kernels.is_none(), "command": self.kernels },
@@ -82,10 +88,10 @@ impl Report<'_> {
     pub fn print(&self) -> Result<(), HostError> {
         let mut text = format!(
             "{} in frame {}, {} emissive triangles\n\nwhat it requires\n",
-            self.args.scene, self.args.frame, self.requirements.lights
+            self.scene, self.args.frame, self.requirements.lights
         );
         let [gloss, masks] = self.surfaces.said();
-        for Fact { name, found, reason } in self.requirements.facts() {
+        for Fact { name, found, reason } in self.facts() {
             let reason = match name {
                 "glossy receivers" => &gloss,
                 _ => &reason,
@@ -98,7 +104,7 @@ impl Report<'_> {
             text += &line("", &note);
         }
         text += &format!("\nthe smallest model that is sufficient: {}\n", self.chosen);
-        for reason in self.requirements.reasons() {
+        for reason in self.reasons() {
             text += &format!("  {reason}\n");
         }
         if let Some(kinds) = &self.kinds {
@@ -262,10 +268,7 @@ fn model_json(model: &Model) -> Value {
     json!({
         "type": model.type_name(),
         "layout": model.layout.name(),
-        "levels": match model.structure {
-            Structure::SingleLevel => 1,
-            Structure::TwoLevel => 2,
-        },
+        "levels": 2 - u32::from(model.single_level),
         "width": model.width,
         "uniform_halvings": model.uniform_halvings,
         "trails": model.trails,

@@ -3,16 +3,16 @@
 use lightbvh::ShadingPoint;
 use lightbvh::exact::hash;
 use lightbvh::refit::Instance;
-use lightbvh::requirements::{Layout, Model, Orientation, Requirements, Structure, TransformKind};
+use lightbvh::requirements::{Layout, Model, Requirements, TransformKind};
 use serde::Serialize;
 
 use super::compare::{Compared, Light};
 use super::options::Args;
 use super::ratio::MeanRatio;
 use super::subject::{Source, Subject, build};
-use crate::cli::times::ms;
-use crate::cli::trade::quantile::Interval;
-use crate::cli::variance::mean_of;
+use crate::cli::measure::interval::Interval;
+use crate::cli::measure::mean_of;
+use crate::cli::measure::times::in_turns;
 use crate::error::HostError;
 
 /// Where probabilities may differ, the mean variance of a sample surely rises by no more than a twentieth.
@@ -84,10 +84,9 @@ pub(super) struct Checked {
 type Part = (&'static str, fn(&mut Model, &Model));
 
 /// Each is taken after those before it: without a share of uniform choice trails can go.
-const PARTS: [Part; 6] = [
+const PARTS: [Part; 5] = [
     ("layout", |to, from| to.layout = from.layout),
-    ("levels", |to, from| to.structure = from.structure),
-    ("width", |to, from| to.width = from.width),
+    ("levels", |to, from| to.single_level = from.single_level),
     ("uniform share", |to, from| {
         to.uniform_halvings = from.uniform_halvings;
     }),
@@ -102,12 +101,8 @@ fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
         && requirements.transform() == TransformKind::Identity
         && requirements.dimmed == 0;
     match part {
-        "layout"
-            if model.layout == Layout::TwoSidedMoments && requirements.orientation == Orientation::Absent =>
-        {
-            Promise::Bits
-        }
-        "levels" if model.structure == Structure::SingleLevel && is_identity => Promise::BitsBelowInstance,
+        "layout" if model.layout == Layout::TwoSidedMoments && requirements.one_sided == 0 => Promise::Bits,
+        "levels" if model.single_level && is_identity => Promise::BitsBelowInstance,
         "trails" | "updates" => Promise::Bits,
         _ => Promise::Variance,
     }
@@ -177,7 +172,7 @@ pub(super) fn check(
             (now, last, before, variances_before) = (then, subjects.len() - 1, pmfs, variances);
         }
     }
-    let costs = costs(&subjects, points, lights.len());
+    let costs = costs(&subjects, points, lights.len())?;
     for (step, cost) in steps.iter_mut().zip(&costs[1..]) {
         step.cost = *cost;
     }
@@ -191,49 +186,45 @@ pub(super) fn check(
 }
 
 /// Bytes, and times in turns that each begin with another subject.
-fn costs(subjects: &[Box<dyn Subject>], points: &[ShadingPoint], lights: usize) -> Vec<Cost> {
-    let passes = SAMPLES_IN_A_TURN.div_ceil(points.len() as u32);
-    let mut times: Vec<Vec<f64>> = vec![Vec::new(); subjects.len()];
-    for turn in 0..TURNS {
-        for k in 0..subjects.len() {
-            let at = (k + turn as usize) % subjects.len();
-            let time = ms(subjects[at].time(points, hash(turn), passes));
-            times[at].push(1e6 * time / f64::from(passes) / points.len() as f64);
-        }
-    }
+fn costs(
+    subjects: &[Box<dyn Subject>],
+    points: &[ShadingPoint],
+    lights: usize,
+) -> Result<Vec<Cost>, HostError> {
+    let passes = SAMPLES_IN_A_TURN.div_ceil((points.len() as u32).max(1));
+    let samples = passes * points.len() as u32;
+    let time = |at: usize, turn| Ok(subjects[at].time(points, hash(turn), passes));
+    let times = in_turns(subjects.len(), TURNS, samples, time)?;
     let lights = lights.max(1) as f64;
     let both = subjects.iter().zip(&times);
-    both.map(|(subject, own)| Cost {
+    let costs = both.map(|(subject, own)| Cost {
         bytes_per_light: subject.read_bytes() as f64 / lights,
         memory_per_light: subject.all_bytes() as f64 / lights,
         ns_per_sample: Interval::of(own.clone()).median,
         ns_saved: Interval::of(times[0].iter().zip(own).map(|(a, b)| a - b).collect()),
-    })
-    .collect()
+    });
+    Ok(costs.collect())
 }
 
 #[cfg(test)]
 mod tests {
     use clap::{Args as _, FromArgMatches};
-    use lightbvh::requirements::{Changes, Declared};
+    use lightbvh::importance::DefaultImportance;
+    use lightbvh::requirements::Declared;
     use lightbvh::{BuildParams, Lights};
     use lightbvh_kernels::bvh::{Node, WIDTH};
 
     use super::*;
-    use crate::cli::variance::{points, tests::room};
+    use crate::cli::measure::{points, tests::room};
     use crate::scene::Instances;
     use crate::workload::lights_at;
 
     fn checked(is_lit: bool) -> Checked {
-        let scene = room(is_lit, "");
+        let scene = room(is_lit, None);
         let lights: Lights = lights_at(&scene, 0).expect("lights");
-        let (bvh, _) = Instances::new::<Node, (), WIDTH>(&scene, 0, BuildParams::default()).expect("a tree");
-        let declared = Declared {
-            changes: Changes::NONE,
-            glossy: false,
-            pmf: true,
-        };
-        let requirements = Requirements::of(&bvh, declared);
+        let (bvh, _) = Instances::new::<Node, DefaultImportance, WIDTH>(&scene, 0, BuildParams::default())
+            .expect("a tree");
+        let requirements = Requirements::of(&bvh, Declared::STATIC);
         let given = Args::augment_args(clap::Command::new("inspect")).get_matches_from(["inspect", "room"]);
         let args = Args::from_arg_matches(&given).expect("options");
         let source = Source {

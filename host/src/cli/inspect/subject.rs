@@ -4,11 +4,13 @@ use std::time::{Duration, Instant};
 
 use lightbvh::bvh::{NoTrails, StaticBvh, StaticMeshBvh, Trails};
 use lightbvh::exact::hash;
-use lightbvh::requirements::{Layout, Model, Structure, Updates};
+use lightbvh::importance::DefaultImportance;
+use lightbvh::requirements::{Layout, Model, Updates};
 use lightbvh::{
-    BuildParams, Bvh, Defensive, Edit, EditError, FullMomentNode, ImportanceModel, LeanMomentNode, LightNode,
-    Lights, MomentLayout, MomentNode, Moments, SampledLight, ShadingPoint, TwoSidedMomentNode,
+    BuildParams, Bvh, ImportanceModel, LightNode, Lights, MomentLayout, MomentNode, Moments, SampledLight,
+    ShadingPoint, TwoSidedMomentNode,
 };
+use lightbvh_kernels::bvh::WIDTH;
 
 use crate::error::HostError;
 use crate::scene::{Instances, Scene};
@@ -86,95 +88,69 @@ macro_rules! subject {
     };
 }
 
-subject!([N: LightNode<W>, I: ImportanceModel<N, W> + Sync, const W: usize]
-    Bvh<N, I, W>, memory, |bvh: &Self, p, l, i| Some(bvh.pmf(p, l, i)));
-subject!([N: LightNode<W>, I: ImportanceModel<N, W> + Sync, const W: usize]
-    StaticBvh<N, I, W>, bytes, |bvh: &Self, p, l, i| Some(bvh.pmf(p, l, i)));
-subject!([N: LightNode<W>, I: ImportanceModel<N, W> + Sync, const W: usize]
-    StaticMeshBvh<N, I, W>, memory, |bvh: &Self, p, l, i| Some(bvh.pmf(p, l, i)));
-subject!([N: MomentLayout<W> + LightNode<W>, const W: usize]
-    StaticMeshBvh<N, Moments, W, NoTrails>, memory, |_, _, _, _| None);
-subject!([N: MomentLayout<W> + LightNode<W>, const W: usize]
-    Bvh<N, Moments, W, NoTrails>, memory, |_, _, _, _| None);
-subject!([N: MomentLayout<W> + LightNode<W>, const W: usize]
-    StaticBvh<N, Moments, W, NoTrails>, bytes, |_, _, _, _| None);
+subject!([N: LightNode<WIDTH>, I: ImportanceModel<N, WIDTH> + Sync]
+    Bvh<N, I, WIDTH>, memory, |bvh: &Self, p, l, i| Some(bvh.pmf(p, l, i)));
+subject!([N: LightNode<WIDTH>, I: ImportanceModel<N, WIDTH> + Sync]
+    StaticBvh<N, I, WIDTH>, bytes, |bvh: &Self, p, l, i| Some(bvh.pmf(p, l, i)));
+subject!([N: LightNode<WIDTH>, I: ImportanceModel<N, WIDTH> + Sync]
+    StaticMeshBvh<N, I, WIDTH>, memory, |bvh: &Self, p, l, i| Some(bvh.pmf(p, l, i)));
+subject!([N: MomentLayout<WIDTH> + LightNode<WIDTH>]
+    StaticMeshBvh<N, Moments, WIDTH, NoTrails>, memory, |_, _, _, _| None);
+subject!([N: MomentLayout<WIDTH> + LightNode<WIDTH>]
+    Bvh<N, Moments, WIDTH, NoTrails>, memory, |_, _, _, _| None);
+subject!([N: MomentLayout<WIDTH> + LightNode<WIDTH>]
+    StaticBvh<N, Moments, WIDTH, NoTrails>, bytes, |_, _, _, _| None);
 
-/// The light BVH of `model`, whose width and layout [`is_known`] knows.
+/// The light BVH of `model`.
 pub(super) fn build(model: &Model, source: &Source<'_>) -> Result<Box<dyn Subject>, HostError> {
-    match (model.layout, model.width) {
-        (Layout::TwoSidedMoments, 4) => chosen::<TwoSidedMomentNode<4>, 4>(model, source),
-        (Layout::TwoSidedMoments, 16) => chosen::<TwoSidedMomentNode<16>, 16>(model, source),
-        (Layout::TwoSidedMoments, _) => chosen::<TwoSidedMomentNode<8>, 8>(model, source),
-        (Layout::LeanMoments, _) => chosen::<LeanMomentNode<8>, 8>(model, source),
-        (Layout::FullMoments, _) => chosen::<FullMomentNode<8>, 8>(model, source),
-        (_, 4) => chosen::<MomentNode<4>, 4>(model, source),
-        (_, 16) => chosen::<MomentNode<16>, 16>(model, source),
-        (_, _) => chosen::<MomentNode<8>, 8>(model, source),
+    match model.layout {
+        Layout::TwoSidedMoments => chosen::<TwoSidedMomentNode<WIDTH>>(model, source),
+        _ => chosen::<MomentNode<WIDTH>>(model, source),
     }
 }
 
-/// Whether [`build`] has the model's layout in its width.
-pub(super) fn is_known(model: &Model) -> bool {
-    let any_width = matches!(model.layout, Layout::Moments | Layout::TwoSidedMoments);
-    model.width == 8 || (any_width && [4, 16].contains(&model.width))
-}
-
-fn chosen<N, const W: usize>(model: &Model, source: &Source<'_>) -> Result<Box<dyn Subject>, HostError>
+fn chosen<N>(model: &Model, source: &Source<'_>) -> Result<Box<dyn Subject>, HostError>
 where
-    N: MomentLayout<W> + LightNode<W> + 'static,
+    N: MomentLayout<WIDTH> + LightNode<WIDTH> + 'static,
 {
-    match (model.uniform_halvings, model.trails) {
-        (0, false) => {
-            let (bvh, edits) = built::<N, Moments, W>(model, source)?;
-            kept(bvh.without_trails(), edits, model.updates)
-        }
-        (0, true) => {
-            let (bvh, edits) = built::<N, Moments, W>(model, source)?;
-            kept(bvh, edits, model.updates)
-        }
-        _ => {
-            let (bvh, edits) = built::<N, Defensive<Moments, 6>, W>(model, source)?;
-            kept(bvh, edits, model.updates)
-        }
-    }
-    .map_err(|error| HostError::in_frame(source.scene.name(), source.moved, error))
-}
-
-/// With what `updates` need, then moved and refitted.
-fn kept<N: LightNode<W> + 'static, I: 'static, const W: usize, T: Trails + 'static>(
-    mut bvh: Bvh<N, I, W, T>,
-    edits: Vec<Edit>,
-    updates: Updates,
-) -> Result<Box<dyn Subject>, EditError>
-where
-    Bvh<N, I, W, T>: Subject,
-    StaticMeshBvh<N, I, W, T>: Subject,
-    StaticBvh<N, I, W, T>: Subject,
-{
-    if updates == Updates::Instances {
-        let mut bvh = bvh.into_static_meshes();
-        bvh.apply(edits)?;
-        bvh.refit();
-        return Ok(Box::new(bvh));
-    }
-    bvh.apply(edits)?;
-    bvh.refit();
-    Ok(match updates {
-        Updates::Nothing => Box::new(bvh.into_static()),
-        _ => Box::new(bvh),
+    Ok(match (model.uniform_halvings, model.trails) {
+        (0, false) => kept(
+            built::<N, Moments>(model, source)?.without_trails(),
+            model.updates,
+        ),
+        (0, true) => kept(built::<N, Moments>(model, source)?, model.updates),
+        _ => kept(built::<N, DefaultImportance>(model, source)?, model.updates),
     })
 }
 
-/// A light BVH, and the edits that move it; none where lights stay.
-fn built<N: LightNode<W>, I, const W: usize>(
-    model: &Model,
-    source: &Source<'_>,
-) -> Result<(Bvh<N, I, W>, Vec<Edit>), HostError> {
-    let params = BuildParams::default();
-    if model.structure == Structure::SingleLevel {
-        return Ok((Bvh::single_level(source.lights, &params), Vec::new()));
+/// With what `updates` need.
+fn kept<N: LightNode<WIDTH> + 'static, I: 'static, T: Trails + 'static>(
+    bvh: Bvh<N, I, WIDTH, T>,
+    updates: Updates,
+) -> Box<dyn Subject>
+where
+    Bvh<N, I, WIDTH, T>: Subject,
+    StaticMeshBvh<N, I, WIDTH, T>: Subject,
+    StaticBvh<N, I, WIDTH, T>: Subject,
+{
+    match updates {
+        Updates::Nothing => Box::new(bvh.into_static()),
+        Updates::Instances => Box::new(bvh.into_static_meshes()),
+        _ => Box::new(bvh),
     }
-    let (bvh, mut instances) = Instances::new(source.scene, source.frame, params)
+}
+
+/// A light BVH, moved and refitted if its lights move.
+fn built<N: LightNode<WIDTH>, I>(model: &Model, source: &Source<'_>) -> Result<Bvh<N, I, WIDTH>, HostError> {
+    let params = BuildParams::default();
+    if model.single_level {
+        return Ok(Bvh::single_level(source.lights, &params));
+    }
+    let refused = |error| HostError::in_frame(source.scene.name(), source.moved, error);
+    let (mut bvh, mut instances) = Instances::new(source.scene, source.frame, params)
         .map_err(|error| HostError::in_frame(source.scene.name(), source.frame, error))?;
-    Ok((bvh, instances.edits(source.scene, source.moved)))
+    bvh.apply(instances.edits(source.scene, source.moved))
+        .map_err(refused)?;
+    bvh.refit();
+    Ok(bvh)
 }

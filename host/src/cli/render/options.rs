@@ -1,11 +1,13 @@
 //! What `lightbvh render` is told.
 
+use std::ffi::OsString;
 use std::ops::Range;
 use std::path::PathBuf;
 
 use super::view::{CameraName, Up, camera};
 use crate::backend::{Combination, Integrator};
 use crate::cli::frames;
+use crate::cli::reading::Reading;
 use crate::error::HostError;
 use crate::method::{Builder, Importance, Method, Recipe, SampleBudget};
 
@@ -14,14 +16,14 @@ const DEFAULT_BOUNCES: u32 = 8;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .pbrt, .obj or .ply file.
-    pub(super) scene: String,
+    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .obj or .ply file.
+    pub(super) scene: OsString,
+    #[command(flatten)]
+    pub(super) reading: Reading,
     /// Frame of the animation, 25 per second.
     #[arg(long, default_value_t = 0)]
     pub(super) frame: u32,
-    /// Render frames A to B (B left out) into files numbered by frame: FILE-0000.png and so on. A light BVH is built for
-    /// the first frame and follows the lights from there on: a single level is refitted, of two levels the upper one is
-    /// also rebuilt beside each frame and swapped in at the next.
+    /// Render frames A to B (B left out) into files numbered by frame: FILE-0000.png and so on.
     #[arg(long, value_name = "A..B", value_parser = frames::parse, conflicts_with = "frame")]
     pub(super) animate: Option<Range<u32>>,
     /// Columns, 1 to 16384.
@@ -30,11 +32,10 @@ pub struct Args {
     /// Rows, 1 to 16384.
     #[arg(long, default_value_t = 360)]
     pub(super) height: u32,
-    /// Light samples per pixel, 1 to 65536; of ReSTIR, final samples with a history each, 1 to 64 [default: 16; of
-    /// ReSTIR, 1].
+    /// Light samples per pixel, 1 to 65536; of ReSTIR, histories, 1 to 64 [default: 16; of ReSTIR, 1].
     #[arg(long)]
     pub(super) spp: Option<u32>,
-    /// Which of the scene's cameras looks, counted from 0; `auto`: one chosen by what is lit, as where the scene has none.
+    /// Number of the scene's camera, from 0; `auto`: chosen by what is lit.
     #[arg(long, default_value = "0", value_name = "N|auto", value_parser = camera)]
     pub(super) camera: CameraName,
     /// Look from this place, metres, in place of any camera of the scene.
@@ -46,12 +47,10 @@ pub struct Args {
     /// Vertical field of view with --look-from, degrees, 1 to 170.
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=170), requires = "look_from")]
     pub(super) fov: u32,
-    /// Which animation is shown, alone, by its name or by its number in the file from 0; may be repeated [default: all, of
-    /// those that move the same things the first].
+    /// Animation to show alone, by name or number from 0; may be repeated [default: all that can be].
     #[arg(long, value_name = "NAME|NUMBER")]
     pub(super) animation: Vec<String>,
-    /// Which axis of a .obj or .ply file points up; those formats do not say. With z, (x, y, z) of the file lies at (x, z, -y),
-    /// for --look-from too.
+    /// Axis of a .obj or .ply file that points up; with z, (x, y, z) of the file lies at (x, z, -y).
     #[arg(long, value_enum, default_value_t = Up::Y)]
     pub(super) up: Up,
     /// An environment map that lights the scene: a .hdr or .exr picture by longitude and latitude.
@@ -60,22 +59,19 @@ pub struct Args {
     /// Factor on the environment map's radiance.
     #[arg(long, default_value_t = 1.0, value_parser = exposure, requires = "environment")]
     pub(super) environment_scale: f32,
-    /// Show the mean of each texture in its place, and neither glass nor what is cut out: as all commands but this and `verify` do.
+    /// Show the mean of each texture, and neither glass nor cut-outs.
     #[arg(long)]
     pub(super) no_textures: bool,
-    /// How lights are chosen. ReSTIR runs through up to 8 earlier frames before the first one shown.
+    /// How lights are chosen; ReSTIR starts up to 8 frames before the first one shown.
     #[arg(long, value_enum, default_value_t = Method::TwoLevelMoments)]
     pub(super) sampler: Method,
-    /// Candidates that each light sample is one of, 1 to 256, chosen by what they would contribute; one shadow ray as ever
-    /// [default: 1; of two-level-moments-resampled, 8].
+    /// Candidates of each light sample, 1 to 256 [default: 1; of two-level-moments-resampled, 8].
     #[arg(long)]
     pub(super) candidates: Option<u32>,
-    /// Directions that the surface reflects into, 0 to 16, one ray each: lights that lie there join the candidates of each
-    /// light sample. For lights seen in glossy surfaces.
+    /// Reflected rays, 0 to 16, whose lights join the candidates: for lights seen in glossy surfaces.
     #[arg(long, default_value_t = 0)]
     pub(super) scattered: u32,
-    /// How ReSTIR combines samples of other pixels and frames: without bias, or biased (darker where pixels do not see the
-    /// same lights) with fewer shadow rays [default: unbiased].
+    /// Reuse without bias, or biased (darker, with fewer shadow rays) [default: unbiased].
     #[arg(long, value_enum)]
     pub(super) restir_mode: Option<Combination>,
     /// Light reflected once, or along whole paths.
@@ -84,10 +80,10 @@ pub struct Args {
     /// Most reflections of a path, 1 to 64, with --integrator path; 1 is direct lighting [default: 8].
     #[arg(long)]
     pub(super) bounces: Option<u32>,
-    /// What lights of a BVH are chosen by: moments, or the paper's Eq. 4 [default: that of the sampler].
+    /// What lights of a BVH are chosen by: moments, or the paper's Eq. 4 [default: the sampler's].
     #[arg(long, value_enum)]
     pub(super) importance: Option<Importance>,
-    /// How the light BVH is built [default: that of the sampler; with --importance, ward or, for eq4, saoh as in the paper].
+    /// How the light BVH is built [default: the sampler's; with --importance, ward, or saoh for eq4].
     #[arg(long, value_enum)]
     pub(super) heuristic: Option<Builder>,
     /// What renders.
@@ -96,7 +92,7 @@ pub struct Args {
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 0)]
     pub(super) seed: u32,
-    /// Exposure as a factor on radiance; by default chosen from the image, up to 1000. EXR files are linear and take none.
+    /// Factor on radiance [default: chosen by the image, up to 1000]; EXR files are linear.
     #[arg(long, value_parser = exposure)]
     pub(super) exposure: Option<f32>,
     /// The file to write: .png (tone-mapped) or .exr (linear).

@@ -14,7 +14,6 @@ impl Up {
     /// The scene of a file whose axis this is.
     pub(super) fn turn(self, scene: Scene) -> Result<Scene, HostError> {
         let name = scene.name().to_ascii_lowercase();
-        let name = name.strip_suffix(".gz").unwrap_or(&name);
         match self {
             Self::Y => Ok(scene),
             Self::Z if name.ends_with(".obj") || name.ends_with(".ply") => Ok(scene.from_z_up()?),

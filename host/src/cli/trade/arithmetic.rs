@@ -5,14 +5,15 @@ use std::cell::RefCell;
 use lightbvh::BuildParams;
 use lightbvh::SampledLight;
 use lightbvh_gpu::contractible;
-use lightbvh_kernels::bvh::{Native, Standard, TriangleChoice, WIDTH};
-use lightbvh_kernels::query::Query;
+use lightbvh_kernels::bvh::{Native, Node, Standard, TriangleChoice, WIDTH};
+use lightbvh_kernels::query::{Query, pmf_query, sample_query};
+use rayon::prelude::*;
 use serde::Serialize;
 
-use super::quantile::Interval;
-use super::turns::in_turns;
-use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, Sampler, Timed};
+use crate::backend::{Bvh, DeviceBackend, Sampler, Timed};
 use crate::cli::devices::Opened;
+use crate::cli::measure::interval::Interval;
+use crate::cli::measure::times::in_turns;
 use crate::cli::table;
 use crate::error::HostError;
 use crate::scene::Scene;
@@ -31,7 +32,7 @@ enum Operations {
     Exact,
     /// The same kernels, but the driver may contract and rearrange.
     Contractible,
-    /// `NativeMath`.
+    /// `NativeMath`, on the CPU alone.
     Native,
 }
 
@@ -42,8 +43,6 @@ pub(super) struct Arithmetic {
     /// `cpu`, or the device's name.
     device: String,
     operations: Operations,
-    /// Whether sums of products are those of `VK_KHR_shader_fma`.
-    shader_fma: bool,
     ns_per_sample: f64,
     /// Time of a sample over that of the exact operations on the same processor, turn by turn.
     sample_ratio: Interval,
@@ -83,34 +82,31 @@ type Answer<'a, T> = Box<dyn FnMut(&[Query]) -> Result<Timed<Vec<T>>, HostError>
 struct Side<'a> {
     device: String,
     operations: Operations,
-    shader_fma: bool,
     sample: Answer<'a, SampledLight>,
     pmf: Answer<'a, f32>,
 }
 
 /// Measures a scene's tree of two levels at `frame`.
 pub(super) fn measure(
-    name: &str,
+    scene: &Scene,
     frame: u32,
     opened: &[Opened],
     turns: u32,
 ) -> Result<Vec<Arithmetic>, HostError> {
-    let scene = Scene::open(name)?;
-    let lights = lights_at(&scene, frame)?;
-    let asked = queries(&arrays_at(&scene, frame, 96, 54)?, SEED, 0, QUERIES);
+    let lights = lights_at(scene, frame)?;
+    let asked = queries(&arrays_at(scene, frame, 96, 54)?, SEED, 0, QUERIES);
     let params = BuildParams::default();
-    let exact: Bvh<Standard, WIDTH> = build(&lights, Sampler::TwoLevel, &params);
-    let native: Bvh<Native, WIDTH> = build(&lights, Sampler::TwoLevel, &params);
+    let exact: Bvh = build(&lights, Sampler::TwoLevel, &params);
     let devices = opened
         .iter()
-        .map(|o| DeviceBackend::<Standard, WIDTH>::new(&o.device, &exact).map(RefCell::new))
+        .map(|o| DeviceBackend::new(&o.device, &exact).map(RefCell::new))
         .collect::<Result<Vec<_>, _>>()?;
     let mut sides = vec![
         on_cpu::<Standard>(Operations::Exact, &exact),
-        on_cpu::<Native>(Operations::Native, &native),
+        on_cpu::<Native>(Operations::Native, &exact),
     ];
     for (o, backend) in opened.iter().zip(&devices) {
-        for operations in [Operations::Exact, Operations::Contractible, Operations::Native] {
+        for operations in [Operations::Exact, Operations::Contractible] {
             sides.push(on_device(o, backend, operations)?);
         }
     }
@@ -120,7 +116,7 @@ pub(super) fn measure(
         .iter_mut()
         .map(|side| side.words(&asked, &chosen))
         .collect::<Result<_, _>>()?;
-    let times = in_turns(sides.len(), turns, QUERIES, |at| {
+    let times = in_turns(sides.len(), turns, QUERIES, |at, _| {
         Ok((sides[at].sample)(&asked)?.time)
     })?;
     Ok((0..sides.len())
@@ -130,10 +126,9 @@ pub(super) fn measure(
                 |other: &Side<'_>| other.device == side.device && other.operations == Operations::Exact;
             let base = sides.iter().position(is_base).unwrap_or(at);
             Arithmetic {
-                scene: name.to_owned(),
+                scene: scene.name().to_owned(),
                 device: side.device.clone(),
                 operations: side.operations,
-                shader_fma: side.shader_fma,
                 ns_per_sample: Interval::of(times[at].clone()).median,
                 sample_ratio: Interval::of_ratios(&times[at], &times[base]),
                 queries: asked.len(),
@@ -145,26 +140,32 @@ pub(super) fn measure(
         .collect())
 }
 
-fn on_cpu<'a, C: TriangleChoice<WIDTH>>(operations: Operations, bvh: &Bvh<C, WIDTH>) -> Side<'a> {
-    let [mut sampler, mut asker] = [bvh, bvh].map(|bvh| CpuBackend::<C, WIDTH>::new(bvh.clone()));
+/// The default's nodes, by the importance of `C`.
+fn on_cpu<'a, C>(operations: Operations, bvh: &'a Bvh) -> Side<'a>
+where
+    C: TriangleChoice<WIDTH, Node = Node>,
+{
+    let tree = move || bvh.tree().by::<C::Importance>();
     Side {
         device: "cpu".to_owned(),
         operations,
-        shader_fma: false,
-        sample: Box::new(move |asked| Ok(sampler.sample(asked)?)),
-        pmf: Box::new(move |asked| Ok(asker.pmf(asked)?)),
+        sample: Box::new(move |asked| Ok(answers(asked, |query| sample_query::<C, WIDTH>(&tree(), query)))),
+        pmf: Box::new(move |asked| Ok(answers(asked, |query| pmf_query::<C, WIDTH>(&tree(), query)))),
     }
+}
+
+fn answers<T: Send>(asked: &[Query], answer: impl Fn(&Query) -> T + Sync + Send) -> Timed<Vec<T>> {
+    Timed::of(|| asked.par_iter().with_min_len(256).map(answer).collect())
 }
 
 fn on_device<'a>(
     opened: &'a Opened,
-    backend: &'a RefCell<DeviceBackend<'_, Standard, WIDTH>>,
+    backend: &'a RefCell<DeviceBackend<'_>>,
     operations: Operations,
 ) -> Result<Side<'a>, HostError> {
     let device = &opened.device;
     let kernel = |name: &str| match operations {
-        Operations::Exact => device.kernel(name),
-        Operations::Native => device.kernel(&format!("{name}_native")),
+        Operations::Exact | Operations::Native => device.kernel(name),
         Operations::Contractible => {
             let known = lightbvh_gpu::Kernel::named(name).map_or_else(Vec::new, |known| known.words());
             let words = contractible(&known).unwrap_or(known);
@@ -175,7 +176,6 @@ fn on_device<'a>(
     Ok(Side {
         device: device.name().to_owned(),
         operations,
-        shader_fma: operations == Operations::Native && device.probe().features.shader_fma_32,
         sample: Box::new(move |asked| Ok(backend.borrow_mut().query_by(&sample, asked)?)),
         pmf: Box::new(move |asked| Ok(backend.borrow_mut().query_by(&pmf, asked)?)),
     })
@@ -235,11 +235,10 @@ pub(super) fn print(rows: &[Arithmetic]) -> Result<(), HostError> {
             ("operations", |row| match row.operations {
                 Operations::Exact => "exact".to_owned(),
                 Operations::Contractible => "exact, contractible".to_owned(),
-                Operations::Native if row.shader_fma => "native, fused".to_owned(),
                 Operations::Native => "native".to_owned(),
             }),
             ("sample ns", |row| format!("{:.0}", row.ns_per_sample)),
-            ("to exact", |row| super::ratio(&row.sample_ratio)),
+            ("to exact", |row| row.sample_ratio.to_string()),
             ("samples", |row| row.queries.to_string()),
             ("other lights", |row| row.from_exact.lights.to_string()),
             ("other pmfs", |row| row.from_exact.pmfs.to_string()),

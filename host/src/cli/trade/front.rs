@@ -1,11 +1,7 @@
 //! Which choices nothing else beats.
 
-use std::fmt;
-
-use super::Point;
-use super::choices::{Axis, Config};
-use super::quantile::Interval;
-use super::widths::OnDevice;
+use super::point::Point;
+use crate::cli::measure::interval::Interval;
 
 /// A ratio of errors below this is no difference, however sure, for a tree is good or bad luck for the lights of a scene: over
 /// eight trees of a scene that was turned eight ways, the ratio of two choices had a standard deviation of 0.04 to 0.05
@@ -23,10 +19,9 @@ const LEAST_TIME: f64 = 1.1;
 const LEAST_UPDATE: f64 = 1.25;
 const LEAST_UPDATE_MS: f64 = 0.02;
 
-/// The default, and the points that are others than it, as far as no other beats them: another one beats a point if its update,
-/// its image of the same rays or its sample on a device takes less time, or that image has less error, for sure, and it seems
-/// to have more of none. They are not added: they are paid on different processors, and an image has whatever size a user gives
-/// it. Time on a device counts between those that were measured there. A point that differs from the default in none of them is
+/// The default, and the points that are others than it, as far as no other beats them: another one beats a point if its update
+/// or its image of the same rays takes less time, or that image has less error, for sure, and it seems to have more of none.
+/// They are not added: an image has whatever size a user gives it. A point that differs from the default in none of them is
 /// none: noise would put it on either side.
 pub(super) fn front(points: &[Point]) -> Vec<bool> {
     let costs: Vec<Costs<'_>> = points.iter().map(Costs::of).collect();
@@ -46,8 +41,6 @@ pub(super) fn alike(a: &Point, b: &Point) -> bool {
 /// What a choice costs.
 struct Costs<'a> {
     update_ms: f64,
-    /// Time of a sample over the default's, device by device, as far as it was measured.
-    on_devices: &'a [OnDevice],
     /// Image by image, by the same rays.
     times: &'a [f64],
     errors: &'a [f64],
@@ -60,25 +53,10 @@ struct Less {
     seemingly: bool,
 }
 
-impl Less {
-    const NOTHING: Self = Self {
-        surely: false,
-        seemingly: false,
-    };
-
-    fn or(self, other: Self) -> Self {
-        Self {
-            surely: self.surely || other.surely,
-            seemingly: self.seemingly || other.seemingly,
-        }
-    }
-}
-
 impl<'a> Costs<'a> {
     fn of(point: &'a Point) -> Self {
         Self {
             update_ms: point.structure.update_ms,
-            on_devices: &point.on_devices,
             times: &point.images.times,
             errors: &point.images.errors,
         }
@@ -93,25 +71,15 @@ impl<'a> Costs<'a> {
         !surely(self, other) && !surely(other, self)
     }
 
-    /// Of an update, of the time of an image, of its error, of a sample on some device. What interrupts an image adds to its
+    /// Of an update, of the time of an image, of its error. What interrupts an image adds to its
     /// time: the least of the times says the same as the median of the ratios where there is a difference. Less error for sure
     /// is what lies beyond the interval of the ratios.
-    fn less(&self, other: &Self) -> [Less; 4] {
+    fn less(&self, other: &Self) -> [Less; 3] {
         let update = (self.update_ms * LEAST_UPDATE).max(self.update_ms + LEAST_UPDATE_MS) < other.update_ms;
         let ratio = Interval::of_ratios(self.times, other.times);
         let median = ratio.median * LEAST_TIME < 1.0;
         let least = least(self.times) * LEAST_TIME < least(other.times);
         let error = Interval::of_ratios(self.errors, other.errors);
-        let on_both = self.on_devices.iter().flat_map(|here| {
-            let there = other.on_devices.iter().find(|there| there.device == here.device);
-            there.map(|there| (&here.sample_ratio, &there.sample_ratio))
-        });
-        let on_device = on_both
-            .map(|(here, there)| Less {
-                surely: here.high < there.low && here.median * LEAST_TIME < there.median,
-                seemingly: here.median * LEAST_TIME < there.median,
-            })
-            .fold(Less::NOTHING, Less::or);
         [
             Less {
                 surely: update,
@@ -125,42 +93,12 @@ impl<'a> Costs<'a> {
                 surely: error.high * LEAST_ERROR < 1.0,
                 seemingly: error.median * SEEMING_ERROR < 1.0,
             },
-            on_device,
         ]
     }
 }
 
 fn least(times: &[f64]) -> f64 {
     times.iter().copied().fold(f64::INFINITY, f64::min)
-}
-
-impl fmt::Display for Config {
-    /// What differs from the default.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let builder: &str = self.builder.name();
-        match self.axis {
-            Axis::Default => write!(f, "default"),
-            Axis::Importance => write!(
-                f,
-                "{}, {} x {}, {builder}",
-                self.importance, self.layout, self.width
-            ),
-            Axis::Layout => write!(f, "{} nodes, {}", self.layout, self.importance),
-            Axis::Width => write!(f, "{} children", self.width),
-            Axis::Builder => write!(f, "built by {builder}"),
-            Axis::Levels => write!(f, "{}, {}", self.levels.name(), self.importance),
-            Axis::Update => write!(f, "{}, {}", self.levels.name(), self.update.name()),
-            Axis::Integrator => write!(
-                f,
-                "{}, {} of {}",
-                self.integrator,
-                self.candidates,
-                self.levels.name()
-            ),
-            Axis::Arithmetic => write!(f, "native operations"),
-            Axis::Candidates => write!(f, "1 of {} candidates", self.candidates),
-        }
-    }
 }
 
 #[cfg(test)]
@@ -172,7 +110,6 @@ mod tests {
     fn costs<'a>(update_ms: f64, times: &'a [f64; 3], errors: &'a [f64; 3]) -> Costs<'a> {
         Costs {
             update_ms,
-            on_devices: &[],
             times,
             errors,
         }
@@ -196,39 +133,6 @@ mod tests {
         ] {
             assert!(!other.beats(&usual) && !usual.beats(&other) && !usual.alike(&other));
         }
-    }
-
-    /// Less error on the CPU, more time on a device: each has its users.
-    #[test]
-    fn time_on_a_device_is_a_cost() {
-        let on = |device: &str, low, median, high| OnDevice {
-            device: device.to_owned(),
-            ns_per_sample: 100.0 * median,
-            sample_ratio: Interval { median, low, high },
-            different: 0,
-        };
-        let usual = [on("a", 1.0, 1.0, 1.0), on("b", 1.0, 1.0, 1.0)];
-        let beats_with = |wide: &[OnDevice]| {
-            let usual = Costs {
-                on_devices: &usual,
-                ..costs(1.0, &SAME, &SAME)
-            };
-            let wide = Costs {
-                on_devices: wide,
-                ..costs(1.0, &SAME, &[7.0, 8.0, 7.5])
-            };
-            assert!(!usual.beats(&wide));
-            wide.beats(&usual)
-        };
-        assert!(beats_with(&[]) && beats_with(&[on("c", 2.0, 2.0, 2.0)]));
-        assert!(beats_with(&[on("a", 1.0, 1.05, 1.1), on("b", 0.9, 1.0, 1.3)]));
-        assert!(!beats_with(&[on("a", 1.0, 1.0, 1.0), on("b", 1.2, 1.3, 1.4)]));
-        let fast = [on("a", 0.7, 0.8, 0.9)];
-        let [fast, usual] = [&fast[..], &usual].map(|on_devices| Costs {
-            on_devices,
-            ..costs(1.0, &SAME, &SAME)
-        });
-        assert!(fast.beats(&usual) && !usual.beats(&fast));
     }
 
     #[test]

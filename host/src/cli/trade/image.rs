@@ -6,12 +6,12 @@ mod tests;
 use lightbvh_kernels::render::RenderParams;
 use serde::Serialize;
 
-use super::choices::Subject;
-use super::quantile::Interval;
+use super::subject::Subject;
 use crate::backend::SceneArrays;
-use crate::cli::times::ms;
+use crate::cli::measure::times::ms;
+use crate::cli::measure::{interval::Interval, reference::Reference};
 use crate::error::HostError;
-use crate::metrics::{Estimate, Judge, Quality, mean_squared_error};
+use crate::metrics::{self, Estimate, Judge, Quality, mean_squared_error};
 use crate::render::Film;
 
 /// Seeds from here on belong to the reference.
@@ -44,12 +44,12 @@ impl Budget {
         turns: 21,
         passes: 20,
         points: 200,
-        width: 192,
-        height: 108,
+        width: 320,
+        height: 180,
         samples: 12,
         frames: 3,
         seeds: 3,
-        reference: 1024,
+        reference: 512,
     };
     pub const QUICK: Self = Self {
         turns: 5,
@@ -162,7 +162,14 @@ impl Measured {
         budget: &Budget,
     ) -> Result<(), HostError> {
         let params = |samples, seed| budget.params(samples, seed, background);
-        let reference = Reference::of(subjects, arrays, budget, params)?;
+        // By the default.
+        let mut half = |half| {
+            let params = params(budget.reference / 2, REFERENCE_SEED + half);
+            subjects[0].render(arrays, params).map(|image| image.value)
+        };
+        let halves = [half(0)?, half(1)?];
+        let reference = Reference::new((budget.width, budget.height), halves, None)?;
+        let reference_mean = mean(reference.judge.reference().pixels());
         self.of_each.resize_with(subjects.len(), OfOne::default);
         let begin = self.of_each[0].times.len();
         for seed in 0..budget.seeds {
@@ -178,9 +185,9 @@ impl Measured {
                 let (of, time) = (&mut self.of_each[at], least[at].min(ms(image.time)));
                 of.times.push(time);
                 of.frames.push(time + updates_ms[at]);
-                of.biases.push(mean(&image.value) / reference.mean - 1.0);
+                of.biases.push(mean(&image.value) / reference_mean - 1.0);
                 let film = budget.film(image.value)?;
-                of.errors.push(reference.error(&film));
+                of.errors.push(error_of(&reference, &film));
                 of.qualities.push(reference.judge.quality(&film)?);
             }
         }
@@ -205,7 +212,7 @@ impl Measured {
                 let mut beside = [0.0; 2];
                 for (error, samples) in beside.iter_mut().zip([fewer, fewer + 1]) {
                     let film = budget.film(subject.render(arrays, params(samples * least, seed))?.value)?;
-                    *error = reference.error(&film).max(1e-9);
+                    *error = error_of(&reference, &film).max(1e-9);
                     if samples == nearest && of.shown.is_none() {
                         of.shown = Some((film, samples * least));
                     }
@@ -226,12 +233,12 @@ impl Measured {
             time_ratio: Interval::of_ratios(&of.times, &default.times),
             frame_ratio: Interval::of_ratios(&of.frames, &default.frames),
             image_ms: Interval::of(of.times.clone()).median,
-            error: average(&of.errors),
+            error: metrics::mean(&of.errors),
             error_ratio: Interval::of_ratios(&of.errors, &default.errors),
-            error_equal_time: average(&of.equal_time),
+            error_equal_time: metrics::mean(&of.equal_time),
             equal_time_ratio: Interval::of_ratios(&of.equal_time, &default.equal_time)
                 .as_unsure_as(Interval::of_ratios(&of.frames, &default.frames)),
-            samples_equal_time: average(&of.fits),
+            samples_equal_time: metrics::mean(&of.fits),
             bias: Estimate::of(&of.biases).filter(|bias| bias.mean.is_finite()),
             quality: mean_quality(&of.qualities),
             shown: of
@@ -247,7 +254,7 @@ impl Measured {
 }
 
 fn mean_quality(of: &[Quality]) -> Quality {
-    let mean = |measure: fn(&Quality) -> f64| average(&of.iter().map(measure).collect::<Vec<f64>>());
+    let mean = |measure: fn(&Quality) -> f64| metrics::mean(&of.iter().map(measure).collect::<Vec<f64>>());
     Quality {
         mse: mean(|q| q.mse),
         ssim: mean(|q| q.ssim),
@@ -257,56 +264,14 @@ fn mean_quality(of: &[Quality]) -> Quality {
     }
 }
 
-pub(super) fn average(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
-}
-
-/// An image of many samples by the default.
-pub(super) struct Reference {
-    judge: Judge,
-    noise: f64,
-    mean: f64,
-}
-
-impl Reference {
-    pub fn of(
-        subjects: &mut [Box<dyn Subject>],
-        arrays: &SceneArrays,
-        budget: &Budget,
-        params: impl Fn(u32, u32) -> RenderParams,
-    ) -> Result<Self, HostError> {
-        let mut half = |seed| {
-            let params = params(budget.reference / 2, REFERENCE_SEED + seed);
-            subjects[0].render(arrays, params).map(|image| image.value)
-        };
-        let halves = [half(0)?, half(1)?];
-        let pairs = halves[0].iter().zip(&halves[1]);
-        let both = pairs.map(|(a, b)| std::array::from_fn(|k| 0.5 * (a[k] + b[k])));
-        let whole = budget.film(both.collect())?;
-        let exposure = whole.auto_exposure();
-        let mean = mean(whole.pixels());
-        let mut shown = Vec::new();
-        for half in halves {
-            shown.push(budget.film(half)?.shown(exposure));
-        }
-        Ok(Self {
-            noise: difference(&shown[0], &shown[1]) / 4.0,
-            mean,
-            judge: Judge::new(whole, exposure)?,
-        })
-    }
-
-    /// Mean squared, as displayed, in squared steps of a byte, without the reference's own.
-    pub fn error(&self, image: &Film) -> f64 {
-        difference(&image.shown(self.judge.exposure()), self.judge.shown()) - self.noise
-    }
+/// Mean squared, as displayed, in squared steps of a byte, without the reference's own.
+fn error_of(reference: &Reference, image: &Film) -> f64 {
+    let shown = image.shown(reference.judge.exposure());
+    let bytes = [&shown, reference.judge.shown()].map(|bytes| bytes.as_chunks::<3>().0);
+    mean_squared_error(bytes[0], bytes[1]) - reference.noise
 }
 
 fn mean(image: &[[f32; 3]]) -> f64 {
     let sum: f64 = image.iter().flatten().map(|&c| f64::from(c)).sum();
     sum / (3.0 * image.len() as f64)
-}
-
-fn difference(a: &[u8], b: &[u8]) -> f64 {
-    mean_squared_error(a.as_chunks::<3>().0, b.as_chunks::<3>().0)
 }

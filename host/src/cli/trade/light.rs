@@ -6,7 +6,7 @@ use lightbvh::{EmissiveTriangle, ShadingPoint};
 use lightbvh_kernels::shading::ray::Ray;
 use lightbvh_kernels::shading::trace::{Surfaces, any_hit};
 
-use crate::cli::variance::irradiance::irradiance;
+use crate::cli::measure::irradiance::irradiance;
 
 /// Shadow rays to each light from each point.
 const RAYS: u32 = 4;

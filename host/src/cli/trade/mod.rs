@@ -2,41 +2,39 @@
 //! images at equal samples and at equal time.
 
 mod arithmetic;
+mod built;
 mod choices;
-mod finals;
 mod front;
 mod image;
 mod light;
 mod pick;
+mod point;
 mod prepare;
-pub(super) mod quantile;
-mod reach;
 pub(super) mod report;
 mod reservoirs;
 mod steps;
 mod structure;
-mod turns;
+mod subject;
 mod update;
-mod widths;
+mod variance;
 
 use std::path::PathBuf;
 use std::time::Instant;
 
-use serde::Serialize;
 use serde_json::json;
 
-use self::choices::{Axis, Config};
 use self::front::front;
-use self::image::{Budget, Images, Measured};
-use self::pick::{Goal, picks};
+use self::image::{Budget, Measured};
+use self::pick::{Goal, Pick};
+use self::point::Point;
 use self::prepare::{Prepared, prepare};
-use self::quantile::Interval;
 use self::report::Report;
 use self::steps::steps;
-use self::structure::{Structure, structures};
+use self::structure::structures;
+use self::subject::Axis;
 use self::update::{Frame, Updates};
-use self::widths::OnDevice;
 use super::range::{self, given};
+use super::reading::Reading;
 use super::{Context, Outcome, devices, table};
 use crate::cli::table::{news, say};
 use crate::error::HostError;
@@ -48,53 +46,45 @@ const MAX_FRAME: u64 = 10_000;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Scenes: street, square, carousel, or .gltf, .glb, .pbrt, .obj and .ply files; the first three if none is named.
+    /// A built-in scene or a .gltf, .glb, .obj or .ply file; may be repeated [default: three built-in].
     #[arg(long)]
     scene: Vec<String>,
-    /// Only these axes, beside the default; all if none is named.
+    #[command(flatten)]
+    reading: Reading,
+    /// Only these axes, and the default; all if none is named.
     #[arg(long, value_enum)]
     axes: Vec<Axis>,
-    /// Last frame of the animation that is measured; trees are built at its first one, and follow it. Images are measured at a
-    /// third and two thirds of the way too.
+    /// Last frame measured; trees are built at frame 0, images taken at a third and two thirds as well.
     #[arg(long, default_value_t = 50)]
     frame: u32,
-    /// Size of the images, in place of 192x108, or 96x54 of --quick.
+    /// Size of the images, in place of 320x180, or 96x54 of --quick.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
-    /// Also write a page with plots, images and error maps, the JSON, and tables and plots for documents, to this folder:
-    /// trade.html, trade.json, trade.md, trade-SCENE.svg.
+    /// Also write to this folder: trade.html with plots and images, trade.json, trade.md, trade-SCENE.svg.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["time", "error"])]
     out: Option<PathBuf>,
-    /// Picks what has the least error in a frame of so many milliseconds, update and image, in place of the table.
+    /// Instead of a table, the least error in a frame of this many milliseconds, update and image.
     #[arg(long, value_name = "MS", value_parser = positive, conflicts_with = "error", allow_negative_numbers = true)]
     time: Option<f64>,
-    /// Picks what takes the least time for a frame of this error, in place of the table: root mean square as displayed, as a
-    /// share of white, such as 0.05.
+    /// Instead of a table, the fastest frame of this error: root mean square, a share of white.
     #[arg(long, value_name = "E", value_parser = positive, allow_negative_numbers = true)]
     error: Option<f64>,
-    /// One scene, fewer turns, smaller images: within a minute on two cores, where everything takes about a quarter of an hour.
+    /// One scene, fewer turns, smaller images: within a minute; everything takes about half an hour.
     #[arg(long)]
     quick: bool,
+    /// Only the exact variance of one sample, at --points points on surfaces: no images, no times.
+    #[arg(long, conflicts_with_all = ["time", "error", "out", "size", "device", "validation"])]
+    variance: bool,
+    /// Points of --variance on the surfaces of each scene.
+    #[arg(long, requires = "variance", default_value_t = 400, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    points: u32,
 }
 
-/// A configuration in a scene.
-#[derive(Clone, Debug, Serialize)]
-struct Point {
-    scene: String,
-    /// What differs from the default, in words.
-    choice: String,
-    config: Config,
-    default: bool,
-    #[serde(flatten)]
-    structure: Structure,
-    #[serde(flatten)]
-    images: Images,
-    /// Where devices were asked: the default, and its other widths.
-    on_devices: Vec<OnDevice>,
-    /// Whether it is on the front: nothing else takes less time for an update, an image of the same rays or a sample on a
-    /// device, or has less error in it, at no greater cost of the others, and it is not the same as the default as far as can
-    /// be told.
-    pareto: bool,
+impl Args {
+    /// Whether choices of an axis are measured.
+    fn measures(&self, axis: Axis) -> bool {
+        self.axes.is_empty() || self.axes.contains(&axis)
+    }
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
@@ -108,12 +98,15 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         ([], false) => ["street", "square", "carousel"].map(String::from).into(),
         (named, _) => named.to_vec(),
     };
+    if args.variance {
+        return variance::run(context, args, &named);
+    }
     if let Some(goal) = args.time.map(Goal::Time).or(args.error.map(Goal::Error)) {
         return picks(context, args, &named, &budget, goal);
     }
     // Devices take long: only where the axis is named, or nothing is hurried.
-    let on_devices = |axis| args.axes.contains(&axis) || (args.axes.is_empty() && !args.quick);
-    let opened = if on_devices(Axis::Arithmetic) || on_devices(Axis::Width) {
+    let by_devices = args.axes.contains(&Axis::Arithmetic) || (args.axes.is_empty() && !args.quick);
+    let opened = if by_devices {
         devices::open(context)?
     } else {
         Vec::new()
@@ -128,21 +121,23 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .transpose()?;
     for name in named {
         let start = Instant::now();
-        let (mut points, judge) = scene_points(&name, args, &budget)?;
-        if on_devices(Axis::Width) {
-            widths::measure(&mut points, &name, args.frame, &opened, budget.turns)?;
-        }
+        let (points, judge) = scene_points(&name, args, &budget)?;
         let pareto = front(&points);
         let pareto = points.into_iter().zip(pareto);
         let points: Vec<Point> = pareto.map(|(point, pareto)| Point { pareto, ..point }).collect();
         let sentences = steps(&points).into_iter();
         all_steps.extend(sentences.map(|sentence| format!("{name}: {sentence}")));
         if let Some(report) = &mut report {
-            report.scene(&name, args.frame, &points, &judge)?;
+            report.scene(&args.reading.open(&name)?, args.frame, &points, &judge)?;
         }
         all_points.extend(points);
-        if on_devices(Axis::Arithmetic) {
-            by_arithmetic.extend(arithmetic::measure(&name, args.frame, &opened, budget.turns)?);
+        if by_devices {
+            by_arithmetic.extend(arithmetic::measure(
+                &args.reading.open(&name)?,
+                args.frame,
+                &opened,
+                budget.turns,
+            )?);
         }
         news!("{name}: {:.1} s", start.elapsed().as_secs_f64());
     }
@@ -161,10 +156,41 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         for step in all_steps {
             say!("{step}")?;
         }
-        widths::print(&all_points)?;
         arithmetic::print(&by_arithmetic)?;
     }
     devices::close(opened)?;
+    Ok(Outcome::Good)
+}
+
+/// The best of each scene within a budget.
+fn picks(
+    context: &Context,
+    args: &Args,
+    scenes: &[String],
+    budget: &Budget,
+    goal: Goal,
+) -> Result<Outcome, HostError> {
+    let mut picks: Vec<Option<Pick>> = Vec::new();
+    for name in scenes {
+        let (points, _) = scene_points(name, args, budget)?;
+        let picked = goal.pick(&points, budget.samples);
+        let text = match &picked {
+            Ok(picked) => format!("{name}: {}", picked.sentence),
+            Err(why) => format!("{name}: {why}"),
+        };
+        match context.json {
+            true if picked.is_err() => news!("{text}"),
+            true => {}
+            false => say!("{text}")?,
+        }
+        picks.push(picked.ok());
+    }
+    if context.json {
+        table::print_json(&json!({
+            "frame": args.frame, "processor": "cpu", "width": budget.width, "height": budget.height,
+            "threads": rayon::current_num_threads(), "pick": picks,
+        }))?;
+    }
     Ok(Outcome::Good)
 }
 
@@ -173,13 +199,13 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
     let Prepared {
         scene,
         points,
-        mut subjects,
+        subjects,
         updates,
         arrays,
         ..
     } = prepare(
-        name,
-        args,
+        args.reading.open(name)?,
+        &|axis| args.measures(axis),
         budget,
         &budget.measured_frames(args.frame),
         &mut |subjects, updates, arrays, background| {
@@ -190,7 +216,7 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
     news!("{name}: times and variances of samples");
     let last = lights_at(&scene, args.frame)?;
     let structures = structures(
-        &mut subjects,
+        &subjects,
         &Frame::new(&scene, args.frame, &last),
         &arrays.rays.surfaces(),
         updates,
@@ -209,7 +235,7 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
             default: subject.config().axis == Axis::Default,
             structure,
             images,
-            on_devices: Vec::new(),
+            least_rays: subject.least_rays(),
             pareto: false,
         })
         .collect();
@@ -232,14 +258,7 @@ pub(super) fn size(text: &str) -> Result<(u32, u32), String> {
         .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
     parsed
         .filter(|(width, height)| range.contains(width) && range.contains(height))
-        .ok_or_else(|| format!("{text} is no size such as 192x108, of 1 to 4096 pixels each way"))
-}
-
-fn ratio(interval: &Interval) -> String {
-    format!(
-        "{:.2} [{:.2}, {:.2}]",
-        interval.median, interval.low, interval.high
-    )
+        .ok_or_else(|| format!("{text} is no size such as 320x180, of 1 to 4096 pixels each way"))
 }
 
 /// A table for each scene; the JSON has more.
@@ -249,28 +268,20 @@ fn print(points: &[Point]) -> Result<(), HostError> {
         table::print(of_scene, COLUMNS)?;
     }
     say!(
-        "ratios to the default's, with 95 % intervals; `update` is what a frame waits for, `beside` what is built beside it; variance of one \
-         sample, mean over the points, without and with shadows; `error` by the same rays, `equal time` by as many as fit into the \
-         default's frame, mean squared, on the CPU; `front`: nothing else is surely better in one of them and no worse in others"
+        "errors are ratios to the default's with 95 % intervals, mean squared, by CPU images: `error` by the same rays, `equal \
+         time` by as many as\nfit into the default's frame; `ns` and `variance` are of one sample; `update` is what a frame waits \
+         for; `front`: nothing else is surely\nbetter in one of them and no worse in others; --json and --out have more"
     )?;
     Ok(())
 }
 
 const COLUMNS: &[table::Column<Point>] = &[
     ("choice", |p| p.choice.clone()),
-    ("bytes/light", |p| format!("{:.1}", p.structure.bytes_per_light)),
-    ("build ms", |p| format!("{:.2}", p.structure.build_ms)),
     ("update ms", |p| format!("{:.2}", p.structure.update_ms)),
-    ("beside ms", |p| format!("{:.2}", p.structure.beside_ms)),
     ("image ms", |p| format!("{:.1}", p.images.image_ms)),
-    ("sample ns", |p| format!("{:.0}", p.structure.ns_per_sample)),
-    ("sample", |p| ratio(&p.structure.sample_ratio)),
-    ("variance", |p| format!("{:.3}", p.structure.variances.variance)),
-    ("shadowed", |p| {
-        format!("{:.2}", p.structure.variances.shadowed_variance)
-    }),
-    ("frame", |p| ratio(&p.images.frame_ratio)),
-    ("error", |p| ratio(&p.images.error_ratio)),
-    ("equal time", |p| ratio(&p.images.equal_time_ratio)),
+    ("ns", |p| format!("{:.0}", p.structure.ns_per_sample)),
+    ("variance", |p| table::known(p.structure.variances.variance, 3)),
+    ("error", |p| p.images.error_ratio.to_string()),
+    ("equal time", |p| p.images.equal_time_ratio.to_string()),
     ("front", |p| table::yes(p.pareto)),
 ];

@@ -1,41 +1,64 @@
-//! The best configuration within a budget, by a short run over few seeds: images of the real renderer at the scene's own
-//! shading points.
-
-use std::fmt;
+//! The best choice within a budget, from the measured table.
 
 use serde::Serialize;
-use serde_json::json;
 
-use super::Args;
-use super::choices::{Config, Subject};
-use super::finals::{Entrant, finals};
-use super::image::{Budget, Reference, average};
-use super::prepare::{Prepared, prepare};
-use super::quantile::Interval;
-use super::reach::{LEAST_ERROR, MOST_IMAGES, Measured, of_white};
-use super::update::Updates;
-use crate::backend::SceneArrays;
-use crate::cli::table::{news, say};
-use crate::cli::times::ms;
-use crate::cli::{Context, Outcome, table};
-use crate::error::HostError;
+use super::point::Point;
+use super::subject::Config;
+use crate::cli::measure::interval::Interval;
 
-/// Rounds in which time and error of an image by equal rays are measured.
-const SEEDS: u32 = 4;
+/// Squared steps of a byte below which the reference cannot tell errors apart.
+const LEAST_ERROR: f64 = 1e-3;
+
+/// Most shadow rays of a pixel, in the least image of a choice: times and errors are not extrapolated further.
+const MOST_IMAGES: f64 = 256.0;
+
+/// A gain below this is none.
+const LEAST_GAIN: f64 = 1.05;
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Goal {
-    /// Least error in a frame of so many milliseconds.
+    /// Least error in a frame of this time, ms.
     Time(f64),
     /// Least time of a frame whose root mean squared error, as displayed, is this share of white.
     Error(f64),
 }
 
-/// A configuration brought to the budget.
+/// What a choice costs: the time of an image grows with its shadow rays of a pixel, its squared error falls by them.
+#[derive(Clone, Copy)]
+struct Costs {
+    update_ms: f64,
+    /// Of one shadow ray of all pixels.
+    ray_ms: f64,
+    /// Squared error by one shadow ray of a pixel.
+    of_one: f64,
+    /// Shadow rays of a pixel in the least image.
+    least: f64,
+}
+
+impl Costs {
+    /// Of a point whose images have `samples` shadow rays of a pixel.
+    fn of(point: &Point, samples: u32) -> Self {
+        Self {
+            update_ms: point.structure.update_ms,
+            ray_ms: point.images.image_ms / f64::from(samples),
+            of_one: point.images.error.max(LEAST_ERROR) * f64::from(samples),
+            least: f64::from(point.least_rays),
+        }
+    }
+}
+
+/// A choice brought to the budget.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Reached {
     pub config: Config,
+    #[serde(flatten)]
+    pub found: Found,
+}
+
+/// What a budget comes to.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct Found {
     /// Update and image.
     pub frame_ms: f64,
     /// Root mean squared error as displayed, as a share of white.
@@ -59,164 +82,182 @@ pub(super) struct Pick {
     pub sentence: String,
 }
 
-/// The best of each scene within a budget.
-pub(super) fn picks(
-    context: &Context,
-    args: &Args,
-    scenes: &[String],
-    budget: &Budget,
-    goal: Goal,
-) -> Result<Outcome, HostError> {
-    let mut picks: Vec<Option<Pick>> = Vec::new();
-    for name in scenes {
-        let mut prepared = prepare(name, args, budget, &[args.frame], &mut |_, _, _, _| Ok(()))?;
-        let updates_ms: Vec<f64> = prepared.updates.iter().map(Updates::mean_ms).collect();
-        let Prepared {
-            subjects,
-            arrays,
-            background,
-            ..
-        } = &mut prepared;
-        let picked = pick(name, subjects, &updates_ms, arrays, *background, budget, goal)?;
-        match &picked {
-            Ok(picked) if !context.json => say!("{picked}")?,
-            Err(why) if !context.json => say!("{name}: {why}")?,
-            Err(why) => news!("{name}: {why}"),
-            Ok(_) => {}
-        }
-        picks.push(picked.ok());
-    }
-    if context.json {
-        table::print_json(&json!({
-            "frame": args.frame, "processor": "cpu", "width": budget.width, "height": budget.height,
-            "threads": rayon::current_num_threads(), "pick": picks,
-        }))?;
-    }
-    Ok(Outcome::Good)
-}
-
-/// The best of `subjects`, the default first; where no configuration keeps the budget, what comes nearest.
-fn pick(
-    scene: &str,
-    subjects: &mut [Box<dyn Subject>],
-    updates_ms: &[f64],
-    arrays: &SceneArrays,
-    background: [f32; 3],
-    budget: &Budget,
-    goal: Goal,
-) -> Result<Result<Pick, String>, HostError> {
-    let params = |samples, seed| budget.params(samples, seed, background);
-    let reference = Reference::of(subjects, arrays, budget, params)?;
-    news!("{scene}: images by {} choices on the CPU", subjects.len());
-    let mut times = vec![f64::INFINITY; subjects.len()];
-    let mut errors = vec![Vec::new(); subjects.len()];
-    for seed in 0..SEEDS {
-        for k in 0..subjects.len() {
-            let at = (k + 3 * seed as usize) % subjects.len();
-            let image = subjects[at].render(arrays, params(budget.samples, seed))?;
-            times[at] = times[at].min(ms(image.time));
-            errors[at].push(reference.error(&budget.film(image.value)?));
-        }
-    }
-    let mut reached = Vec::new();
-    let mut nearest = f64::INFINITY;
-    for (k, subject) in subjects.iter_mut().enumerate() {
-        let count = (budget.samples / subject.least_rays()).max(1);
-        let measured = Measured {
-            update_ms: updates_ms[k],
-            least_ms: times[k] / f64::from(count),
-            error: average(&errors[k]).max(LEAST_ERROR),
-            count,
+impl Goal {
+    /// What a choice comes to; where it does not keep the budget, the least time of a frame, or the least error.
+    fn reached(self, costs: &Costs) -> Result<Found, f64> {
+        let Costs {
+            update_ms,
+            ray_ms,
+            of_one,
+            least,
+        } = *costs;
+        let error = |rays: f64| (of_one / rays).sqrt() / 255.0;
+        let most = MOST_IMAGES * least;
+        let found = |rays: f64, error| Found {
+            frame_ms: update_ms + rays * ray_ms,
+            error,
+            samples: rays,
         };
-        let mut error_of = |images: u32| -> Result<f64, HostError> {
-            let rays = images * subject.least_rays();
-            let mut found = Vec::new();
-            for seed in SEEDS..2 * SEEDS {
-                let image = subject.render(arrays, params(rays, seed))?;
-                found.push(reference.error(&budget.film(image.value)?));
+        match self {
+            Self::Time(frame_ms) => {
+                let rays = ((frame_ms - update_ms) / ray_ms).min(most);
+                if rays < least {
+                    return Err(update_ms + least * ray_ms);
+                }
+                let own = found(rays, error(rays));
+                // Divided and multiplied again, a budget may come out one rounding above itself.
+                Ok(Found {
+                    frame_ms: own.frame_ms.min(frame_ms),
+                    ..own
+                })
             }
-            Ok(average(&found).max(LEAST_ERROR))
-        };
-        let found = match goal {
-            Goal::Time(frame_ms) => measured.within(frame_ms, &mut error_of)?,
-            Goal::Error(error) => measured.until(error, &mut error_of)?,
-        };
-        match found {
-            Ok(found) => reached.push(Entrant {
-                at: k,
-                update_ms: updates_ms[k],
-                reached: Reached {
-                    config: subject.config(),
-                    frame_ms: found.frame_ms,
-                    error: found.error,
-                    samples: found.images * f64::from(subject.least_rays()),
-                },
-            }),
-            Err(least) => nearest = nearest.min(least),
+            Self::Error(wanted) => match of_one / (255.0 * wanted).powi(2) {
+                rays if rays > most => Err(error(most)),
+                rays if rays < least => Ok(found(least, error(least))),
+                rays => Ok(found(rays, wanted)),
+            },
         }
     }
-    let Some((best, margin)) = finals(subjects, &reached, arrays, &reference, budget, params, goal)? else {
-        return Ok(Err(none(goal, nearest)));
-    };
-    let of_default = reached.iter().find(|entrant| entrant.at == 0);
-    let of_default = of_default.map(|entrant| entrant.reached.clone());
-    let others = reached.len() - 1;
-    Ok(Ok(Pick {
-        scene: scene.to_owned(),
-        sentence: sentence(&best, of_default.as_ref(), margin, others, goal),
-        best,
-        of_default,
-        margin,
-        others,
-    }))
-}
 
-/// Why nothing is picked: `nearest` is the fastest frame there is, ms, or the least error.
-fn none(goal: Goal, nearest: f64) -> String {
-    match goal {
-        Goal::Time(_) => format!(
-            "no configuration keeps this budget: the fastest takes {nearest:.2} ms for an image of one shadow ray a pixel"
-        ),
-        Goal::Error(_) => format!(
-            "no configuration keeps this budget: the least error by {MOST_IMAGES} shadow rays of a pixel, the most that are tried, is {nearest:.4}"
-        ),
+    /// The figure to minimise, image by image.
+    fn figures(self, point: &Point) -> Vec<f64> {
+        let update_ms = point.structure.update_ms;
+        let pairs = point.images.times.iter().zip(&point.images.errors);
+        let of = |(&image_ms, &error): (&f64, &f64)| {
+            let product = image_ms * error.max(LEAST_ERROR);
+            match self {
+                Self::Time(frame_ms) => (product / (frame_ms - update_ms).max(f64::MIN_POSITIVE)).sqrt(),
+                Self::Error(wanted) => update_ms + product / (255.0 * wanted).powi(2),
+            }
+        };
+        pairs.map(of).collect()
+    }
+
+    /// The best of the points of a scene, whose images were measured by `samples` shadow rays of a pixel: the default unless
+    /// another is better for sure. Where none keeps the budget, why.
+    pub fn pick(self, points: &[Point], samples: u32) -> Result<Pick, String> {
+        let of_point = |point: &Point| {
+            let found = self.reached(&Costs::of(point, samples))?;
+            let config = point.config;
+            Ok(Reached { config, found })
+        };
+        let reached: Vec<Result<Reached, f64>> = points.iter().map(of_point).collect();
+        let kept = || (0..points.len()).filter_map(|at| Some((at, reached[at].as_ref().ok()?)));
+        let default = kept().find(|&(at, _)| points[at].default);
+        let (best, margin) = match default {
+            Some((at, own)) => {
+                let base = self.figures(&points[at]);
+                let better = kept()
+                    .map(|(k, other)| (other, Interval::of_ratios(&self.figures(&points[k]), &base)))
+                    .filter(|(_, ratio)| ratio.high < 1.0 && ratio.median * LEAST_GAIN < 1.0)
+                    .min_by(|(_, a), (_, b)| a.median.total_cmp(&b.median));
+                better.map_or((own, None), |(other, ratio)| (other, Some(ratio)))
+            }
+            None => {
+                let estimate = |own: &Reached| match self {
+                    Self::Time(_) => own.found.error,
+                    Self::Error(_) => own.found.frame_ms,
+                };
+                let best = kept().min_by(|(_, a), (_, b)| estimate(a).total_cmp(&estimate(b)));
+                let Some((_, best)) = best else {
+                    let nearest = reached.iter().filter_map(|own| own.as_ref().err());
+                    return Err(self.none(nearest.copied().fold(f64::INFINITY, f64::min)));
+                };
+                (best, None)
+            }
+        };
+        let (others, of_default) = (kept().count() - 1, default.map(|(_, own)| own.clone()));
+        Ok(Pick {
+            scene: points[0].scene.clone(),
+            sentence: self.sentence(best, of_default.as_ref(), margin, others),
+            best: best.clone(),
+            of_default,
+            margin,
+            others,
+        })
+    }
+
+    /// Why nothing is picked: `nearest` is the fastest frame there is, ms, or the least error.
+    fn none(self, nearest: f64) -> String {
+        match self {
+            Self::Time(_) => format!(
+                "no choice keeps this budget: the fastest takes {nearest:.2} ms for an image of one shadow ray a pixel"
+            ),
+            Self::Error(_) => {
+                format!(
+                    "no choice keeps this budget: the least error by {MOST_IMAGES} shadow rays of a pixel is {nearest:.4}"
+                )
+            }
+        }
+    }
+
+    fn sentence(
+        self,
+        best: &Reached,
+        default: Option<&Reached>,
+        margin: Option<Interval>,
+        others: usize,
+    ) -> String {
+        let what = match self {
+            Self::Time(time) => format!("least error in a frame of {time} ms"),
+            Self::Error(error) => format!("least time of a frame of error {error}"),
+        };
+        let to_default = match (default, margin) {
+            (_, Some(ratio)) => format!("{ratio} of the default's"),
+            (Some(_), None) => "nothing else is surely better".to_owned(),
+            (None, _) => "the default does not keep it".to_owned(),
+        };
+        format!(
+            "{}: {what}, {to_default}: error {:.4}, {:.2} ms by {:.1} shadow rays of a pixel; {others} others keep it",
+            best.config, best.found.error, best.found.frame_ms, best.found.samples
+        )
     }
 }
 
-fn sentence(
-    best: &Reached,
-    default: Option<&Reached>,
-    margin: Option<Interval>,
-    others: usize,
-    goal: Goal,
-) -> String {
-    let what = match goal {
-        Goal::Time(time) => format!("least error in a frame of {time} ms"),
-        Goal::Error(error) => format!("least time of a frame of error {error}"),
-    };
-    let to_default = match (default, margin) {
-        (Some(default), _) if default.config == best.config => "nothing else is surely better".to_owned(),
-        (Some(_), Some(Interval { median, low, high })) => {
-            format!("{median:.2} [{low:.2}, {high:.2}] of the default's, by images in turns")
-        }
-        _ => "the default does not keep it".to_owned(),
-    };
-    let error = match best.error {
-        error if error <= of_white(LEAST_ERROR) => format!("error below {:.4}", of_white(LEAST_ERROR)),
-        error => format!("error {error:.4}"),
-    };
-    let most = match best.samples {
-        samples if samples >= f64::from(MOST_IMAGES) => ", the most that are tried",
-        _ => "",
-    };
-    format!(
-        "{}: {what}, {to_default}: {error}, {:.2} ms by {:.1} shadow rays of a pixel{most}; {others} others keep it",
-        best.config, best.frame_ms, best.samples
-    )
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl fmt::Display for Pick {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.scene, self.sentence)
+    /// 4 ms for a ray and 2 ms for an update, 1200 squared steps by one ray.
+    const USUAL: Costs = Costs {
+        update_ms: 2.0,
+        ray_ms: 4.0,
+        of_one: 1200.0,
+        least: 1.0,
+    };
+
+    fn steps(squared: f64) -> f64 {
+        squared.sqrt() / 255.0
+    }
+
+    #[test]
+    fn frame_holds_rays_that_fit() {
+        let found = Goal::Time(20.0).reached(&USUAL).expect("4.5 rays");
+        assert!((found.samples - 4.5).abs() < 1e-9 && (found.error / steps(1200.0 / 4.5) - 1.0).abs() < 1e-9);
+        let too_little = Goal::Time(5.9).reached(&USUAL);
+        assert_eq!(too_little.err(), Some(6.0), "an update and one ray");
+        let most = Goal::Time(1e9).reached(&USUAL).expect("more than are tried");
+        assert_eq!((most.samples, most.frame_ms), (256.0, 2.0 + 256.0 * 4.0));
+        let odd = Costs {
+            update_ms: 0.1,
+            ray_ms: 0.3,
+            ..USUAL
+        };
+        for k in 0..1000 {
+            let budget = 1.0 + 0.07 * f64::from(k);
+            let found = Goal::Time(budget).reached(&odd).expect("several rays");
+            assert!(found.frame_ms <= budget, "{budget} {found:?}");
+        }
+    }
+
+    #[test]
+    fn error_takes_rays_by_its_square() {
+        let found = Goal::Error(steps(40.0)).reached(&USUAL).expect("30 rays");
+        assert!((found.samples - 30.0).abs() < 1e-6 && (found.frame_ms - 122.0).abs() < 1e-5);
+        // One image is the least; its own error is reported.
+        let one = Goal::Error(1.0).reached(&USUAL).expect("one image");
+        assert_eq!((one.samples, one.error), (1.0, steps(1200.0)));
+        let beyond = Goal::Error(steps(4.0)).reached(&USUAL).expect_err("300 rays");
+        assert!((beyond - steps(1200.0 / 256.0)).abs() < 1e-12);
     }
 }

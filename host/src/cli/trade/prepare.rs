@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use lightbvh::ShadingPoint;
 
-use super::Args;
-use super::choices::{Axis, Subject, all};
+use super::choices::all;
 use super::image::Budget;
 use super::reservoirs::HISTORY;
+use super::subject::{Axis, Subject};
 use super::update::{Frame, Updates};
 use crate::backend::SceneArrays;
+use crate::cli::measure::points;
 use crate::cli::table::news;
-use crate::cli::variance::points;
 use crate::error::HostError;
 use crate::scene::Scene;
 use crate::workload::{arrays_at, lights_at};
@@ -23,7 +23,6 @@ pub(super) struct Prepared {
     pub subjects: Vec<Box<dyn Subject>>,
     pub updates: Vec<Updates>,
     pub arrays: Arc<SceneArrays>,
-    pub background: [f32; 3],
 }
 
 type Shown = Option<Arc<SceneArrays>>;
@@ -36,20 +35,21 @@ pub(super) type InFrame<'a> =
 /// Builds what is asked for at the first frame and brings it to the last one that is measured; `in_frame` is called in each of
 /// `measured`, which ascend to that one.
 pub(super) fn prepare(
-    name: &str,
-    args: &Args,
+    scene: Scene,
+    is_wanted: &dyn Fn(Axis) -> bool,
     budget: &Budget,
     measured: &[u32],
     in_frame: &mut InFrame<'_>,
 ) -> Result<Prepared, HostError> {
-    let scene = Scene::open(name)?;
+    let name = scene.name().to_owned();
     for warning in scene.warnings().iter().chain(&scene.unknown_lights()) {
         news!("{name}: {warning}");
     }
     scene.require_lights()?;
-    let points = points::on_surfaces(&scene, args.frame, budget.points);
+    let last = measured.last().copied().unwrap_or(0);
+    let points = points::on_surfaces(&scene, last, budget.points);
     // ReSTIR looks back from the frames that are measured.
-    let looks_back = args.axes.is_empty() || args.axes.contains(&Axis::Integrator);
+    let looks_back = is_wanted(Axis::Integrator);
     let arrays = |number: u32| {
         let back = if looks_back { HISTORY } else { 0 };
         let wanted = measured.iter().any(|&at| number <= at && number + back >= at);
@@ -58,18 +58,11 @@ pub(super) fn prepare(
     };
     let first = lights_at(&scene, 0)?;
     let mut shown = arrays(0)?;
-    let mut subjects: Vec<Box<dyn Subject>> =
-        all(&Frame::new(&scene, 0, &first).rendered_from(shown.as_ref()))?
-            .into_iter()
-            .filter(|subject| {
-                let axis = subject.config().axis;
-                axis == Axis::Default || args.axes.is_empty() || args.axes.contains(&axis)
-            })
-            .collect();
+    let first = Frame::new(&scene, 0, &first).rendered_from(shown.as_ref());
+    let mut subjects = all(&first, is_wanted)?;
     news!(
-        "{name}: {} choices follow its lights to frame {}",
-        subjects.len(),
-        args.frame
+        "{name}: {} choices follow its lights to frame {last}",
+        subjects.len()
     );
     let mut updates = vec![Updates::default(); subjects.len()];
     let mut measure =
@@ -81,7 +74,7 @@ pub(super) fn prepare(
             _ => Ok(()),
         };
     measure(0, &mut subjects, &updates, &shown)?;
-    for number in 1..=args.frame {
+    for number in 1..=last {
         let lights = lights_at(&scene, number)?;
         shown = arrays(number)?;
         for k in 0..subjects.len() {
@@ -93,15 +86,13 @@ pub(super) fn prepare(
     }
     let arrays = match shown {
         Some(arrays) => arrays,
-        None => Arc::new(arrays_at(&scene, args.frame, budget.width, budget.height)?),
+        None => Arc::new(arrays_at(&scene, last, budget.width, budget.height)?),
     };
-    let background = scene.frame(args.frame).background;
     Ok(Prepared {
         scene,
         points,
         subjects,
         updates,
         arrays,
-        background,
     })
 }

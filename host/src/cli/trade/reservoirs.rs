@@ -10,12 +10,12 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use lightbvh::exact::hash;
-use lightbvh::importance::DefaultImportance;
-use lightbvh::{Lights, MomentNode, Random64, SampledLight, ShadingPoint};
+use lightbvh::{Lights, Random64, SampledLight, ShadingPoint};
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::pick::{PickLight, Power};
 
-use super::choices::{Axis, Built, Config, Pair, Subject};
+use super::built::Built;
+use super::subject::{Axis, Config, Subject};
 use super::update::{Frame, Spent};
 use crate::backend::{
     Backend, Combination, CpuBackend, Restir, RestirFrame, RestirOptions, Sampler, SceneArrays, Timed,
@@ -29,14 +29,12 @@ pub(super) const HISTORY: u32 = 8;
 /// Histories up to the frame that counts, shared by seeds; that frame itself is another one by each seed.
 const RUNS: u32 = 4;
 
-type Tree = Built<MomentNode<8>, DefaultImportance, 8>;
-
 /// Histories of ReSTIR over the lights of a scene.
 pub(super) struct Reservoirs {
     config: Config,
     options: RestirOptions,
     /// The light BVH; by power only what the renderer is made over.
-    tree: Tree,
+    tree: Built,
     /// The power table of the frame last advanced to; empty where candidates come from the tree.
     thresholds: Vec<u32>,
     past: VecDeque<Past>,
@@ -46,7 +44,7 @@ pub(super) struct Reservoirs {
 
 /// What a frame is rendered from.
 struct Past {
-    backend: CpuBackend<Pair<MomentNode<8>, DefaultImportance>, 8>,
+    backend: CpuBackend,
     arrays: Arc<SceneArrays>,
     number: u32,
     background: [f32; 3],
@@ -54,7 +52,7 @@ struct Past {
 
 impl Reservoirs {
     /// Candidates from `source`, by power or from `tree`, at the first frame.
-    pub fn new(source: Sampler, tree: Tree, first: &Frame<'_>) -> Result<Self, HostError> {
+    pub fn new(source: Sampler, tree: Built, first: &Frame<'_>) -> Result<Self, HostError> {
         let options = RestirOptions::new(source, Combination::Unbiased);
         let mut reservoirs = Self {
             config: Config {

@@ -1,7 +1,7 @@
 //! What each step along the front costs and buys, in words.
 
-use super::Point;
 use super::front::alike;
+use super::point::Point;
 
 /// Sentences for the points of a scene: what is as good as the default, and the steps of the front from the fastest on.
 pub(super) fn steps(points: &[Point]) -> Vec<String> {

@@ -6,15 +6,17 @@ use lightbvh_kernels::shading::trace::Surfaces;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::choices::Subject;
 use super::image::Budget;
 use super::light::{Sent, sent};
-use super::quantile::Interval;
+use super::subject::Subject;
 use super::update::{Frame, Updates};
-use crate::cli::times::ms;
+use crate::cli::measure::interval::Interval;
+use crate::cli::measure::mean_of;
+use crate::cli::measure::times::in_turns;
 use crate::error::HostError;
-use crate::metrics::mean;
 
+/// Builds of each tree.
+const BUILDS: u32 = 3;
 /// Trials of several candidates at each point.
 const TRIALS: u32 = 32;
 
@@ -38,18 +40,18 @@ pub(super) struct Structure {
 
 /// Of the estimate of diffuse light by one sample, over the squared mean. Exact for one candidate, by trials for more, up to
 /// the rays that tell which share of a light is seen.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub(super) struct Variances {
-    /// Without shadows: mean over the points.
-    pub variance: f64,
-    pub variance_median: f64,
+    /// Without shadows: mean over the points that any light reaches; `None` if there is no such point.
+    pub variance: Option<f64>,
+    pub variance_median: Option<f64>,
     /// With one shadow ray, to the one of the candidates that is taken by its light without shadows.
-    pub shadowed_variance: f64,
-    pub shadowed_variance_median: f64,
+    pub shadowed_variance: Option<f64>,
+    pub shadowed_variance_median: Option<f64>,
 }
 
 pub(super) fn structures(
-    subjects: &mut [Box<dyn Subject>],
+    subjects: &[Box<dyn Subject>],
     frame: &Frame<'_>,
     surfaces: &Surfaces<'_>,
     updates: Vec<Updates>,
@@ -62,51 +64,40 @@ pub(super) fn structures(
         .par_iter()
         .map(|point| sent(triangles, surfaces, point))
         .collect();
-    let mut times = vec![Times::default(); subjects.len()];
-    for turn in 0..budget.turns {
-        // Each turn begins elsewhere, so that no configuration always follows the same one.
-        for k in 0..subjects.len() {
-            let at = (k + turn as usize) % subjects.len();
-            let (subject, times) = (&mut subjects[at], &mut times[at]);
-            let mut time = 0.0;
-            for pass in 0..budget.passes {
-                time += ms(subject.sample(points, hash(turn * budget.passes + pass)));
-            }
-            times
-                .sample
-                .push(1e6 * time / f64::from(budget.passes) / points.len() as f64);
-            if turn < 3 {
-                times.build.push(ms(subject.build(frame)?));
-            }
-        }
-    }
-    let default = times[0].sample.clone();
+    let count = subjects.len();
+    let sampled = in_turns(
+        count,
+        budget.turns,
+        budget.passes * points.len() as u32,
+        |at, turn| {
+            let first = |pass| hash(turn * budget.passes + pass);
+            Ok((0..budget.passes)
+                .map(|pass| subjects[at].sample(points, first(pass)))
+                .sum())
+        },
+    )?;
+    let built = in_turns(count, BUILDS, 1, |at, _| subjects[at].build(frame))?;
+    let times = sampled.iter().zip(built);
     subjects
-        .iter_mut()
+        .iter()
         .zip(times)
         .zip(updates)
-        .map(|((subject, times), updates)| {
+        .map(|((subject, (own, built)), updates)| {
             Ok(Structure {
                 bytes_per_light: subject.bytes() as f64 / triangles.len() as f64,
-                build_ms: Interval::of(times.build).median,
+                build_ms: 1e-6 * Interval::of(built).median,
                 refit_ms: updates.refit_ms(),
                 update_ms: updates.mean_ms(),
                 beside_ms: updates.beside_ms(),
-                sample_ratio: Interval::of_ratios(&times.sample, &default),
-                ns_per_sample: Interval::of(times.sample).median,
+                sample_ratio: Interval::of_ratios(own, &sampled[0]),
+                ns_per_sample: Interval::of(own.clone()).median,
                 variances: variances(&**subject, lights, points, &sent),
             })
         })
         .collect()
 }
 
-#[derive(Clone, Debug, Default)]
-struct Times {
-    sample: Vec<f64>,
-    build: Vec<f64>,
-}
-
-fn variances(
+pub(super) fn variances(
     subject: &dyn Subject,
     lights: &Lights,
     points: &[ShadingPoint],
@@ -128,13 +119,10 @@ fn variances(
             shadowed.push((seen / (arrives * arrives) - 1.0).max(0.0));
         }
     }
-    let median = |values: Vec<f64>| match values.is_empty() {
-        true => 0.0,
-        false => Interval::of(values).median,
-    };
+    let median = |values: Vec<f64>| (!values.is_empty()).then(|| Interval::of(values).median);
     Variances {
-        variance: mean(&unshadowed),
-        shadowed_variance: mean(&shadowed),
+        variance: mean_of(&unshadowed),
+        shadowed_variance: mean_of(&shadowed),
         variance_median: median(unshadowed),
         shadowed_variance_median: median(shadowed),
     }

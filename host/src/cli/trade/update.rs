@@ -3,14 +3,13 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use lightbvh::bvh::RebuildParams;
 use lightbvh::{BuildParams, Bvh, LightNode, Lights};
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-use super::quantile::Interval;
 use crate::backend::{BackendError, Sampler, SceneArrays};
-use crate::cli::times::ms;
+use crate::cli::measure::interval::Interval;
+use crate::cli::measure::times::ms;
 use crate::error::HostError;
 use crate::scene::{Instances, Scene};
 use crate::workload::build;
@@ -25,7 +24,7 @@ const EVERY: u32 = 8;
 pub(super) enum Update {
     /// New bounds in the tree of the first frame.
     Refit,
-    /// The same, and a new top level of the frame before, built beside that one as a [`Rebuilder`](lightbvh::Rebuilder) does.
+    /// The same in trees of the frame before, whose top level a [`Rebuilder`](lightbvh::Rebuilder) builds in the background.
     TopRebuild,
     /// A new tree.
     Rebuild,
@@ -82,7 +81,7 @@ impl<'a> Frame<'a> {
 /// Time of an update, by what was done.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Spent {
-    /// Edits and new bounds, and taking in what was built beside the frame; nothing where the tree is new.
+    /// Edits and new bounds; nothing where the tree is new.
     pub refit: Option<Duration>,
     /// A new tree, for which the frame waits.
     pub rebuild: Option<Duration>,
@@ -144,17 +143,16 @@ impl Followed {
             spent.rebuild = Some(start.elapsed());
             return Ok(spent);
         }
-        let rebuilt = (self.update == Update::TopRebuild).then(|| bvh.rebuild(&RebuildParams::eager()).run());
-        spent.beside = rebuilt.is_some().then(|| start.elapsed());
+        if self.update == Update::TopRebuild {
+            bvh.rebuild();
+            spent.beside = Some(start.elapsed());
+        }
         // Where nodes of the scene stand is the animation's business, not the tree's.
         let edits = self
             .instances
             .as_mut()
             .map(|i| i.edits(frame.scene, frame.number));
         let start = Instant::now();
-        if let Some(rebuilt) = rebuilt {
-            bvh.install(rebuilt).expect("taken from this light BVH");
-        }
         match edits {
             Some(edits) => {
                 bvh.apply(edits)

@@ -14,6 +14,7 @@ use crate::backend::{Sampler, SceneArrays};
 use crate::error::HostError;
 use crate::method::{Importance, Method, MethodLight, Recipe, Runner, SequenceId, Step, Target};
 use crate::scene::{Scene, SceneLight};
+use crate::words::Record;
 use crate::workload::{RenderSettings, arrays_lit_by, queries};
 
 /// Images are small: an animation has thousands of them, and SwiftShader takes a millisecond for a pixel of some.
@@ -120,28 +121,20 @@ impl<L: MethodLight> Lane<'_, L> {
             format!("{scene} {} frame {frame} {kernel}", recipe.name)
         };
         // Candidates change the image alone.
-        if recipe.is_light_bvh()
-            && recipe.candidates == 1
-            && let Some(cpu) = self.cpu.backend()
-        {
-            let record = cpu.node_record();
+        let has_own_tree = recipe.is_light_bvh() && recipe.candidates == 1;
+        if has_own_tree && let Some((record, expected)) = nodes(&mut *self.cpu)? {
+            for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
+                if let Some((_, found)) = nodes(&mut **device)? {
+                    tally.take(Kind::Nodes, &what("refit"), &record, &expected, &found)?;
+                }
+            }
+        }
+        if has_own_tree && let Some(cpu) = self.cpu.backend() {
             let devices = self.devices.iter_mut().filter_map(|device| device.backend());
             let mut side = Side {
                 cpu,
                 devices: devices.collect(),
             };
-            // A tree that was built anew came to the device complete; there it is refitted, so that its words are the
-            // device's own.
-            side.compare(
-                tallies,
-                Kind::Nodes,
-                &what("refit"),
-                &record,
-                |backend| match recipe.rebuilt {
-                    true => Ok(backend.refit(step.lights)?.value),
-                    false => backend.nodes(),
-                },
-            )?;
             let lights = (arrays.lights.triangles(), recipe.lights == Sampler::SingleLevel);
             side.compare_queries(tallies, &what, asked.to_vec(), lights)?;
         }
@@ -164,6 +157,15 @@ impl<L: MethodLight> Lane<'_, L> {
         }
         Ok(())
     }
+}
+
+/// The words of the nodes of a method that are in use, if it has a tree.
+fn nodes<L: MethodLight>(runner: &mut dyn Runner<L>) -> Result<Option<(Record, Vec<u32>)>, HostError> {
+    let Some(backend) = runner.backend() else {
+        return Ok(None);
+    };
+    let (record, words) = (backend.node_record(), backend.nodes()?);
+    Ok(Some((record, runner.words_in_use(words))))
 }
 
 #[cfg(test)]

@@ -1,19 +1,21 @@
-//! Both structures over a scene: refits, queries by the hundred thousand, images, ReSTIR.
+//! Both structures over a scene: refits, queries by the hundred thousand, images.
 
 use indicatif::ProgressBar;
 use lightbvh::exact::hash;
+use lightbvh::{BuildParams, Lights};
 use lightbvh_kernels::bvh::Choice;
 
 use super::side::Side;
-use super::subject::Subject;
+use super::subject::{Subject, Tree};
 use super::tally::{Kind, Tallies};
 use crate::backend::{
-    Backend, Bvh, CpuBackend, DeviceBackend, Integrator, PIXEL_RECORD, Sampler, SceneArrays,
+    Backend, BackendError, CpuBackend, DeviceBackend, Follow, Integrator, PIXEL_RECORD, Sampler, SceneArrays,
+    node_words,
 };
 use crate::cli::devices::Opened;
 use crate::error::HostError;
 use crate::scene::SceneLight;
-use crate::workload::{RenderSettings, arrays_lit_by, build, lights_of, queries};
+use crate::workload::{RenderSettings, arrays_lit_by, build, lights_of, queries, words_in_use};
 
 /// Queries answered at a time.
 const BATCH: u32 = 1 << 19;
@@ -22,6 +24,45 @@ const BUILD_FRAME: u32 = 0;
 const REFIT_FRAMES: [u32; 2] = [40, 110];
 /// Most reflections of the paths that are compared: enough for some to end by chance.
 const BOUNCES: u32 = 5;
+
+/// A structure on the CPU and on each device.
+struct Made<'d, C: Choice<W>, const W: usize> {
+    cpu: CpuBackend<C, W>,
+    devices: Vec<DeviceBackend<'d, C, W>>,
+}
+
+impl<'d, C: Choice<W, Light: SceneLight>, const W: usize> Made<'d, C, W> {
+    fn new(
+        lights: &Lights<C::Light>,
+        sampler: Sampler,
+        params: &BuildParams,
+        opened: &'d [Opened],
+    ) -> Result<Self, HostError> {
+        let cpu = CpuBackend::new(build(lights, sampler, params));
+        let devices = opened.iter().map(|o| DeviceBackend::new(&o.device, cpu.bvh()));
+        let devices = devices.collect::<Result<_, _>>()?;
+        Ok(Self { cpu, devices })
+    }
+
+    /// Brings all to `lights`, and compares their nodes.
+    fn refit(
+        &mut self,
+        lights: &Lights<C::Light>,
+        what: &str,
+        tallies: &mut Tallies,
+    ) -> Result<(), HostError> {
+        let record = self.cpu.node_record();
+        self.cpu.bvh_mut().follow(lights).map_err(BackendError::from)?;
+        let bvh = self.cpu.bvh();
+        let expected = words_in_use(bvh, &node_words(bvh));
+        for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
+            device.follow(bvh)?;
+            let found = words_in_use(bvh, &device.nodes()?);
+            tally.take(Kind::Nodes, what, &record, &expected, &found)?;
+        }
+        Ok(())
+    }
+}
 
 /// Compares everything about one structure over one scene.
 pub(super) fn compare<C: Choice<W, Light: SceneLight>, const W: usize>(
@@ -34,25 +75,19 @@ pub(super) fn compare<C: Choice<W, Light: SceneLight>, const W: usize>(
     let scene = subject.scene;
     let what = |kernel: &str| subject.says(kernel);
     let lights = lights_of::<C::Light>(scene, BUILD_FRAME)?;
-    let bvh: Bvh<C, W> = build(&lights, subject.sampler, &subject.params);
-    let mut cpu = CpuBackend::<C, W>::new(bvh.clone());
-    let mut devices = opened
-        .iter()
-        .map(|o| DeviceBackend::<C, W>::new(&o.device, &bvh))
-        .collect::<Result<Vec<_>, _>>()?;
-    let record = cpu.node_record();
-    let mut side = Side {
-        cpu: &mut cpu,
-        devices: devices.iter_mut().map(|device| device as _).collect(),
-    };
-
+    let mut made = Made::<C, W>::new(&lights, subject.sampler, &subject.params, opened)?;
+    let mut trees = vec![Tree::of::<C, W>(subject, BUILD_FRAME, made.cpu.bvh(), &lights)];
     for frame in REFIT_FRAMES {
         let lights = lights_of::<C::Light>(scene, frame)?;
-        let what = what(&format!("frame {frame} refit"));
-        side.compare(tallies, Kind::Nodes, &what, &record, |backend| {
-            Ok(backend.refit(&lights)?.value)
-        })?;
+        made.refit(&lights, &what(&format!("frame {frame} refit")), tallies)?;
+        trees.push(Tree::of::<C, W>(subject, frame, made.cpu.bvh(), &lights));
     }
+    tallies.trees.extend(trees);
+    let is_single_level = made.cpu.bvh().is_single_level();
+    let mut side = Side {
+        cpu: &mut made.cpu,
+        devices: made.devices.iter_mut().map(|device| device as _).collect(),
+    };
 
     let settings = RenderSettings {
         frame: REFIT_FRAMES[REFIT_FRAMES.len() - 1],
@@ -62,7 +97,7 @@ pub(super) fn compare<C: Choice<W, Light: SceneLight>, const W: usize>(
         seed,
     };
     let arrays = arrays_lit_by::<C::Light>(scene, settings.frame, settings.width, settings.height)?;
-    let lights = (arrays.lights.triangles(), bvh.is_single_level());
+    let lights = (arrays.lights.triangles(), is_single_level);
     let mut first = 0;
     while first < count {
         let batch = u64::min(count - first, BATCH.into()) as u32;
@@ -71,8 +106,7 @@ pub(super) fn compare<C: Choice<W, Light: SceneLight>, const W: usize>(
         progress.inc(batch.into());
         first += u64::from(batch);
     }
-    images(subject, &arrays, &settings, &mut side, tallies)?;
-    super::restir::compare::<C, W>(subject, &settings, opened, tallies)
+    images(subject, &arrays, &settings, &mut side, tallies)
 }
 
 /// Small images, of light reflected once and of paths; those of the samplers without a tree once per scene only.

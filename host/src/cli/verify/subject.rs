@@ -1,8 +1,10 @@
-//! What is compared: a structure over a scene.
+//! What is compared: a structure over a scene, and its tree in a frame.
 
-use lightbvh::BuildParams;
+use lightbvh::{BuildParams, Lights};
+use lightbvh_kernels::bvh::Choice;
+use serde::Serialize;
 
-use crate::backend::Sampler;
+use crate::backend::{Bvh, Sampler};
 use crate::scene::Scene;
 
 /// A structure over a scene.
@@ -12,7 +14,7 @@ pub(super) struct Subject<'a> {
     /// What lights are chosen by, for messages.
     pub importance: &'static str,
     pub params: BuildParams,
-    /// Whether images and reservoirs without a tree are compared too: once per scene.
+    /// Whether images without a tree are compared too: once per scene.
     pub treeless: bool,
 }
 
@@ -25,5 +27,46 @@ impl Subject<'_> {
             self.sampler.name(),
             self.importance
         )
+    }
+}
+
+/// A tree in one frame, and whether every invariant of it holds. It is over the lights as they stand in the world: two levels
+/// have a tree for each instance, which `inspect` and `trade` share.
+#[derive(Debug, Serialize)]
+pub(super) struct Tree {
+    pub scene: String,
+    pub importance: &'static str,
+    pub structure: Sampler,
+    pub frame: u32,
+    pub valid: bool,
+    pub said: String,
+    pub lights: usize,
+    pub mesh_lights: usize,
+    pub nodes: usize,
+    pub depth: u32,
+    pub bytes_per_light: f64,
+}
+
+impl Tree {
+    pub fn of<C: Choice<W>, const W: usize>(
+        subject: &Subject<'_>,
+        frame: u32,
+        bvh: &Bvh<C, W>,
+        lights: &Lights<C::Light>,
+    ) -> Self {
+        let violation = bvh.validate().err().map(|violation| violation.to_string());
+        Self {
+            scene: subject.scene.name().to_owned(),
+            importance: subject.importance,
+            structure: subject.sampler,
+            frame,
+            valid: violation.is_none(),
+            said: violation.unwrap_or_else(|| "hold".to_owned()),
+            lights: lights.triangles().len(),
+            mesh_lights: lights.mesh_count(),
+            nodes: bvh.nodes().len() + bvh.top_nodes().len(),
+            depth: bvh.depth(),
+            bytes_per_light: bvh.bytes() as f64 / lights.triangles().len().max(1) as f64,
+        }
     }
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use bytemuck::cast_slice;
 use serde::Serialize;
 
+use super::subject::Tree;
 use crate::backend::{History, PIXEL_RECORD, RESERVOIR_RECORD, SURFACE_RECORD};
 use crate::error::HostError;
 use crate::words::{Record, compare_words};
@@ -56,6 +57,8 @@ pub(in crate::cli) struct Tally {
 pub(super) struct Tallies {
     pub devices: Vec<Tally>,
     pub cpu: Tally,
+    /// Trees that were checked on the CPU.
+    pub trees: Vec<Tree>,
 }
 
 impl Tally {

@@ -92,18 +92,6 @@ fn refuse(rule: &'static str, remedy: &'static str) -> Result<(), Refusal> {
     Err(Refusal { rule, remedy })
 }
 
-/// Whether an instruction is one of those that native operations are: a quotient, a root, a fused sum. Devices differ in them.
-pub(super) fn native(inst: &Instruction) -> bool {
-    let number = match inst.operands.get(1) {
-        Some(Operand::LiteralExtInstInteger(number)) => GLOp::from_u32(*number),
-        _ => None,
-    };
-    match inst.class.opcode {
-        Op::ExtInst => matches!(number, Some(GLOp::Sqrt | GLOp::InverseSqrt | GLOp::Fma)),
-        op => op == Op::FDiv,
-    }
-}
-
 /// Types, constants, memory, control flow and moves of bits.
 fn is_structure(op: Op) -> bool {
     matches!(
@@ -121,6 +109,7 @@ fn is_structure(op: Op) -> bool {
             | Op::ConstantTrue
             | Op::ConstantFalse
             | Op::Constant
+            | Op::SpecConstant
             | Op::ConstantComposite
             | Op::ConstantNull
             | Op::Undef

@@ -76,8 +76,8 @@ pub fn wholes(scene: &mut Scene, size: u32) {
     row(scene, "plan_of_everything", size, nothing, |scene, ()| {
         scene.bvh.plan_of_everything()
     });
-    row(scene, "Mirror::follow of all", size, nothing, |scene, ()| {
-        Mirror::default().follow(&scene.bvh)
+    row(scene, "Mirror::frame of all", size, nothing, |scene, ()| {
+        Mirror::default().frame(&scene.bvh)
     });
     row(scene, "mesh_triangles", size, nothing, |scene, ()| {
         scene.bvh.mesh_triangles(scene.mesh).map(<[_]>::len)

@@ -6,7 +6,6 @@
 mod any;
 mod measure;
 
-use lightbvh::bvh::RebuildParams;
 use lightbvh::{Edit, EmissiveTriangle};
 
 use any::{queries, wholes};
@@ -32,7 +31,7 @@ fn instances(size: u32) {
     scene.bvh.refit();
     let moved = |scene: &mut Scene| {
         scene.bvh.refit();
-        scene.mirror.frame(&mut scene.bvh);
+        scene.mirror.frame(&scene.bvh);
         let id = scene.some();
         scene.bvh.set_transform(id, at(scene.turn)).expect("its own");
     };
@@ -44,7 +43,7 @@ fn instances(size: u32) {
         "Mirror::frame after one moved",
         size,
         moved,
-        |scene, ()| scene.mirror.frame(&mut scene.bvh),
+        |scene, ()| scene.mirror.frame(&scene.bvh),
     );
     row(scene, "remove_instance", size, Scene::one_more, |scene, ()| {
         let id = scene.one_less();
@@ -127,43 +126,11 @@ fn instances(size: u32) {
         |scene| {
             let edits = all(scene);
             scene.bvh.apply(edits).expect("its own");
-        },
-        |scene, ()| scene.mirror.frame(&mut scene.bvh),
-    );
-    let top = RebuildParams {
-        top: 1.0,
-        drift: f64::INFINITY,
-    };
-    row(scene, "rebuild: its copy", size, nothing, |scene, ()| {
-        scene.bvh.rebuild(&top)
-    });
-    row(
-        scene,
-        "rebuild: run",
-        size,
-        |scene| scene.bvh.rebuild(&top),
-        |_, job| job.run(),
-    );
-    row(
-        scene,
-        "install",
-        size,
-        |scene| {
             scene.bvh.refit();
-            scene.bvh.rebuild(&top).run()
         },
-        |scene, rebuilt| scene.bvh.install(rebuilt).expect("its own"),
+        |scene, ()| scene.mirror.frame(&scene.bvh),
     );
-    row(
-        scene,
-        "refit after install",
-        size,
-        |scene| {
-            let rebuilt = scene.bvh.rebuild(&top).run();
-            scene.bvh.install(rebuilt).expect("its own");
-        },
-        |scene, ()| scene.bvh.refit(),
-    );
+    row(scene, "rebuild", size, nothing, |scene, ()| scene.bvh.rebuild());
     row(
         scene,
         "begin_frame, refit, end_frame; one moves",
@@ -197,7 +164,7 @@ fn triangles(size: u32) {
     });
     let set = |scene: &mut Scene| {
         scene.bvh.refit();
-        scene.mirror.frame(&mut scene.bvh);
+        scene.mirror.frame(&scene.bvh);
         let triangles = deformed(scene);
         scene.bvh.set_triangles(scene.mesh, triangles).expect("as many");
     };
@@ -209,7 +176,7 @@ fn triangles(size: u32) {
         "Mirror::frame after it deformed",
         size,
         set,
-        |scene, ()| scene.mirror.frame(&mut scene.bvh),
+        |scene, ()| scene.mirror.frame(&scene.bvh),
     );
     row(
         scene,
@@ -233,22 +200,14 @@ fn triangles(size: u32) {
     );
     row(
         scene,
-        "install of the mesh built anew",
+        "rebuild of the mesh",
         size,
         |scene| {
-            scene.bvh.refit();
             let triangles = deformed(scene);
             scene.bvh.set_triangles(scene.mesh, triangles).expect("as many");
             scene.bvh.refit();
-            scene
-                .bvh
-                .rebuild(&RebuildParams {
-                    top: f64::INFINITY,
-                    drift: 0.0,
-                })
-                .run()
         },
-        |scene, rebuilt| scene.bvh.install(rebuilt).expect("its own"),
+        |scene, ()| scene.bvh.rebuild(),
     );
 }
 

@@ -60,7 +60,7 @@ impl Scene {
         let instances = bvh.apply(all.collect()).expect("instances").instances;
         bvh.refit();
         let mut mirror = Mirror::default();
-        mirror.frame(&mut bvh);
+        mirror.frame(&bvh);
         Self {
             bvh,
             mesh,
@@ -145,7 +145,7 @@ pub fn row<T, U>(
         times.push(start.elapsed().as_nanos() as f64 * 1e-3);
         allocated.push((ALLOCATED.load(Relaxed) - before) as f64);
         drop(output);
-        copied.push(bytes(&scene.mirror.frame(&mut scene.bvh)) as f64);
+        copied.push(bytes(&scene.mirror.frame(&scene.bvh)) as f64);
     }
     let calls = times.len();
     let [times, allocated, copied] = [times, allocated, copied].map(|mut values| {

@@ -1,6 +1,5 @@
 //! A street whose lights come, move, flicker, bend and go: what the engine tells lightbvh in each frame.
 
-use lightbvh::bvh::RebuildParams;
 use lightbvh::{Edit, EmissiveTriangle, InstanceId, LightBvh, MeshId, ShadingPoint, Transform};
 
 use super::Result;
@@ -39,8 +38,7 @@ impl World {
     pub fn step(&mut self, frame: u16) -> Result<()> {
         if frame % 4 == 3 {
             // In an engine this runs on another thread; `lightbvh::Rebuilder` does that.
-            let rebuilt = self.bvh.rebuild(&RebuildParams::eager()).run();
-            self.bvh.install(rebuilt)?;
+            self.bvh.rebuild();
         }
         let time = f32::from(frame) * 0.1;
         let mut edits = vec![Edit::SetTriangles {
@@ -73,6 +71,7 @@ impl World {
             edits.extend(self.lamps.drain(..20).map(Edit::RemoveInstance));
         }
         self.lamps.extend(self.bvh.apply(edits)?.instances);
+        self.bvh.refit();
         Ok(())
     }
 }

@@ -4,16 +4,18 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use bytemuck::{cast_slice, cast_slice_mut};
-use lightbvh::bvh::RebuildParams;
+use lightbvh::importance::ImportanceModel;
 use lightbvh::light::{AnyLight, BoxLight, PointLight, SphereLight};
 use lightbvh::node::{Lit, Node, SpotMomentNode};
 use lightbvh::refit::{self, BlasRoot, Child, LIMITED_ROWS, PLAIN_ROWS};
-use lightbvh::{Bvh, CompactNode, Edit, EmissiveTriangle, Instance, MomentNode, Transform};
+use lightbvh::summary::Summary;
+use lightbvh::{
+    Bvh, CompactNode, Edit, EmissiveTriangle, Instance, LightTree, MomentNode, Random64, ShadingPoint,
+    Transform,
+};
 
 use super::*;
 use crate::refit::Pass;
-
-mod plans;
 
 /// What a device would hold, as words.
 #[derive(Default)]
@@ -42,7 +44,7 @@ impl Device {
     }
 
     fn follow<N: Node<W>, const W: usize>(&mut self, scene: &Bvh<N, (), W>) -> Frame {
-        let frame = self.mirror.follow(scene);
+        let frame = self.mirror.frame(scene);
         for &(buffer, bytes) in &frame.resizes {
             // New memory holds anything.
             self.buffers[buffer as usize].resize(bytes as usize / 4, 0xdead_beef);
@@ -71,14 +73,10 @@ impl Device {
         }
         let mut children = vec![0xdead_beef; frame.refit.children as usize / 4];
         for dispatch in &frame.refit.dispatches {
-            let [first, count] = dispatch.push();
+            let [first, count, top] = dispatch.push();
             for i in 0..count {
-                self.compute::<N, W>(
-                    dispatch.pass,
-                    &frame.refit.list[first as usize..],
-                    i,
-                    &mut children,
-                );
+                let list = &frame.refit.list[first as usize..];
+                self.compute::<N, W>(dispatch.pass, list, i, top, &mut children);
             }
         }
         frame
@@ -90,6 +88,7 @@ impl Device {
         pass: Pass,
         list: &[u32],
         i: u32,
+        top: u32,
         children: &mut [u32],
     ) {
         let (place, slot) = match pass {
@@ -112,7 +111,7 @@ impl Device {
                 cast_slice_mut::<u32, BlasRoot>(&mut self.buffers[Buffer::Roots as usize])[at] = root;
             }
             Pass::Top => {
-                let child = refit::top_child::<N, W>(nodes, instances, roots, entry, slot);
+                let child = refit::top_child::<N, W>(nodes, top, instances, roots, entry, slot);
                 put::<N, W>(&child, children, place, slot);
             }
             Pass::Nodes => {
@@ -126,30 +125,66 @@ impl Device {
         }
     }
 
+    /// Checks that words in use are bit-identical, and walks too.
     fn assert_is<N: Node<W>, const W: usize>(&self, scene: &Bvh<N, (), W>, frame: impl core::fmt::Display) {
-        // Nodes and roots out of use hold what they held last, here and there.
         let used = scene.plan_of_everything();
-        let nodes = [used.bottom.nodes(), used.top.nodes()].concat();
-        for buffer in Buffer::ALL {
-            let expected: &[u32] = cast_slice(buffer.bytes(scene));
-            let found = self.buffer(buffer);
-            let (used, words) = match buffer {
-                Buffer::Nodes => (&nodes, size_of::<N>() / 4),
-                Buffer::Roots => (&used.roots, size_of::<BlasRoot>() / 4),
-                _ => {
-                    assert!(found == expected, "frame {frame}: {buffer:?}");
-                    continue;
-                }
-            };
-            assert_eq!(found.len(), expected.len(), "frame {frame}: {buffer:?}");
-            for &index in used {
-                let at = index as usize * words..(index as usize + 1) * words;
-                assert!(
-                    found[at.clone()] == expected[at],
-                    "frame {frame}: {buffer:?} {index}"
-                );
-            }
+        let top = self.mirror.top::<N>();
+        let nodes: &[N] = cast_slice(self.buffer(Buffer::Nodes));
+        for (&index, base, own) in used
+            .bottom
+            .nodes()
+            .iter()
+            .map(|index| (index, 0, scene.nodes()))
+            .chain(
+                used.top
+                    .nodes()
+                    .iter()
+                    .map(|index| (index, top, scene.top_nodes())),
+            )
+        {
+            let (found, expected) = (&nodes[(index + base) as usize], &own[index as usize]);
+            let same = bytemuck::bytes_of(found) == bytemuck::bytes_of(expected);
+            assert!(same, "frame {frame}: node {index}, {base}");
         }
+        let roots: &[BlasRoot] = cast_slice(self.buffer(Buffer::Roots));
+        for &index in &used.roots {
+            assert_eq!(
+                roots[index as usize],
+                scene.roots()[index as usize],
+                "frame {frame}"
+            );
+        }
+        let instances: &[Instance] = cast_slice(self.buffer(Buffer::Instances));
+        let triangles: &[u32] = cast_slice(scene.triangles());
+        assert!(instances.starts_with(scene.instances()), "frame {frame}");
+        let held = self.buffer(Buffer::Triangles);
+        assert!(held.starts_with(triangles), "frame {frame}");
+        let trails = self.buffer(Buffer::Trails);
+        let there: LightTree<'_, N, Choice, W> = self.mirror.words(scene).tree(nodes, instances, trails);
+        let here = scene.by::<Choice>();
+        for k in 0..16_u32 {
+            let point = ShadingPoint {
+                p: [(k % 4) as f32 * 3.0, -1.0, (k / 4) as f32 * 3.0],
+                n: [0.0, 1.0, 0.0],
+            };
+            let number = Random64::from(lightbvh::exact::hash(k));
+            let [a, b] = [here.sample(&point, number), there.sample(&point, number)];
+            assert_eq!(a, b, "frame {frame}");
+            let pmf = there.pmf(&point, a.light, a.instance);
+            assert_eq!(a.pmf.to_bits(), pmf.to_bits(), "frame {frame}");
+        }
+    }
+}
+
+/// Children are chosen by flux alone, in any layout, and one light in four by its path.
+#[derive(Clone, Copy)]
+struct Choice;
+
+impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for Choice {
+    const UNIFORM_HALVINGS: u32 = 2;
+
+    fn weights(node: &N, _: &ShadingPoint) -> [f32; W] {
+        core::array::from_fn(|slot| node.summary(slot).phi())
     }
 }
 
@@ -250,110 +285,71 @@ fn edit<N: Node<W>, const W: usize>(
     scene.apply(edits).unwrap();
 }
 
+/// Two devices, one of which skips frames.
 fn follows<N: Node<W>, const W: usize>(rebuilds: bool)
 where
     N::Light: Lamp,
 {
     let mut scene = Bvh::<N, (), W>::default();
-    let (mut device, mut ids) = (Device::default(), Default::default());
+    let (mut devices, mut ids) = (<[Device; 2]>::default(), Default::default());
     for frame in 0..40 {
         edit(&mut scene, &mut ids, frame);
-        if rebuilds && frame % 2 == 1 {
-            let rebuilt = scene.rebuild(&RebuildParams { top: 1.0, drift: 1.1 }).run();
-            scene.install(rebuilt).expect("its own");
-        }
-        scene.plan();
-        device.follow(&scene);
         scene.refit();
-        device.assert_is(&scene, frame);
+        if rebuilds && frame % 3 == 1 {
+            scene.rebuild();
+        }
+        for (device, every) in devices.iter_mut().zip([1, 3]) {
+            if frame % every == 0 {
+                device.follow(&scene);
+                device.assert_is(&scene, frame);
+            }
+        }
     }
 }
 
 #[test]
-fn a_device_follows_edits() {
+fn device_follows_edits() {
     follows::<MomentNode<8>, 8>(false);
     follows::<CompactNode<4>, 4>(false);
     follows::<Lit<SpotMomentNode<8>, AnyLight>, 8>(false);
 }
 
 #[test]
-fn a_device_follows_rebuilds() {
+fn device_follows_rebuilds() {
     follows::<MomentNode<8>, 8>(true);
     follows::<CompactNode<4>, 4>(true);
     follows::<Lit<SpotMomentNode<8>, AnyLight>, 8>(true);
 }
 
 #[test]
-fn a_device_follows_a_scene_that_is_never_refitted_itself() {
-    let mut scene = Bvh::<MomentNode<8>, (), 8>::default();
-    let (mut device, mut ids) = (Device::default(), Default::default());
-    for frame in 0..100 {
-        edit(&mut scene, &mut ids, frame);
-        if frame % 5 == 4 {
-            let rebuilt = scene.rebuild(&RebuildParams { top: 1.0, drift: 1.1 }).run();
-            scene.install(rebuilt).expect("its own");
-        }
-        // Each change is told once.
-        scene.plan();
-        device.follow(&scene);
-        let told = scene.work().clone();
-        let mut twin = scene.clone();
-        twin.refit();
-        device.assert_is(&twin, frame);
-        assert!(scene.plan().written_nodes.is_empty() && scene.work().computed() == 0);
-        let of_this_frame = twin.work().computed();
-        assert!(told.computed() <= of_this_frame, "{frame}");
-    }
-}
-
-/// Frames refitted here that no plan was taken of are told by the next plan.
-#[test]
-fn a_device_may_skip_frames() {
-    let mut scene = Bvh::<MomentNode<8>, (), 8>::default();
-    let (mut device, mut ids) = (Device::default(), Default::default());
-    for frame in 0..40 {
-        edit(&mut scene, &mut ids, frame);
-        scene.refit();
-        if frame % 3 == 0 {
-            scene.plan();
-            device.follow(&scene);
-            device.assert_is(&scene, frame);
-        }
-    }
-}
-
-#[test]
-fn the_first_frame_copies_everything_and_a_still_one_nothing() {
+fn first_frame_copies_everything_and_still_one_nothing() {
     let mut scene = Bvh::<MomentNode<8>, (), 8>::default();
     edit(&mut scene, &mut Default::default(), 0);
     scene.refit();
     let mut device = Device::default();
     let first = device.follow(&scene);
     assert_eq!(first.resizes.len(), Buffer::ALL.len());
-    for (&(buffer, bytes), copy) in first.resizes.iter().zip(&first.copies) {
-        assert_eq!((buffer, 0..bytes), (copy.buffer, copy.bytes.clone()));
+    for (buffer, bytes) in first.resizes {
+        let own = first.copies.iter().filter(|copy| copy.buffer == buffer);
+        let copied: u64 = own.map(|copy| copy.bytes.end - copy.bytes.start).sum();
+        assert_eq!(copied, bytes, "{buffer:?}");
     }
     device.assert_is(&scene, 0);
     scene.apply(vec![]).unwrap();
     scene.refit();
-    assert_eq!(device.follow(&scene), Frame::default());
+    let still = device.follow(&scene);
+    assert!(still.copies.is_empty() && still.resizes.is_empty() && still.refit.dispatches.is_empty());
 }
 
-/// Buffers are as large as another light BVH needs them, be it smaller.
 #[test]
-fn a_mirror_may_change_to_another_light_bvh() {
+fn mirror_may_change_to_another_light_bvh() {
     let mut device = Device::default();
     for count in [50, 3, 20] {
         let mut scene = Bvh::<MomentNode<8>, (), 8>::default();
-        scene.add_mesh(mesh(count, 1)).expect("a mesh");
+        let mesh = scene.add_mesh(mesh(count, 1)).expect("a mesh");
+        scene.add_instance(mesh, Transform::IDENTITY).expect("one");
         scene.refit();
-        scene.plan();
-        let frame = device.follow(&scene);
-        assert!(!frame.resizes.is_empty());
-        for buffer in Buffer::ALL {
-            let (held, needed) = (device.buffer(buffer).len() * 4, buffer.bytes(&scene).len());
-            assert_eq!(held, needed, "{buffer:?} of {count}");
-        }
+        device.follow(&scene);
         device.assert_is(&scene, count);
     }
 }

@@ -115,8 +115,6 @@ pub(crate) fn instructions(words: &[u32]) -> Result<Vec<Instruction<'_>>, Module
 
 /// Opcodes that are looked at.
 pub(crate) mod op {
-    pub(crate) const EXTENSION: u16 = 10;
-    pub(crate) const EXT_INST: u16 = 12;
     pub(crate) const MEMORY_MODEL: u16 = 14;
     pub(crate) const ENTRY_POINT: u16 = 15;
     pub(crate) const EXECUTION_MODE: u16 = 16;

@@ -10,25 +10,6 @@ use super::super::trace::Surfaces;
 use super::surface::Surface;
 use super::target::{lit, visible};
 
-/// How reservoirs of several receivers are counted. Types, not a flag: the biased kernels hold no code that traces rays.
-pub trait Combine {
-    /// Whether the expectation is kept, for which the other receivers are asked.
-    const UNBIASED: bool;
-
-    /// The target of `sample` at another receiver: zero where that receiver could not have produced it. `known_visible`
-    /// spares the ray.
-    fn ask(
-        &self,
-        materials: &[Material],
-        receiver: &Surface,
-        sample: &LightSample,
-        known_visible: bool,
-    ) -> Answer;
-
-    /// The reservoir that is left of `stream`.
-    fn finish(stream: &Resampling, balance: &Balance) -> Reservoir;
-}
-
 /// What a receiver has to say about a sample.
 #[derive(Clone, Copy, Debug)]
 pub struct Answer {
@@ -38,24 +19,23 @@ pub struct Answer {
     pub shadow_rays: u32,
 }
 
-/// Algorithm 6 with the weights of ReSTIR section 4.3: no bias; a shadow ray for each other receiver.
+/// How reservoirs of several receivers are counted, and the frame that the other receivers are asked in.
 #[derive(Clone, Copy)]
-pub struct Unbiased<'a, L: Emitter = EmissiveTriangle> {
+pub struct Combine<'a, L: Emitter = EmissiveTriangle> {
+    /// Whether the expectation is kept, for which the other receivers are asked: Algorithm 6 with the weights of ReSTIR section 4.3,
+    /// a shadow ray for each. Otherwise Algorithm 4, 1 / M: **biased**, darker where receivers do not see the same lights; no ray.
+    pub is_unbiased: bool,
     /// What shadow rays met in the receivers' frame.
     pub surfaces: Surfaces<'a, L::Skin<'a>>,
     /// The lights of the receivers' frame.
     pub emitters: Emitters<'a, L>,
 }
 
-/// Algorithm 4, 1 / M: **biased**, darker where receivers do not see the same lights; no ray.
-#[derive(Clone, Copy, Debug)]
-pub struct Biased;
-
-impl<L: Emitter> Combine for Unbiased<'_, L> {
-    const UNBIASED: bool = true;
-
+impl<L: Emitter> Combine<'_, L> {
+    /// The target of `sample` at another receiver: zero where that receiver could not have produced it. `known_visible`
+    /// spares the ray.
     #[inline]
-    fn ask(
+    pub fn ask(
         &self,
         materials: &[Material],
         receiver: &Surface,
@@ -76,26 +56,14 @@ impl<L: Emitter> Combine for Unbiased<'_, L> {
         answer
     }
 
+    /// The reservoir that is left of `stream`.
     #[inline]
-    fn finish(stream: &Resampling, balance: &Balance) -> Reservoir {
-        stream.finish_balanced(balance.own, balance.sum)
-    }
-}
-
-impl Combine for Biased {
-    const UNBIASED: bool = false;
-
-    #[inline]
-    fn ask(&self, _: &[Material], _: &Surface, _: &LightSample, _: bool) -> Answer {
-        Answer {
-            target: 0.0,
-            shadow_rays: 0,
+    pub fn finish(&self, stream: &Resampling, balance: &Balance) -> Reservoir {
+        if self.is_unbiased {
+            stream.finish_balanced(balance.own, balance.sum)
+        } else {
+            stream.finish_equal()
         }
-    }
-
-    #[inline]
-    fn finish(stream: &Resampling, _: &Balance) -> Reservoir {
-        stream.finish_equal()
     }
 }
 

@@ -8,13 +8,13 @@
 //! | [`initial`] | candidates from any [`PickLight`](super::pick::PickLight), one chosen, its visibility |
 //! | [`temporal`] | the reservoir of the frame before |
 //! | [`spatial`] | the reservoirs of neighbours |
-//! | [`combine`] | how reservoirs are counted: [`combine::Unbiased`] or [`combine::Biased`] |
+//! | [`combine`] | how reservoirs are counted: [`combine::Combine`] |
 //! | [`shade`] | the last shadow ray and the colour |
 //!
 //! # What is unbiased, and when
 //!
 //! A reservoir's weight W is one over a density, in expectation, for every sample that is lit *and visible* from its pixel's
-//! surface (in its frame): that is the invariant. Each step keeps it under [`combine::Unbiased`]:
+//! surface (in its frame): that is the invariant. Each step keeps it under [`combine::Combine::is_unbiased`]:
 //! - *initial*: by resampled importance sampling (ReSTIR section 3); the shadow ray then removes samples outside of the
 //!   invariant only.
 //! - *temporal*: Algorithm 6 over two reservoirs. Whether the earlier one could have produced a sample is asked of the frame
@@ -27,7 +27,7 @@
 //! have less variance at the same rays. The sums of counts and the limit of the history change no expectation, because
 //! counts do not depend on which samples were drawn.
 //!
-//! Under [`combine::Biased`] a reservoir is counted whether it could have produced the sample or not: darker where pixels do
+//! Without it a reservoir is counted whether it could have produced the sample or not: darker where pixels do
 //! not see the same lights (ReSTIR section 4.2), and without a ray.
 
 pub mod combine;

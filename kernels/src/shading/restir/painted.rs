@@ -1,7 +1,6 @@
 //! What is painted on the surface of a pixel, which its record does not say.
 
 use glam::Vec3;
-use lightbvh::exact::sqrt;
 
 use super::super::emitter::Emitter;
 use super::super::material::Material;
@@ -10,6 +9,7 @@ use super::super::ray::{FAR, Ray};
 use super::super::skin::{GLASS, Skin, Spot, TOUCH, Through};
 use super::super::trace::{LANES, NONE, nearest, through, vertex};
 use super::surface::Surface;
+use crate::shading::grid::sqrt;
 
 /// How the surface reflects, and what clear surfaces before it leave of that. The point is just before its triangle: a ray from there into
 /// the image finds it.

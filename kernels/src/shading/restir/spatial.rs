@@ -64,8 +64,8 @@ fn rounded(x: f32) -> i32 {
 /// frame.
 #[inline]
 #[must_use]
-pub fn spatial<L: Emitter, C: Combine>(
-    combine: &C,
+pub fn spatial<L: Emitter>(
+    combine: &Combine<'_, L>,
     materials: &[Material],
     emitters: &Emitters<'_, L>,
     gbuffer: &[Surface],
@@ -91,7 +91,7 @@ pub fn spatial<L: Emitter, C: Combine>(
             }
         }
         let mut balance = Balance::ZERO;
-        if C::UNBIASED && stream.target > 0.0 {
+        if combine.is_unbiased && stream.target > 0.0 {
             for neighbor in 0..params.neighbors.wrapping_add(1) {
                 let random = seed.wrapping_add(neighbor.wrapping_mul(RANDOM_PER_NEIGHBOR));
                 let pixel = neighbor_pixel(params, index, neighbor, hash(random));
@@ -107,7 +107,7 @@ pub fn spatial<L: Emitter, C: Combine>(
                 }
             }
         }
-        found.reservoir = C::finish(&stream, &balance);
+        found.reservoir = combine.finish(&stream, &balance);
     }
     found
 }

@@ -1,14 +1,14 @@
 //! The second step: the reservoir that the pixel's surface had in the frame before (ReSTIR section 4.1, Algorithm 5).
 
 use glam::Vec3;
-use lightbvh::exact::{abs, div, flush, hash, pow2};
+use lightbvh::exact::{abs, flush, hash, pow2};
 use lightbvh::reservoir::{LightSample, Resampling};
 use lightbvh::vector::{dot, length_squared};
 
 use super::super::camera::Camera;
 use super::super::emitter::Emitter;
 use super::super::emitters::Emitters;
-use super::super::grid::{STEP, TINY, flush_vector};
+use super::super::grid::{STEP, TINY, div, flush_vector};
 use super::super::material::Material;
 use super::super::trace::NONE;
 use super::combine::{Balance, Combine};
@@ -93,11 +93,11 @@ fn cell(x: f32, count: u32) -> u32 {
 /// Merges the reservoir of the pixel where the frame before saw `surface` into this frame's.
 ///
 /// `emitters` and `materials` are this frame's; `combine` asks the frame before. `to_previous` gives, by number of a light now,
-/// its number and instance then or [`NONE`]; the biased way does not look at it.
+/// its number and instance then or [`NONE`]; without [`Combine::is_unbiased`] it is not read.
 #[inline]
 #[must_use]
-pub fn temporal<L: Emitter, C: Combine>(
-    combine: &C,
+pub fn temporal<L: Emitter>(
+    combine: &Combine<'_, L>,
     materials: &[Material],
     emitters: &Emitters<'_, L>,
     before: &Before<'_>,
@@ -130,7 +130,7 @@ pub fn temporal<L: Emitter, C: Combine>(
             stream.merge(&history, theirs, 1, hash(seed.wrapping_add(1)));
 
             let mut balance = Balance::ZERO;
-            if C::UNBIASED && stream.target > 0.0 {
+            if combine.is_unbiased && stream.target > 0.0 {
                 let sample = translate(to_previous, &stream.sample, params.remapped);
                 // The reservoirs of the frame before hold only what was visible in it.
                 let answer = combine.ask(materials, &then, &sample, stream.source == 1);
@@ -138,7 +138,7 @@ pub fn temporal<L: Emitter, C: Combine>(
                 balance.add(&stream, 0, current.reservoir.count, stream.target);
                 balance.add(&stream, 1, history.count, answer.target);
             }
-            found.reservoir = C::finish(&stream, &balance);
+            found.reservoir = combine.finish(&stream, &balance);
         }
     }
     found

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::*;
 use crate::backend::{Sampler, Timed};
-use crate::cli::trade::choices::{Axis, Config};
+use crate::cli::trade::subject::{Axis, Config};
 use crate::cli::trade::update::{Frame, Spent, Update};
 use crate::method::Builder;
 use crate::workload::arrays_at;
@@ -117,7 +117,7 @@ const STEP: f32 = 0.2;
 
 fn known(ray_ms: f64, step: f32) -> Known {
     Known {
-        axis: Axis::Width,
+        axis: Axis::Builder,
         ray_ms,
         step,
         least_rays: 1,

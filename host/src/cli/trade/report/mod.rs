@@ -10,24 +10,23 @@ mod tree;
 use std::path::Path;
 
 use image::ExtendedColorType;
-use lightbvh::importance::DefaultImportance;
-use lightbvh::{Bvh, MomentNode};
 use lightbvh_kernels::bvh::Standard;
 use lightbvh_kernels::render::RenderParams;
 use serde::Serialize;
 use serde_json::Value;
 
 use self::machine::Made;
-use self::pictures::{Pictures, Room, pictures, png};
+use self::pictures::{Pictures, Room, pictures};
 use self::tree::{Drawn, drawn};
-use super::Point;
+use super::point::Point;
 use super::update::{Followed, Frame, Update};
-use crate::backend::{Backend, CpuBackend, Integrator, Sampler};
+use crate::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler};
 use crate::cli::target;
 use crate::error::HostError;
 use crate::method::Builder;
 use crate::metrics::Judge;
-use crate::render::{Film, write_whole};
+use crate::plot::png_url;
+use crate::render::Film;
 use crate::scene::Scene;
 use crate::workload::{arrays_at, lights_at};
 
@@ -65,21 +64,19 @@ impl Report {
     /// Adds a scene: images of its points beside the reference, the default's tree over its image.
     pub fn scene(
         &mut self,
-        name: &str,
+        scene: &Scene,
         frame: u32,
         points: &[Point],
         judge: &Judge,
     ) -> Result<(), HostError> {
-        let scene = Scene::open(name)?;
-        let lights = lights_at(&scene, frame)?;
-        let of = Frame::new(&scene, frame, &lights);
+        let lights = lights_at(scene, frame)?;
+        let of = Frame::new(scene, frame, &lights);
         let levels = Sampler::TwoLevel;
         let params = Builder::Ward.params();
-        let (bvh, _): (Bvh<MomentNode<8>, DefaultImportance, 8>, _) =
-            Followed::build(&of, levels, Update::usual(levels), params)?;
+        let (bvh, _): (Bvh, _) = Followed::build(&of, levels, Update::usual(levels), params)?;
         let (width, height) = judge.size();
         let columns = (ROWS * width / height).clamp(1, 4 * ROWS);
-        let arrays = arrays_at(&scene, frame, columns, ROWS)?;
+        let arrays = arrays_at(scene, frame, columns, ROWS)?;
         let mut backend = CpuBackend::<Standard, 8>::new(bvh);
         let params = RenderParams {
             width: columns,
@@ -98,9 +95,9 @@ impl Report {
         let image = backend.render(&arrays, &params, levels, Integrator::Direct)?;
         let film = Film::new(columns, ROWS, image.value)?;
         let shown = film.shown(judge.exposure());
-        let picture = png(&shown, (columns, ROWS), ExtendedColorType::Rgb8)?;
+        let picture = png_url(&shown, (columns, ROWS), ExtendedColorType::Rgb8)?;
         self.scenes.push(SceneShown {
-            name: name.to_owned(),
+            name: scene.name().to_owned(),
             lights: lights.triangles().len(),
             pictures: pictures(points, judge, &mut Room::of_each(self.of_each))?,
             tree: drawn(&backend.bvh().tree(), &arrays.camera, (columns, ROWS), picture),
@@ -118,10 +115,7 @@ impl Report {
         points: &[Point],
         steps: &[String],
     ) -> Result<(), HostError> {
-        let store = |name: &str, bytes: &[u8]| {
-            let path = folder.join(name);
-            write_whole(&path, bytes).map_err(|source| HostError::Store { path, source })
-        };
+        let store = |name: &str, bytes: &[u8]| target::store(&folder.join(name), bytes);
         for (name, plot) in tables::plots(points) {
             store(&name, plot.svg().as_bytes())?;
         }

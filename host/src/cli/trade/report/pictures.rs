@@ -1,16 +1,12 @@
 //! Images and error maps as data URLs, within what a page may weigh.
 
-use std::io::Cursor;
-
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-use image::{ExtendedColorType, ImageFormat};
+use image::ExtendedColorType;
 use serde::Serialize;
 
-use super::super::Point;
+use crate::cli::trade::point::Point;
 use crate::error::HostError;
 use crate::metrics::{Judge, relative_squared_error};
-use crate::render::FilmError;
+use crate::plot::png_url;
 
 /// Characters of all pictures of a page.
 const MOST: usize = 11 << 20;
@@ -64,7 +60,7 @@ impl Room {
 /// The default first, then the front, then the others, each as far as there is room.
 pub(super) fn pictures(points: &[Point], judge: &Judge, room: &mut Room) -> Result<Pictures, HostError> {
     let (width, height) = judge.size();
-    let reference = png(judge.shown(), (width, height), ExtendedColorType::Rgb8)?;
+    let reference = png_url(judge.shown(), (width, height), ExtendedColorType::Rgb8)?;
     room.take(reference.len());
     let mut choices = vec![None; points.len()];
     let mut order: Vec<usize> = (0..points.len()).collect();
@@ -104,31 +100,12 @@ fn picture(point: &Point, judge: &Judge) -> Result<Picture, HostError> {
         })
         .collect();
     Ok(Picture {
-        image: png(judged.shown(), size, ExtendedColorType::Rgb8)?,
-        flip: png(&flip, size, ExtendedColorType::L8)?,
-        relative: png(&relative, size, ExtendedColorType::L8)?,
+        image: png_url(judged.shown(), size, ExtendedColorType::Rgb8)?,
+        flip: png_url(&flip, size, ExtendedColorType::L8)?,
+        relative: png_url(&relative, size, ExtendedColorType::L8)?,
         mean_flip: quality.flip,
         mean_relative: quality.relative_mse,
         mse: quality.mse,
         rays: *rays,
     })
-}
-
-/// `data:image/png;base64,…`.
-pub(super) fn png(
-    bytes: &[u8],
-    (width, height): (u32, u32),
-    color: ExtendedColorType,
-) -> Result<String, HostError> {
-    let mut file = Cursor::new(Vec::new());
-    image::write_buffer_with_format(&mut file, bytes, width, height, color, ImageFormat::Png).map_err(
-        |source| FilmError::Encode {
-            path: "a picture of the report".into(),
-            source,
-        },
-    )?;
-    Ok(format!(
-        "data:image/png;base64,{}",
-        STANDARD.encode(file.get_ref())
-    ))
 }

@@ -1,11 +1,10 @@
 //! The points as tables and plots for documents: Markdown and SVG.
 
 use std::fmt::Write;
-use std::path::Path;
 
 use super::machine::Made;
-use crate::cli::trade::Point;
-use crate::cli::trade::quantile::Interval;
+use crate::cli::trade::point::Point;
+use crate::cli::{table, target};
 use crate::plot::{Scatter, Spot};
 
 /// A section for each scene: its plot, its table, the sentences along its front.
@@ -30,17 +29,17 @@ pub(super) fn markdown(made: &Made, frame: u32, points: &[Point], steps: &[Strin
             let (structure, images) = (&point.structure, &point.images);
             let variances = &structure.variances;
             line(format_args!(
-                "| {} | {:.1} | {} | {:.2}, {:.2} | {} | {:.2}, {:.2} | {} | {} | {} |",
+                "| {} | {:.1} | {} | {:.2}, {:.2} | {} | {}, {} | {} | {} | {} |",
                 point.choice,
                 structure.bytes_per_light,
-                ratio(&structure.sample_ratio),
+                structure.sample_ratio,
                 structure.update_ms,
                 structure.beside_ms,
-                ratio(&images.frame_ratio),
-                variances.variance,
-                variances.shadowed_variance,
-                ratio(&images.error_ratio),
-                ratio(&images.equal_time_ratio),
+                images.frame_ratio,
+                table::known(variances.variance, 2),
+                table::known(variances.shadowed_variance, 2),
+                images.error_ratio,
+                images.equal_time_ratio,
                 if point.pareto { "yes" } else { "" },
             ));
         }
@@ -53,20 +52,19 @@ pub(super) fn markdown(made: &Made, frame: u32, points: &[Point], steps: &[Strin
     text
 }
 
-/// The plots, by the names of their files: time of a frame by the same rays, and the error at equal time.
+/// The plots, by the names of their files: the error of a frame over its time, both by the same rays.
 pub(super) fn plots(points: &[Point]) -> Vec<(String, Scatter)> {
     let plot = |(of_scene, file): (&[Point], String)| {
-        let scene = &of_scene[0].scene;
         let spot = |point: &Point| Spot {
             name: point.choice.clone(),
             x: point.images.frame_ratio.median,
-            y: point.images.equal_time_ratio.median,
+            y: point.images.error_ratio.median,
             marked: point.pareto,
         };
         let scatter = Scatter {
-            title: format!("{}: time by the same rays, error in the same time", name(scene)),
+            title: format!("{}: error over time, by the same rays", of_scene[0].scene),
             x_label: String::from("time of a frame over the default's"),
-            y_label: String::from("error at equal time over the default's"),
+            y_label: String::from("error over the default's"),
             spots: of_scene.iter().map(spot).collect(),
         };
         (file, scatter)
@@ -75,34 +73,14 @@ pub(super) fn plots(points: &[Point]) -> Vec<(String, Scatter)> {
     scenes.zip(files(points)).map(plot).collect()
 }
 
-fn name(scene: &str) -> String {
-    let stem = Path::new(scene).file_stem().unwrap_or_default();
-    stem.to_string_lossy().into_owned()
-}
-
-/// A file for each scene's plot: its name as far as every system and every document takes it, with a number where another has it.
+/// A file for each scene's plot.
 fn files(points: &[Point]) -> Vec<String> {
     let scenes = points.chunk_by(|a, b| a.scene == b.scene);
-    numbered(scenes.map(|of_scene| of_scene[0].scene.as_str()))
-}
-
-fn numbered<'a>(scenes: impl Iterator<Item = &'a str>) -> Vec<String> {
-    let mut files: Vec<String> = Vec::new();
-    for scene in scenes {
-        let plain = |c: char| {
-            if c.is_alphanumeric() || "-_".contains(c) {
-                c
-            } else {
-                '-'
-            }
-        };
-        let stem: String = name(scene).chars().take(40).map(plain).collect();
-        let file = std::iter::once(format!("trade-{stem}.svg"))
-            .chain((2..).map(|k| format!("trade-{stem}-{k}.svg")))
-            .find(|file| !files.contains(file));
-        files.extend(file);
-    }
-    files
+    let stems = target::stems(scenes.map(|of_scene| of_scene[0].scene.as_str()));
+    stems
+        .into_iter()
+        .map(|stem| format!("trade-{stem}.svg"))
+        .collect()
 }
 
 /// As a document's text, on one line.
@@ -118,25 +96,10 @@ fn escaped(text: &str) -> String {
     out
 }
 
-fn ratio(interval: &Interval) -> String {
-    let Interval { median, low, high } = interval;
-    match median {
-        0.0..10.0 => format!("{median:.2} [{low:.2}, {high:.2}]"),
-        _ => format!("{median:.0} [{low:.0}, {high:.0}]"),
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
-
     #[test]
-    fn each_scene_has_a_plot_of_its_own() {
-        let long = format!("x/{}.glb", "y".repeat(245));
-        let files = numbered(["a/s.gltf", "b/s.gltf", "](z) <b>.glb", &long, "s-2.glb"].into_iter());
-        let y = "y".repeat(40);
-        let expected = ["s", "s-2", "--z---b-", y.as_str(), "s-2-2"].map(|stem| format!("trade-{stem}.svg"));
-        assert_eq!(files, expected);
-        assert_eq!(escaped("a](b)\n<c>|"), r"a\](b) \<c\>\|");
+    fn names_are_text_in_documents() {
+        assert_eq!(super::escaped("a](b)\n<c>|"), r"a\](b) \<c\>\|");
     }
 }

@@ -3,6 +3,7 @@
 use glam::{DMat2, DMat3, DVec2, DVec3, Vec3};
 use lightbvh::node::kind;
 use lightbvh::refit::Instance;
+use lightbvh::trail::leaf_parts;
 use lightbvh::{LightMoments, LightNode, LightTree};
 use lightbvh_kernels::shading::camera::Camera;
 use serde::Serialize;
@@ -78,15 +79,21 @@ where
         let (mut below, mut sets) = (Vec::new(), Vec::new());
         let (mut lights, mut flux) = (0, 0.0);
         for (index, instance) in nodes {
-            let node = &tree.nodes[index as usize];
+            let nodes = if instance.is_some() { tree.nodes } else { tree.top };
+            let node = &nodes[index as usize];
             for slot in 0..W {
                 let (of, link) = (node.kind(slot), node.link(slot));
                 match of {
                     kind::EMPTY => continue,
                     kind::INNER => below.push((link, instance)),
                     kind::MESH => {
-                        let instance = &tree.instances[link as usize];
-                        below.push((instance.root, Some(instance)));
+                        let (instance, part) = leaf_parts(link);
+                        let instance = &tree.instances[instance as usize];
+                        let root = match part {
+                            0 => instance.root,
+                            _ => tree.nodes[instance.root as usize].link(part as usize - 1),
+                        };
+                        below.push((root, Some(instance)));
                     }
                     _ => {}
                 }
@@ -217,6 +224,7 @@ mod tests {
     use lightbvh::importance::DefaultImportance;
     use lightbvh::{BuildParams, Bvh, MomentNode};
 
+    use crate::backend::nodes_in_use;
     use crate::scene::Scene;
     use crate::workload::{arrays_at, lights_at};
 
@@ -230,7 +238,7 @@ mod tests {
             drawn.lights_by_depth.iter().sum::<u32>() as usize,
             lights.triangles().len()
         );
-        assert_eq!(drawn.nodes, bvh.nodes().len());
+        assert_eq!(drawn.nodes, nodes_in_use(&bvh).len());
         drawn
     }
 

@@ -1,6 +1,6 @@
 //! That a wrong word is found and named, whatever it is of: the CPU stands in for a device, with one bit of it turned.
 
-use lightbvh::{BuildParams, Heuristic, Lights, SampledLight};
+use lightbvh::{BuildParams, Heuristic, SampledLight};
 use lightbvh_kernels::bvh::Paper;
 use lightbvh_kernels::render::RenderParams;
 
@@ -10,7 +10,6 @@ use crate::backend::{
 };
 use crate::cli::verify::tally::Tally;
 use crate::method::{UpdateTimes, runner};
-use crate::words::Record;
 use crate::workload::arrays_at;
 use crate::workload::build;
 
@@ -40,7 +39,8 @@ impl Runner for Corrupt {
     fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError> {
         self.wrong = self.then;
         self.backend.wrong = self.then;
-        self.backend.inner.refit(step.lights)?;
+        let bvh = self.backend.inner.bvh_mut();
+        bvh.follow(step.lights).map_err(BackendError::from)?;
         self.inner.advance(step)
     }
 
@@ -60,6 +60,10 @@ impl Runner for Corrupt {
         Some(&mut self.backend)
     }
 
+    fn words_in_use(&self, nodes: Vec<u32>) -> Vec<u32> {
+        self.inner.words_in_use(nodes)
+    }
+
     fn histories(&self, chain: SequenceId) -> Result<Vec<History>, HostError> {
         let mut histories = self.inner.histories(chain)?;
         for (surfaces, reservoirs) in &mut histories {
@@ -73,10 +77,6 @@ impl Runner for Corrupt {
 impl Backend for CorruptBackend {
     fn node_record(&self) -> Record {
         self.inner.node_record()
-    }
-
-    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError> {
-        self.inner.refit(lights)
     }
 
     fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
@@ -122,6 +122,7 @@ fn found(method: Method, wrong: Option<Kind>) -> Tally {
     let mut tallies = Tallies {
         devices: vec![Tally::default()],
         cpu: Tally::default(),
+        trees: Vec::new(),
     };
     let mut lane = None;
     for frame in [0, 1] {

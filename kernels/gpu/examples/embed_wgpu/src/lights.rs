@@ -2,6 +2,7 @@
 
 use bytemuck::cast_slice;
 use lightbvh::{LightBvh, SampledLight};
+use lightbvh::node::DefaultNode;
 use lightbvh_gpu::{Buffer as Array, Frame, MOMENTS, Mirror, Pass, Query, query_push};
 use wgpu::Buffer;
 
@@ -39,10 +40,15 @@ impl<'a> DeviceLights<'a> {
         })
     }
 
-    /// Brings the device to the frame that was planned last, and samples there.
+    /// Offset of the top level's nodes, bytes.
+    pub fn top_bytes(&self) -> usize {
+        self.mirror.top::<DefaultNode>() as usize * size_of::<DefaultNode>()
+    }
+
+    /// Updates the device to the light BVH, and samples there.
     pub fn frame(&mut self, bvh: &LightBvh, queries: &[Query]) -> Result<Results> {
         let engine = self.engine;
-        let frame = self.mirror.follow(bvh);
+        let frame = self.mirror.frame(bvh);
         self.grow(&frame);
         for copy in &frame.copies {
             let bytes = copy.source(bvh);
@@ -76,7 +82,7 @@ impl<'a> DeviceLights<'a> {
             refit.dispatch(&mut pass, &dispatch.push(), dispatch.count);
         }
         let count = queries.len() as u32;
-        sample.dispatch(&mut pass, &query_push(count, &bvh.tree()), count);
+        sample.dispatch(&mut pass, &query_push(count, frame.words), count);
         drop(pass);
         engine.queue.submit([encoder.finish()]);
         Ok(Results {

@@ -42,28 +42,29 @@ fn run(engine: &Engine) -> Result<(u64, u64)> {
     let (mut all, mut different) = (0, 0);
     for frame in 0..FRAMES {
         world.step(frame)?;
-        world.bvh.plan();
         let asked = points(frame, QUERIES);
         let queries: Vec<Query> = asked
             .iter()
             .map(|&(point, random)| Query::sample(point, random))
             .collect();
         let device = lights.frame(&world.bvh, &queries)?;
-        // The CPU does the same only to be compared with.
-        world.bvh.refit();
         let samples: Vec<SampledLight> = asked
             .iter()
             .map(|(point, random)| world.bvh.sample(point, *random))
             .collect();
-        all += (size_of_val(world.bvh.nodes()) + size_of_val(&*samples)) as u64 / 4;
+        let (nodes, top) = (world.bvh.nodes(), world.bvh.top_nodes());
+        all += (size_of_val(nodes) + size_of_val(top) + size_of_val(&*samples)) as u64 / 4;
+        let of_top = &device.nodes[lights.top_bytes()..];
         match engine.road {
             Road::Passthrough => {
-                compare("node", world.bvh.nodes(), &device.nodes)?;
+                compare("node", nodes, &device.nodes)?;
+                compare("node of the top level", top, of_top)?;
                 compare("sample", &samples, &device.samples)?;
             }
             Road::Translated => {
-                different +=
-                    differing(world.bvh.nodes(), &device.nodes) + differing(&samples, &device.samples);
+                different += differing(nodes, &device.nodes)
+                    + differing(top, of_top)
+                    + differing(&samples, &device.samples);
             }
         }
     }

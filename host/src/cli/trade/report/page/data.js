@@ -50,13 +50,13 @@ const measures = {
 };
 
 // The same colours and shapes in every report, whichever axes it has.
-const allAxes = ["default", "importance", "layout", "width", "builder", "levels", "update", "candidates", "integrator", "arithmetic"];
+const allAxes = ["default", "importance", "builder", "levels", "update", "candidates", "integrator", "arithmetic"];
 const axisNames = allAxes.filter((axis) => data.points.some((point) => point.config.axis === axis));
 const axisNumber = (axis) => Math.max(0, allAxes.indexOf(axis));
 const color = (axis) => `var(--c${axisNumber(axis)})`;
 
 // What the user chose; a part of the address, so that it can be sent to others.
-const state = { scene: data.scenes[0].name, x: "frame", y: "equal", log: true, near: "", point: null, left: null, right: null, view: "image", depth: 2, axis: "", theme: "" };
+const state = { scene: data.scenes[0].name, x: "frame", y: "error", log: true, near: "", point: null, left: null, right: null, view: "image", depth: 2, axis: "", theme: "" };
 for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
   if (key === "scene" && data.scenes.some((scene) => scene.name === value)) state.scene = value;
   if ((key === "x" || key === "y") && Object.hasOwn(measures, value)) state[key] = value;
@@ -83,7 +83,6 @@ const wholeText = (point) => {
     `sample: ${number(point.ns_per_sample)} ns, variance ${number(point.variance)}, median ${number(point.variance_median)}`,
     `${number(point.bytes_per_light)} bytes for a light; build ${number(point.build_ms)} ms, update ${number(point.update_ms)} ms`,
   ];
-  for (const on of point.on_devices) lines.push(`on ${on.device}: sample ${number(on.ns_per_sample)} ns, ${interval(on.sample_ratio)} of the default's time`);
   if (point.pareto) lines.push("on the front");
   return lines.join("\n");
 };

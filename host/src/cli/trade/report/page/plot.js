@@ -64,8 +64,8 @@ const within = (points, x, y) => {
   return points.map((_, at) => at).filter((at) => known(at) && (!state.near || (near(x, points[at]) && near(y, points[at]))));
 };
 
-// Names of points where they cover neither each other nor a point: of the front first.
-const labels = (points, shown, place, width) => {
+// Names of points where they cover neither each other nor a point nor an interval: of the front first.
+const labels = (points, shown, place, bars, width) => {
   const marks = shown.map((at) => place(points[at])).map(([x, y]) => ({ left: x - 8, right: x + 8, top: y - 8, bottom: y + 8 }));
   const clear = (box, taken) => !taken.some((other) => box.left < other.right && other.left < box.right && box.top < other.bottom && other.top < box.bottom);
   const made = [];
@@ -85,7 +85,7 @@ const labels = (points, shown, place, width) => {
     for (const [tx, ty, anchor] of places) {
       const left = tx - { start: 0, middle: long / 2, end: long }[anchor];
       const box = { left, right: left + long, top: ty - 11, bottom: ty + 3 };
-      if (left < 60 || box.right > width - 4 || box.top < 4 || !clear(box, made.map((label) => label.box)) || !clear(box, marks)) continue;
+      if (left < 60 || box.right > width - 4 || box.top < 4 || !clear(box, made.map((label) => label.box)) || !clear(box, marks) || !clear(box, bars)) continue;
       const text = drawing("text", { class: "label", x: tx, y: ty, "text-anchor": anchor }, points[at].choice);
       const away = Math.hypot(tx - x, ty - y) > 30;
       made.push({ box, drawn: away ? [drawing("line", { class: "leader", x1: x, y1: y, x2: tx, y2: ty - 4 }), text] : [text] });
@@ -124,11 +124,13 @@ const drawPlot = () => {
   const order = [...shown].sort((a, b) => place(points[a])[0] - place(points[b])[0]);
   const current = shown.includes(state.point) ? state.point : points.findIndex((p) => p.default);
   const groups = new Map();
+  const bars = [];
   for (const at of order) {
     const point = points[at];
     const [px, py] = place(point);
     const [rx, ry] = [x.of(point), y.of(point)];
     const group = drawing("g", { class: `point${at === state.point ? " chosen" : ""}`, tabindex: at === current ? 0 : -1, role: "button", "aria-label": wholeText(point) });
+    bars.push({ left: across.at(rx.low), right: across.at(rx.high), top: py - 2, bottom: py + 2 }, { left: px - 2, right: px + 2, top: up.at(ry.high), bottom: up.at(ry.low) });
     group.append(drawing("line", { class: "range", stroke: color(point.config.axis), x1: across.at(rx.low), x2: across.at(rx.high), y1: py, y2: py }));
     group.append(drawing("line", { class: "range", stroke: color(point.config.axis), x1: px, x2: px, y1: up.at(ry.low), y2: up.at(ry.high) }));
     const mark = drawing("g", { transform: `translate(${px} ${py})` }, drawing("circle", { class: "halo", r: 12 }), shape(point.config.axis));
@@ -143,7 +145,7 @@ const drawPlot = () => {
     groups.set(at, group);
     svg.append(group);
   }
-  svg.append(...labels(points, shown, place, width));
+  svg.append(...labels(points, shown, place, bars, width));
   hold.replaceChildren(svg);
   byId("chosen").hidden = state.point === null;
   if (state.point !== null) byId("chosen").textContent = wholeText(points[state.point]);

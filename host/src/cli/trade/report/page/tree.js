@@ -43,7 +43,7 @@ const drawDepths = () => {
     svg.append(bar(count / most, -1, "var(--c1)", `${number(count)} lights`));
     svg.append(bar(tree.flux_by_depth[at], 0.05, "var(--c2)", `${number(100 * tree.flux_by_depth[at])} % of the flux`));
     svg.append(drawing("text", { class: "soft", x: middle, y: bottom + 16, "text-anchor": "middle" }, String(at + 1)));
-    if (count) svg.append(drawing("text", { class: "soft", x: middle - step * 0.19, y: bottom - (count / most) * (bottom - top) - 3, "text-anchor": "middle" }, number(count)));
+    if (count) svg.append(drawing("text", { class: "soft", x: middle, y: bottom - Math.max(count / most, tree.flux_by_depth[at]) * (bottom - top) - 3, "text-anchor": "middle" }, number(count)));
   });
   svg.append(drawing("text", { x: (left + right) / 2, y: 184, "text-anchor": "middle" }, "nodes on the path to a light"));
   hold.replaceChildren(svg, element("p", { class: "hint" }, `Lights (blue, of ${number(lights)}) and their share of the flux (gold, full height is all of it) by depth; ${number(tree.nodes)} nodes in all.`));

@@ -1,0 +1,293 @@
+//! Meshes: their triangles, and trees over them, each in its own range of nodes.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::powers::Powers;
+use super::records::{Mesh, put};
+use super::refit::SWEPT;
+use super::{Bvh, Trails};
+use crate::build::{Topology, build_over};
+use crate::light::Light;
+#[cfg(feature = "std")]
+use crate::node::Holds;
+use crate::node::{Node, kind};
+use crate::refit::{self, BlasRoot};
+use crate::summary::Summary;
+use crate::sweep;
+use crate::trail::{BitTrail, trail_words};
+use crate::transform::Extent;
+use crate::tree::INVALID;
+
+/// A new tree over the triangles of a mesh, which replaces its tree.
+#[cfg(feature = "std")]
+#[derive(Debug)]
+pub(crate) struct MeshTree<N: Holds> {
+    mesh: u32,
+    generation: u32,
+    /// The mesh's [version](Mesh::version) that it was built for.
+    version: u64,
+    triangles: Vec<N::Light>,
+    topology: Option<Topology<N>>,
+}
+
+#[cfg(feature = "std")]
+impl<N: Holds> MeshTree<N> {
+    /// Builds the tree, and computes its nodes.
+    pub fn build<const W: usize>(&mut self, params: &crate::build::BuildParams)
+    where
+        N: Node<W>,
+    {
+        let mut topology = build_over::<N, W>(&self.triangles, params);
+        sweep::bottom_sweep(&mut topology.nodes, 0, &self.triangles, &[0]);
+        self.topology = Some(topology);
+    }
+}
+
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// Adds a mesh with the tree of `topology`, whose primitives are numbered from 0; returns its index.
+    pub(super) fn insert_mesh_tree(&mut self, triangles: &[N::Light], topology: &Topology<N>) -> u32 {
+        let index = self.mesh_ranges.take(1).start;
+        let range = self.triangle_ranges.take(triangles.len() as u32);
+        let generation = self
+            .meshes
+            .get(index as usize)
+            .map_or(0, |old| old.generation + 1);
+        let mesh = Mesh {
+            live: true,
+            generation,
+            users: Vec::new(),
+            nodes: 0..0,
+            room: 0,
+            triangles: range,
+            depth: 0,
+            extent: Extent::of(triangles),
+            powers: Powers::of(triangles),
+            version: 0,
+        };
+        put(&mut self.meshes, index, mesh);
+        put(&mut self.roots, index, BlasRoot::new(INVALID, &N::Summary::EMPTY));
+        self.put_triangles(index, 0, triangles);
+        self.place_tree(index, topology);
+        self.sweep_mesh(index);
+        index
+    }
+
+    /// Removes a mesh.
+    pub(super) fn take_mesh(&mut self, index: u32) {
+        let mesh = &mut self.meshes[index as usize];
+        mesh.live = false;
+        let (nodes, triangles) = (mesh.nodes.start..mesh.room, mesh.triangles.clone());
+        (mesh.nodes, mesh.room, mesh.triangles) = (0..0, 0, 0..0);
+        self.node_ranges.give(nodes);
+        self.triangle_ranges.give(triangles);
+        self.mesh_ranges.give(index..index + 1);
+        self.dirty.remove(&index);
+        self.reshaped.remove(&index);
+    }
+
+    /// Writes triangles of a mesh from its `first`-th on, and marks them for refit.
+    pub(super) fn write_triangles(&mut self, index: u32, first: u32, triangles: &[N::Light]) {
+        if triangles.is_empty() {
+            return;
+        }
+        let range = self.put_triangles(index, first, triangles);
+        let mesh = &mut self.meshes[index as usize];
+        let count = mesh.triangles.len();
+        mesh.version += 1;
+        if mesh.nodes.len() > 1 {
+            self.reshaped.insert(index);
+        }
+        let all = range.len() == count;
+        match all {
+            true => self.log.mesh(index),
+            false => self.log.paths(index, range.clone()),
+        }
+        match self.dirty.get_mut(&index) {
+            _ if all => _ = self.dirty.insert(index, Vec::new()),
+            Some(ranges) if ranges.is_empty() => {}
+            // The refit then sweeps the whole mesh.
+            Some(ranges) if ranges.len() * SWEPT >= count => ranges.clear(),
+            Some(ranges) => ranges.push(range),
+            None => _ = self.dirty.insert(index, alloc::vec![range]),
+        }
+    }
+
+    fn put_triangles(&mut self, index: u32, first: u32, triangles: &[N::Light]) -> Range<u32> {
+        let start = self.meshes[index as usize].triangles.start + first;
+        let range = start..start + triangles.len() as u32;
+        if self.triangles.len() < range.end as usize {
+            self.triangles.resize(range.end as usize, N::Light::DARK);
+        }
+        let powers = self.powers_with(index, range.clone(), triangles);
+        let own = &mut self.triangles[range.start as usize..range.end as usize];
+        for (to, from) in own.iter_mut().zip(triangles) {
+            *to = from.of_mesh(index);
+        }
+        self.log.triangles(range.clone());
+        self.set_powers(index, powers);
+        range
+    }
+
+    /// Replaces the tree of a mesh; the nodes' summaries are copied as they are. If the nodes exceed the reserved capacity, they
+    /// move, and all instances get the new root.
+    fn place_tree(&mut self, index: u32, topology: &Topology<N>) {
+        let count = topology.nodes.len() as u32;
+        let mesh = &self.meshes[index as usize];
+        let (mut start, first) = (mesh.nodes.start, mesh.triangles.start);
+        if mesh.room - start < count {
+            self.node_ranges.give(start..mesh.room);
+            // A later tree over as many triangles may have a few nodes more.
+            let room = self.node_ranges.take(count + count / 8);
+            start = room.start;
+            self.meshes[index as usize].room = room.end;
+            if self.nodes.len() < room.end as usize {
+                self.nodes.resize(room.end as usize, N::EMPTY);
+            }
+            for user in self.meshes[index as usize].users.clone() {
+                self.instances[user as usize].root = start;
+                self.log.instance(user);
+            }
+        }
+        for (to, node) in self.nodes[start as usize..].iter_mut().zip(&topology.nodes) {
+            *to = *node;
+            for slot in 0..W {
+                match node.kind(slot) {
+                    kind::INNER => to.relink(slot, start + node.link(slot)),
+                    kind::LIGHT => to.relink(slot, first + node.link(slot)),
+                    _ => {}
+                }
+            }
+        }
+        let mesh = &mut self.meshes[index as usize];
+        mesh.nodes = start..start + count;
+        mesh.depth = topology.depth;
+        self.bottom_depth = self.bottom_depth.max(topology.depth);
+        if T::KEPT {
+            self.place_trails(index, topology);
+        }
+        self.log.tree(index);
+        self.compute_root(index);
+    }
+
+    /// Computes all nodes of a mesh.
+    pub(super) fn sweep_mesh(&mut self, index: u32) {
+        let nodes = self.meshes[index as usize].nodes.clone();
+        let own = &mut self.nodes[nodes.start as usize..nodes.end as usize];
+        sweep::bottom_sweep(own, nodes.start, &self.triangles, &[nodes.start]);
+        self.compute_root(index);
+    }
+
+    /// Computes the root record of a mesh, and marks the leaves of its instances for refit.
+    pub(super) fn compute_root(&mut self, index: u32) {
+        self.roots[index as usize] = refit::root(&self.nodes, self.meshes[index as usize].nodes.start);
+        for place in 0..self.meshes[index as usize].users.len() {
+            self.mark_stale(self.meshes[index as usize].users[place]);
+        }
+    }
+
+    fn place_trails(&mut self, index: u32, topology: &Topology<N>) {
+        let mesh = self.meshes[index as usize].triangles.clone();
+        if self.trail_words == 1 && trail_words(W, topology.depth) == 2 {
+            self.trail_words = 2;
+            let narrow = core::mem::take(&mut self.trails);
+            self.trails = narrow.into_iter().flat_map(|low| [low, 0]).collect();
+            // All trails changed: mirrors copy everything.
+            self.log = super::Log::after(&self.log);
+        }
+        let words = self.trail_words as usize;
+        let length = mesh.end as usize * words;
+        if self.trails.len() < length {
+            self.trails.resize(length, 0);
+        }
+        for &(triangle, trail) in &topology.trails {
+            let at = (mesh.start + triangle) as usize * words;
+            self.trails[at] = trail.low;
+            if words == 2 {
+                self.trails[at + 1] = trail.high;
+            }
+        }
+    }
+
+    /// The trail of a triangle; trails must be kept.
+    pub(super) fn trail_of(&self, triangle: u32) -> BitTrail {
+        let at = triangle as usize * self.trail_words as usize;
+        BitTrail {
+            low: self.trails[at],
+            high: if self.trail_words == 2 {
+                self.trails[at + 1]
+            } else {
+                0
+            },
+        }
+    }
+
+    /// Refits, then rebuilds the trees of meshes that changed since theirs was built, and the top level, within the call. A
+    /// [`Rebuilder`](crate::Rebuilder) does so in the background. Takes the time of a build.
+    pub fn rebuild(&mut self) {
+        self.refit();
+        for index in core::mem::take(&mut self.reshaped) {
+            let mesh = &self.meshes[index as usize].triangles;
+            let own = &self.triangles[mesh.start as usize..mesh.end as usize];
+            let topology = build_over::<N, W>(own, &self.params);
+            self.place_tree(index, &topology);
+            self.sweep_mesh(index);
+        }
+        self.refit();
+        if !self.single {
+            self.top.build(&self.params);
+            self.log_top();
+        }
+    }
+
+    /// Each mesh that changed since its tree was built, with the bytes of its triangles: those from `first` on, then those
+    /// before.
+    #[cfg(feature = "std")]
+    pub(crate) fn reshaped_from(&self, first: u32) -> impl Iterator<Item = (u32, usize)> + '_ {
+        let after = self.reshaped.range(first..);
+        let all = after.chain(self.reshaped.range(..first));
+        all.map(|&mesh| {
+            let count = self.meshes[mesh as usize].triangles.len();
+            (mesh, count * size_of::<N::Light>())
+        })
+    }
+
+    /// A copy of the triangles of a mesh, to build its tree from.
+    #[cfg(feature = "std")]
+    pub(crate) fn copy_mesh(&self, mesh: u32) -> MeshTree<N> {
+        let own = &self.meshes[mesh as usize];
+        let range = own.triangles.start as usize..own.triangles.end as usize;
+        MeshTree {
+            mesh,
+            generation: own.generation,
+            version: own.version,
+            triangles: self.triangles[range].to_vec(),
+            topology: None,
+        }
+    }
+
+    /// Replaces the tree of its mesh; false if the mesh was removed, or its triangles were changed and then dropped.
+    #[cfg(feature = "std")]
+    pub(crate) fn install_mesh(&mut self, tree: &MeshTree<N>) -> bool {
+        let index = tree.mesh;
+        let own = self
+            .meshes
+            .get(index as usize)
+            .filter(|own| own.live && own.generation == tree.generation);
+        let (Some(version), Some(topology)) = (own.map(|own| own.version), &tree.topology) else {
+            return false;
+        };
+        // A BVH of static meshes has no triangles to compute the nodes from.
+        if version != tree.version && self.triangles.is_empty() {
+            return false;
+        }
+        self.place_tree(index, topology);
+        if version == tree.version {
+            self.reshaped.remove(&index);
+        } else {
+            self.dirty.insert(index, Vec::new());
+            self.log.mesh(index);
+        }
+        true
+    }
+}

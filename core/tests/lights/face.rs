@@ -1,0 +1,372 @@
+//! The public face alone: what an engine can rely on.
+
+use lightbvh::error::{EditError, EditReason, FollowError};
+use lightbvh::{
+    BuildParams, Bvh, CompactNode, DefaultTree, Edit, EmissiveTriangle, Eq4, INVALID, LightBvh, Lights,
+    MeshId, Random64, ShadingPoint, Transform, TreeWords,
+};
+
+const POINT: ShadingPoint = ShadingPoint {
+    p: [0.0; 3],
+    n: [0.0, 1.0, 0.0],
+};
+
+/// A lamp that shines down.
+fn lamp(mesh: u32) -> EmissiveTriangle {
+    EmissiveTriangle {
+        p: [[0.0, 3.0, 0.0], [0.5, 3.0, 0.0], [0.0, 3.0, 0.5]],
+        radiance: [1.0; 3],
+        mesh,
+        flags: 0,
+    }
+}
+
+fn add(mesh: MeshId, x: f32) -> Edit {
+    Edit::AddInstance {
+        mesh,
+        transform: Transform::at([x, 0.0, 0.0]),
+        radiance: 1.0,
+    }
+}
+
+fn add_mesh() -> Edit {
+    Edit::AddMesh {
+        triangles: vec![lamp(0)],
+    }
+}
+
+#[test]
+fn one_batch_adds_meshes_and_their_instances() {
+    let mut bvh = LightBvh::default();
+    let edits = vec![
+        add_mesh(),
+        add(MeshId::added(0), 0.0),
+        add_mesh(),
+        add(MeshId::added(1), 1.0),
+        add(MeshId::added(0), 2.0),
+    ];
+    let added = bvh.apply(edits).expect("all there");
+    bvh.refit();
+    bvh.validate().expect("valid");
+    assert_eq!((added.meshes.len(), added.instances.len()), (2, 3));
+    let pmfs = (0..3).map(|light| bvh.pmf(&POINT, light, added.instances[light as usize].index()));
+    let sum: f32 = pmfs.sum();
+    assert!((0.999_99..1.000_01).contains(&sum), "{sum}");
+    // The mesh of each is the one that was named.
+    bvh.apply(vec![Edit::RemoveInstance(added.instances[1])])
+        .expect("there");
+    bvh.apply(vec![Edit::RemoveMesh(added.meshes[1])])
+        .expect("without instances");
+    let error = bvh
+        .apply(vec![Edit::RemoveMesh(added.meshes[0])])
+        .expect_err("two instances");
+    assert_eq!(error.reason, EditReason::InUse { instances: 2 });
+}
+
+#[test]
+fn a_place_in_the_batch_is_known_only_after_it_is_filled() {
+    let mut bvh = LightBvh::default();
+    let mesh = MeshId::added(0);
+    let unknown = |edit| {
+        Err(EditError {
+            edit,
+            reason: EditReason::UnknownMesh(mesh),
+        })
+    };
+    assert_eq!(bvh.apply(vec![add(mesh, 0.0), add_mesh()]), unknown(0));
+    assert_eq!(bvh.apply(vec![add_mesh(), Edit::RemoveMesh(mesh)]), unknown(1));
+    bvh.apply(vec![add_mesh()]).expect("added");
+    assert_eq!(bvh.apply(vec![add(mesh, 0.0)]), unknown(0), "another batch");
+    // An instance must fit with the extent of the mesh of the same batch.
+    let far = add(mesh, lightbvh::light::MAX_COORDINATE);
+    let error = bvh.apply(vec![add_mesh(), far]).expect_err("too far");
+    assert!(matches!(error.reason, EditReason::Transform(_)), "{error}");
+    assert_eq!(bvh.light_count(), 0);
+}
+
+#[test]
+fn no_lights_are_a_tree_that_answers_none() {
+    let lights = Lights::new(Vec::new()).expect("an empty set");
+    let params = BuildParams::default();
+    let mut trees = [
+        LightBvh::default(),
+        LightBvh::single_level(&lights, &params),
+        LightBvh::two_level(&lights, &params),
+    ];
+    for bvh in &mut trees {
+        bvh.refit();
+        let stats = bvh.validate().expect("valid");
+        assert_eq!((stats.depth, bvh.depth()), (1, 1), "its empty root");
+        let sampled = bvh.sample(&POINT, 7_u32);
+        assert_eq!(
+            (sampled.light, sampled.instance, sampled.pmf),
+            (INVALID, INVALID, 0.0)
+        );
+        assert_eq!(bvh.pmf(&POINT, 0, 0), 0.0);
+        assert_eq!(bvh.triangle(0, 0), None);
+        assert!(bvh.world_lights().is_empty() && bvh.light_count() == 0);
+        bvh.follow(&lights).expect("as empty as before");
+        let again = LightBvh::from_words(&bvh.to_words()).expect("its own words");
+        assert_eq!(
+            (again.to_words(), again.is_single_level()),
+            (bvh.to_words(), bvh.is_single_level())
+        );
+    }
+    // What comes later finds its place.
+    for bvh in trees.iter_mut().filter(|bvh| !bvh.is_single_level()) {
+        let added = bvh.apply(vec![add_mesh(), add(MeshId::added(0), 1.0)]);
+        added.expect("a lamp");
+        bvh.refit();
+        bvh.validate().expect("valid");
+        assert_eq!(bvh.sample(&POINT, 7_u32).light, 0);
+    }
+    let eq4 = Bvh::<CompactNode<4>, Eq4, 4>::single_level(&lights, &params);
+    assert_eq!(eq4.sample(&POINT, 7_u32).light, INVALID);
+}
+
+#[test]
+fn lights_of_another_shape_are_not_followed() {
+    let lights =
+        |meshes: &[u32]| Lights::new(meshes.iter().map(|&mesh| lamp(mesh)).collect()).expect("lamps");
+    let params = BuildParams::default();
+    let count = |mesh, expected, found| {
+        Err(FollowError {
+            mesh,
+            reason: EditReason::Count { expected, found },
+        })
+    };
+    let mut two = LightBvh::two_level(&lights(&[0, 0, 1]), &params);
+    assert_eq!(two.follow(&lights(&[0, 0, 1])), Ok(()));
+    assert_eq!(two.follow(&lights(&[0, 0, 1, 1])), count(1, 1, 2));
+    assert_eq!(two.follow(&lights(&[0, 0, 1, 2])), count(2, 0, 1));
+    assert_eq!(two.follow(&lights(&[0, 0])), count(1, 1, 0));
+    let mut single = LightBvh::single_level(&lights(&[0, 0, 1]), &params);
+    assert_eq!(single.follow(&lights(&[0, 1, 2])), Ok(()));
+    assert_eq!(single.follow(&lights(&[0])), count(0, 3, 1));
+    let mut none = LightBvh::single_level(&lights(&[]), &params);
+    assert_eq!(none.follow(&lights(&[0])), count(0, 0, 1));
+}
+
+/// Meshes that are gone have no triangles to follow, and each instance that has moved meanwhile must stay within the domain.
+#[test]
+fn lights_are_followed_after_edits() {
+    let lights = |size: f32| {
+        let of = |mesh: u32| {
+            let mut one = lamp(mesh);
+            one.p = one.p.map(|v| v.map(|x| x * size));
+            one
+        };
+        Lights::new(vec![of(0), of(0), of(1)]).expect("lamps")
+    };
+    let params = BuildParams::default();
+    let mut bvh = LightBvh::two_level(&lights(1.0), &params);
+    let mesh = bvh.mesh_id(0).expect("a mesh");
+    let half = lightbvh::light::MAX_COORDINATE * 0.5;
+    let second = Transform::at([half, 0.0, 0.0]);
+    let second = bvh.add_instance(mesh, second).expect("within the domain");
+    bvh.refit();
+    let before = bvh.to_words();
+    let error = bvh.follow(&lights(half * 0.5)).expect_err("beyond the domain");
+    assert!(
+        error.mesh == 0 && matches!(error.reason, EditReason::Transform(_)),
+        "{error}"
+    );
+    assert!(bvh.to_words() == before, "as before");
+    bvh.remove_instance(second).expect("there");
+    bvh.follow(&lights(half * 0.25)).expect("the others may");
+
+    let gone = bvh.instance_id(1).expect("of the second mesh");
+    bvh.remove_instance(gone).expect("there");
+    bvh.remove_mesh(bvh.mesh_id(1).expect("a mesh"))
+        .expect("not in use");
+    let reason = EditReason::Count {
+        expected: 0,
+        found: 1,
+    };
+    assert_eq!(bvh.follow(&lights(1.0)), Err(FollowError { mesh: 1, reason }));
+    let first = Lights::new(vec![lamp(0), lamp(0)]).expect("lamps");
+    assert_eq!(bvh.follow(&first), Ok(()));
+}
+
+#[test]
+fn a_sample_leads_to_its_point_on_its_triangle() {
+    let mut bvh = LightBvh::default();
+    let edits = vec![add_mesh(), add(MeshId::added(0), 4.0)];
+    let instance = bvh.apply(edits).expect("added").instances[0];
+    bvh.refit();
+    let sampled = bvh.sample(&POINT, 99_u32);
+    assert_eq!(bvh.instance_id(sampled.instance), Some(instance));
+    let triangle = bvh.triangle(sampled.light, sampled.instance).expect("there");
+    let tree = bvh.tree();
+    let same = tree.triangle(bvh.triangles(), sampled.light, sampled.instance);
+    assert_eq!(same, triangle);
+    let at = triangle.point([0.25, 0.5]);
+    assert_eq!((at.p, at.normal), ([4.125, 3.0, 0.25], [0.0, -1.0, 0.0]));
+    assert_eq!(at.density, 8.0);
+}
+
+/// Arrays as a shader has them answer as the light BVH does, also for names of no light.
+#[test]
+fn borrowed_arrays_name_the_same_lights() {
+    let lights =
+        |meshes: &[u32]| Lights::new(meshes.iter().map(|&mesh| lamp(mesh)).collect()).expect("lamps");
+    let params = BuildParams::default();
+    for bvh in [
+        LightBvh::two_level(&lights(&[0, 0, 1, 2]), &params),
+        LightBvh::single_level(&lights(&[0, 0, 1, 2]), &params),
+    ] {
+        let tree = bvh.tree();
+        let links = tree.links;
+        // The layout of a device: the top level behind the meshes, links behind the trails.
+        let is_single = bvh.is_single_level();
+        let top = if is_single { 0 } else { tree.nodes.len() as u32 };
+        let nodes = [
+            tree.nodes,
+            &tree.top[if is_single { tree.top.len() } else { 0 }..],
+        ]
+        .concat();
+        let trails = [tree.trails, links.above, links.places, links.parts].concat();
+        let above = tree.trails.len() as u32;
+        let places = above + links.above.len() as u32;
+        let words = TreeWords {
+            root: tree.root,
+            trail_words: tree.trail_words,
+            live: tree.live,
+            lights: tree.lights,
+            depth: tree.depth,
+            top,
+            above,
+            places,
+            parts: places + links.places.len() as u32,
+        };
+        let tree: DefaultTree<'_> = words.tree(&nodes, tree.instances, &trails);
+        assert_eq!(
+            tree.sample(&POINT, Random64::from(7_u32)),
+            bvh.sample(&POINT, 7_u32)
+        );
+        for light in [0, 1, 2, 3, 4, INVALID] {
+            for instance in [0, 1, 2, 3, INVALID - 1, INVALID] {
+                let found = tree.triangle(bvh.triangles(), light, instance);
+                assert_eq!(
+                    tree.pmf(&POINT, light, instance),
+                    bvh.pmf(&POINT, light, instance)
+                );
+                match bvh.triangle(light, instance) {
+                    Some(expected) => assert_eq!((found.p, found.radiance), (expected.p, expected.radiance)),
+                    None => assert_eq!(found.radiance, [0.0; 3], "{light} of {instance}"),
+                }
+            }
+        }
+    }
+}
+
+/// What a mesh was given, whatever has changed since.
+#[test]
+fn a_mesh_says_its_triangles() {
+    let mut bvh = LightBvh::default();
+    let first = bvh.add_mesh(vec![lamp(0)]).expect("a mesh");
+    let second = bvh.add_mesh(vec![lamp(0), lamp(0)]).expect("a mesh");
+    assert_eq!(bvh.mesh_triangles(second).map(<[_]>::len), Some(2));
+    bvh.remove_mesh(first).expect("not in use");
+    assert_eq!(bvh.mesh_triangles(first), None);
+    assert_eq!(bvh.mesh_triangles(second).expect("there")[1].p, lamp(0).p);
+    assert_eq!(bvh.clone().mesh_triangles(second), None, "an id of another");
+}
+
+/// What comes in the place of what went has another id; the old one stays refused.
+#[test]
+fn an_id_is_never_given_twice() {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(vec![lamp(0)]).expect("a mesh");
+    let (mut meshes, mut instances) = (vec![mesh], Vec::new());
+    for round in 0..5 {
+        let instance = bvh
+            .add_instance(*meshes.last().unwrap(), Transform::IDENTITY)
+            .expect("there");
+        assert!(!instances.contains(&instance), "{round}");
+        bvh.remove_instance(instance).expect("there");
+        bvh.remove_mesh(*meshes.last().unwrap()).expect("unused");
+        instances.push(instance);
+        let mesh = bvh.add_mesh(vec![lamp(0)]).expect("a mesh");
+        assert!(!meshes.contains(&mesh), "{round}");
+        for &old in &instances {
+            assert_eq!(bvh.set_radiance(old, 1.0), Err(EditReason::UnknownInstance(old)));
+            assert!(bvh.lights_of(old).is_none());
+        }
+        for &old in &meshes {
+            assert_eq!(
+                bvh.add_instance(old, Transform::IDENTITY),
+                Err(EditReason::UnknownMesh(old))
+            );
+        }
+        meshes.push(mesh);
+    }
+}
+
+/// A mirror image shines to the mirrored side, and only there.
+#[test]
+fn a_mirrored_lamp_shines_to_its_mirrored_side() {
+    let mut bvh = LightBvh::default();
+    let down = EmissiveTriangle {
+        p: [[0.0, 3.0, 0.0], [0.1, 3.0, 0.0], [0.0, 3.0, 0.1]],
+        ..lamp(0)
+    };
+    let mesh = bvh.add_mesh(vec![down]).expect("a mesh");
+    let id = bvh.add_instance(mesh, Transform::IDENTITY).expect("there");
+    let normal = |bvh: &LightBvh| {
+        let light = bvh.lights_of(id).expect("there").start;
+        let [a, b, c] = bvh.tree().triangle(bvh.triangles(), light, id.index()).p;
+        let [u, v] = [b, c].map(|q| [q[0] - a[0], q[1] - a[1], q[2] - a[2]]);
+        u[2] * v[0] - u[0] * v[2]
+    };
+    bvh.refit();
+    let before = normal(&bvh);
+    for (diagonal, side) in [
+        ([-1.0, 1.0, 1.0], 1.0),
+        ([1.0, -1.0, 1.0], -1.0),
+        ([1.0, 1.0, -1.0], 1.0),
+    ] {
+        let mut rows = [[0.0; 4]; 3];
+        for (k, factor) in diagonal.into_iter().enumerate() {
+            rows[k][k] = factor;
+        }
+        bvh.set_transform(id, Transform::from_rows(rows))
+            .expect("a transform");
+        bvh.refit();
+        assert!(normal(&bvh) * side * before > 0.0, "{diagonal:?}");
+    }
+}
+
+/// The recipe for multiple importance sampling holds in a single level too.
+#[test]
+fn a_single_level_has_one_instance_whichever_is_named() {
+    let lights = Lights::new(vec![lamp(0), lamp(0)]).expect("lights");
+    let bvh = LightBvh::single_level(&lights, &Default::default());
+    let id = bvh.instance_id(0).expect("the one");
+    let first = bvh.lights_of(id).expect("there").start;
+    for k in 0..2 {
+        let pmf = bvh.pmf(&POINT, first + k, id.index());
+        assert!(pmf > 0.0);
+        assert_eq!(pmf, bvh.pmf(&POINT, first + k, INVALID));
+    }
+    assert_eq!(bvh.pmf(&POINT, 2, id.index()), 0.0);
+}
+
+/// Lights of another instance are not this one's.
+#[test]
+fn a_light_has_the_triangle_of_its_own_instance_alone() {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(vec![lamp(0), lamp(0)]).expect("a mesh");
+    let ids = [0.0, 5.0].map(|x| {
+        bvh.add_instance(mesh, Transform::at([x, 0.0, 0.0]))
+            .expect("there")
+    });
+    bvh.refit();
+    for (k, &id) in ids.iter().enumerate() {
+        let own = bvh.lights_of(id).expect("there");
+        for light in 0..8 {
+            let found = bvh.tree().triangle(bvh.triangles(), light, id.index());
+            assert_eq!(found.radiance != [0.0; 3], own.contains(&light), "{light} of {k}");
+        }
+    }
+}

@@ -1,0 +1,257 @@
+//! Both importances against their sources' formulas, with the departures that they state.
+
+mod published;
+
+use glam::Vec3;
+use lightbvh::exact::{hash, pow2, unit_f32};
+use lightbvh::importance::ImportanceModel;
+use lightbvh::node::{BoundsNode, CompactNode, LightBounds, Node, kind};
+use lightbvh::{ShadingPoint, exact};
+use published::Seen;
+
+use crate::{Falcor, Pbrt};
+
+/// Hashes of 1, 2, 3 and so on after its seed.
+struct Random(u32);
+
+impl Random {
+    /// From 0 to 1.
+    fn unit(&mut self) -> f32 {
+        self.0 += 1;
+        unit_f32(hash(self.0))
+    }
+
+    fn below(&mut self, count: u32) -> u32 {
+        (self.unit() * count as f32) as u32
+    }
+
+    /// Components from -1 to 1.
+    fn vector(&mut self) -> Vec3 {
+        Vec3::from_array([0; 3].map(|_| 2.0 * self.unit() - 1.0))
+    }
+
+    /// Half extents of about `size`.
+    fn extents(&mut self, size: f32) -> Vec3 {
+        Vec3::from_array([0; 3].map(|_| self.unit())) * size
+    }
+
+    fn direction(&mut self) -> Vec3 {
+        loop {
+            let v = self.vector();
+            if (0.01..=1.0).contains(&v.length_squared()) {
+                return v.normalize();
+            }
+        }
+    }
+
+    /// From 2^`low` to 2^`high`, as often in each octave.
+    fn power(&mut self, low: i32, high: i32) -> f32 {
+        pow2(low + self.below((high - low) as u32) as i32) * (1.0 + self.unit())
+    }
+}
+
+type Wide = [f64; 3];
+
+fn wide(v: Vec3) -> Wide {
+    v.to_array().map(f64::from)
+}
+
+fn minus(a: Wide, b: Wide) -> Wide {
+    [0, 1, 2].map(|k| a[k] - b[k])
+}
+
+fn dot(a: Wide, b: Wide) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// A light straight above the point, or anywhere about a point in a volume, that shines everywhere: its cosines are 1.
+fn known(point: &ShadingPoint, distance: f32) -> LightBounds {
+    let n = point.normal();
+    let up = if n == Vec3::ZERO { Vec3::Z } else { n };
+    let at = point.position() + up * distance;
+    LightBounds {
+        min: at,
+        max: at,
+        axis: -up,
+        cos_theta_o: -1.0,
+        cos_theta_e: 0.0,
+        phi: 1.0,
+    }
+}
+
+/// A set of lights, and a point near it or far off, on a surface or in a volume.
+fn sight(random: &mut Random) -> (LightBounds, ShadingPoint) {
+    let size = random.power(-20, 20);
+    let distance = size * random.power(-3, 6);
+    let (center, extent) = (random.vector() * size, random.extents(size));
+    let theta_o = [0.0, 2.5, 2.5, core::f64::consts::PI][random.below(4) as usize] * f64::from(random.unit());
+    let n = match random.below(4) {
+        0 => Vec3::ZERO,
+        _ => random.direction(),
+    };
+    let bounds = LightBounds {
+        min: center - extent,
+        max: center + extent,
+        axis: random.direction(),
+        cos_theta_o: theta_o.cos() as f32,
+        cos_theta_e: 0.0,
+        phi: random.power(-10, 10),
+    };
+    let point = ShadingPoint {
+        p: (center + random.direction() * distance).to_array(),
+        n: n.to_array(),
+    };
+    (bounds, point)
+}
+
+/// The least product of cosines.
+const FLOOR: f64 = 1.0 / 1024.0;
+/// Absolute error of a bounded cosine: rough roots and a rough reciprocal, each some 7·10^-4, in a sum of four products; and what
+/// a compact layout decodes as the sine of θ_o, another 0.002 off.
+const COSINE: f64 = 8e-3;
+/// Relative error of two weights' quotient: a rough reciprocal in each.
+const ROUGH: f64 = 2.0 * 3e-3;
+
+/// Whether rounding decides: on the sphere around the box, and where a cone is just as wide as it must be for one of the steps.
+fn at_a_step(seen: &Seen) -> bool {
+    (seen.d() / seen.r() - 1.0).abs() < 1e-3 || (seen.theta_o.cos()).abs() < 1e-5
+}
+
+/// Weight of the first child over that of a light straight above the point that shines everywhere, whose cosines are 1.
+fn weight<N: BoundsNode<2>, I: ImportanceModel<N, 2>>(node: &N, point: &ShadingPoint) -> f64 {
+    let [found, one] = I::weights(node, point).map(f64::from);
+    found / one
+}
+
+/// Weights over `count` sights, against Φ · cosines / `squared`.
+fn check<N: BoundsNode<2>, I: ImportanceModel<N, 2>>(
+    seed: u32,
+    cosines: fn(&Seen) -> [f64; 2],
+    squared: fn(&Seen) -> f64,
+) {
+    let random = &mut Random(seed);
+    let (mut between, mut floored, mut near) = (0, 0, 0);
+    for _ in 0..40_000 {
+        let (bounds, point) = sight(random);
+        // pbrt's clamp has a unit: the light that is known is as far as the other.
+        let distance = minus(wide((bounds.min + bounds.max) * 0.5), wide(point.position()));
+        let distance = dot(distance, distance).sqrt() as f32;
+        let mut node = N::EMPTY;
+        node.set_summaries(&[bounds, known(&point, distance)]);
+        let [seen, above] = [0, 1].map(|slot| Seen::of(&node.cluster(slot), &point));
+        if at_a_step(&seen) {
+            continue;
+        }
+        let [emitted, incident] = cosines(&seen);
+        let scale = f64::from(node.cluster(0).phi) / squared(&seen) * squared(&above);
+        let [least, most] = [-COSINE, COSINE].map(|e| {
+            let both = (emitted + e).clamp(0.0, 1.0) * (incident + e).clamp(0.0, 1.0);
+            both.max(FLOOR) * scale
+        });
+        let found = weight::<N, I>(&node, &point);
+        assert!(
+            (least * (1.0 - ROUGH)..=most * (1.0 + ROUGH)).contains(&found),
+            "{} {found}, expected {least} to {most}: {bounds:?} at {point:?}",
+            N::NAME
+        );
+        between += u32::from((0.05..0.95).contains(&(emitted * incident)));
+        floored += u32::from(emitted * incident < 0.5 * FLOOR);
+        near += u32::from(squared(&seen) > seen.d().powi(2) * (1.0 + 1e-6));
+    }
+    assert!(
+        between > 500 && floored > 500 && near > 500,
+        "{between} {floored} {near}"
+    );
+}
+
+#[test]
+fn weights_of_pbrt_are_its_formula() {
+    check::<CompactNode<2>, Pbrt>(2, Seen::pbrt, Seen::pbrt_squared);
+}
+
+#[test]
+fn weights_of_falcor_are_its_formula() {
+    check::<CompactNode<2>, Falcor>(4, Seen::falcor, Seen::falcor_squared);
+}
+
+/// The very centre of a box: its direction is that of a zero vector, and the published forms are no number, though lights of
+/// the box may shine on the point. Here the weight is positive, as everywhere else with flux.
+#[test]
+fn the_centre_of_a_box_has_weight() {
+    let half = Vec3::new(1.0, 2.0, 0.5);
+    let lamps = LightBounds {
+        min: -half,
+        max: half,
+        axis: Vec3::Z,
+        cos_theta_o: 0.5,
+        cos_theta_e: 0.0,
+        phi: 3.0,
+    };
+    let point = ShadingPoint {
+        p: [0.0; 3],
+        n: [0.0, 1.0, 0.0],
+    };
+    let mut node = CompactNode::<2>::EMPTY;
+    node.set_summaries(&[lamps, known(&point, 1.0)]);
+    let seen = Seen::of(&node.cluster(0), &point);
+    assert!(seen.theta().is_nan() && seen.cos_theta_i().is_nan());
+    for weights in [Pbrt::weights(&node, &point), Falcor::weights(&node, &point)] {
+        assert!(weights[0] >= 0.1 * weights[1] && weights[1] > 0.0, "{weights:?}");
+    }
+}
+
+/// Positive where there is flux, zero elsewhere, at most 2^120: on lengths of 2^-60 to 2^60 m, flat and pointlike boxes, points
+/// within them and on them, cones of a direction and of all.
+#[test]
+fn bounds_of_any_size_have_sound_weights() {
+    fn check<N: BoundsNode<4>, I: ImportanceModel<N, 4>>(random: &mut Random) {
+        let size = random.power(-60, 40);
+        let sets = [0; 4].map(|_| {
+            let center = random.vector() * size * random.power(-4, 20);
+            let flat = |random: &mut Random| [0.0, 1.0, 1.0][random.below(3) as usize] * random.unit();
+            let half = Vec3::new(flat(random), flat(random), flat(random)) * size;
+            LightBounds {
+                min: center - half,
+                max: center + half,
+                axis: random.direction(),
+                cos_theta_o: [1.0, -1.0, 0.0, 2.0 * random.unit() - 1.0][random.below(4) as usize],
+                cos_theta_e: 0.0,
+                phi: [0.0, exact::pow2(-100), exact::pow2(120), 1.0][random.below(4) as usize],
+            }
+        });
+        let mut node = N::EMPTY;
+        for slot in 0..4 {
+            node.set_child(slot, kind::LIGHT, slot as u32);
+        }
+        node.set_summaries(&sets);
+        let lights = sets[random.below(4) as usize];
+        let center = (lights.min + lights.max) * 0.5;
+        let p = match random.below(5) {
+            0 => center,
+            1 => lights.min,
+            2 => center + random.vector() * size,
+            3 => center + random.direction() * random.power(-100, 60),
+            _ => Vec3::ZERO,
+        };
+        let n = if random.below(3) == 0 {
+            Vec3::ZERO
+        } else {
+            random.direction()
+        };
+        let point = ShadingPoint {
+            p: p.to_array(),
+            n: n.to_array(),
+        };
+        let weights = I::weights(&node, &point);
+        for slot in 0..4 {
+            let shines = sets[slot].phi > 0.0;
+            let sound = (0.0..=exact::pow2(120)).contains(&weights[slot]) && (weights[slot] > 0.0) == shines;
+            assert!(sound, "{} {weights:?}: {sets:?} at {point:?}", N::NAME);
+        }
+    }
+    let random = &mut Random(8);
+    for _ in 0..20_000 {
+        check::<CompactNode<4>, Pbrt>(random);
+        check::<CompactNode<4>, Falcor>(random);
+    }
+}

@@ -1,0 +1,98 @@
+//! The camera of a frame, from a node or looking at a box.
+
+use super::error::SceneError;
+use super::model::{Camera, Node, Scene};
+use super::transform::{Affine, Transform, unit_or};
+use crate::vector::{cross, sub};
+
+/// Where an image is seen from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Position, metres.
+    pub eye: [f32; 3],
+    /// Unit vector to the right of the image.
+    pub right: [f32; 3],
+    /// Unit vector to the top of the image.
+    pub up: [f32; 3],
+    /// Unit vector into the image.
+    pub forward: [f32; 3],
+    /// Vertical field of view, radians, above 0 and below pi.
+    pub yfov: f32,
+}
+
+/// Vertical field of view of the default camera: 50 degrees, a natural view on a screen.
+pub(super) const DEFAULT_YFOV: f32 = 0.872_664_6;
+
+impl Scene {
+    /// Where the frames are seen from of a scene that brings no camera, once a frame has been made: eye, a place that it looks
+    /// at, both metres, and the vertical field of view in radians; what [`seen_from`](Self::seen_from) takes.
+    pub fn chosen_camera(&self) -> Option<([f32; 3], [f32; 3], f32)> {
+        let view = self.default_camera.get()?;
+        // As far away as keeps the direction where the eye is far from the origin.
+        let far = view.eye.iter().fold(1.0_f32, |far, x| far.max(x.abs()));
+        let target = [0, 1, 2].map(|axis| view.eye[axis] + far * view.forward[axis]);
+        Some((view.eye, target, view.yfov))
+    }
+
+    /// The scene as a camera at `eye` sees it that looks at `target`, both metres, with a vertical field of view of `yfov`
+    /// radians; +Y is up. Its own cameras are gone. Where both are one place it looks along −Z.
+    ///
+    /// # Errors
+    /// As [`Scene::new`]: places beyond 2^40 m, fields of view that are none.
+    pub fn seen_from(self, eye: [f32; 3], target: [f32; 3], yfov: f32) -> Result<Self, SceneError> {
+        let mut data = self.into_data();
+        let [from, to] = [eye, target].map(|p| p.map(f64::from));
+        let forward = unit_or(sub(to, from), [0.0, 0.0, -1.0]);
+        let view = looking(from, forward, [0.0, 1.0, 0.0], yfov);
+        let columns = [view.right, view.up, view.forward.map(|x| -x), eye];
+        data.cameras = vec![Camera {
+            node: data.nodes.len() as u32,
+            yfov,
+        }];
+        data.nodes.push(Node {
+            name: String::from("camera"),
+            transform: Transform::Matrix(columns),
+            ..Node::default()
+        });
+        Self::new(data)
+    }
+}
+
+/// The camera of a node: looks along -Z, +Y up; the node's scale does not matter.
+pub(super) fn view_of_node(world: &Affine, yfov: f32) -> View {
+    let forward = unit_or(world.columns[2].map(|x| -x), [0.0, 0.0, -1.0]);
+    looking(world.columns[3], forward, world.columns[1], yfov)
+}
+
+/// A camera that looks at the middle of a box, from the direction `towards`, `distance` half diagonals away; at 2.37 of them the
+/// sphere around the box touches the image's upper and lower edge.
+pub(super) fn view_of_box(min: [f64; 3], max: [f64; 3], towards: [f64; 3], distance: f64) -> View {
+    let centre = [0, 1, 2].map(|i| 0.5 * (min[i] + max[i]));
+    let half = [0, 1, 2].map(|i| 0.5 * (max[i] - min[i]));
+    let radius = half.iter().map(|h| h * h).sum::<f64>().sqrt().max(1e-3);
+    let forward = unit_or(towards.map(|x| -x), [0.0, 0.0, -1.0]);
+    let eye = [0, 1, 2].map(|i| centre[i] - forward[i] * distance * radius);
+    looking(eye, forward, [0.0, 1.0, 0.0], DEFAULT_YFOV)
+}
+
+/// `forward` is a unit vector; `up` is made orthogonal to it.
+pub(super) fn looking(eye: [f64; 3], forward: [f64; 3], up: [f64; 3], yfov: f32) -> View {
+    // A camera that looks straight up or down takes -Z as its up direction.
+    let beside = unit_or(cross(forward, [0.0, 0.0, -1.0]), [1.0, 0.0, 0.0]);
+    let up = unit_or(up, [0.0, 1.0, 0.0]);
+    let right = cross(forward, up);
+    let right = if right.iter().all(|x| x.abs() < 1e-9) {
+        beside
+    } else {
+        unit_or(right, beside)
+    };
+    let up = cross(right, forward);
+    let narrow = |v: [f64; 3]| v.map(|x| x as f32);
+    View {
+        eye: narrow(eye),
+        right: narrow(right),
+        up: narrow(up),
+        forward: narrow(forward),
+        yfov,
+    }
+}

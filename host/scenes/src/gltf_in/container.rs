@@ -1,0 +1,201 @@
+//! Files, the GLB container, and the bytes of buffers.
+
+use std::borrow::Cow;
+use std::path::PathBuf;
+
+use gltf::json;
+use serde_json::Value;
+
+use base64::Engine;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+
+use super::super::error::SceneError;
+use super::super::files::POINTER;
+use super::Document;
+
+/// Exporters disagree about padding, so both forms are read.
+const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &base64::alphabet::STANDARD,
+    GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
+);
+
+pub(super) fn broken(path: &str, problem: impl Into<String>) -> SceneError {
+    SceneError::Container {
+        path: path.to_owned(),
+        problem: problem.into(),
+    }
+}
+
+/// The JSON part and, for `.glb`, the binary part (glTF 2.0, section 4.4).
+pub(super) fn split<'a>(path: &str, bytes: &'a [u8]) -> Result<(&'a [u8], Option<&'a [u8]>), SceneError> {
+    if !bytes.starts_with(b"glTF") {
+        return Ok((bytes, None));
+    }
+    let (Some(version), Some(length)) = (word(bytes, 4), word(bytes, 8)) else {
+        return Err(broken(path, "the GLB header is cut off"));
+    };
+    if version != 2 {
+        return Err(broken(path, format!("GLB version {version}, expected 2")));
+    }
+    let available = bytes.len();
+    let bytes = bytes.get(..length as usize).ok_or_else(|| {
+        broken(
+            path,
+            format!("its header claims {length} bytes, the file has {available}"),
+        )
+    })?;
+    let (kind, text, rest) = chunk(bytes, 12).ok_or_else(|| broken(path, "its first chunk is cut off"))?;
+    if kind != *b"JSON" {
+        return Err(broken(path, "its first chunk is not JSON"));
+    }
+    if rest == bytes.len() {
+        return Ok((text, None));
+    }
+    let (kind, binary, _) = chunk(bytes, rest).ok_or_else(|| broken(path, "its second chunk is cut off"))?;
+    Ok((text, (kind == *b"BIN\0").then_some(binary)))
+}
+
+fn word(bytes: &[u8], at: usize) -> Option<u32> {
+    Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
+}
+
+/// Kind and content of the chunk at `at`, and where the next one starts.
+fn chunk(bytes: &[u8], at: usize) -> Option<([u8; 4], &[u8], usize)> {
+    let length = word(bytes, at)? as usize;
+    let kind = *bytes.get(at + 4..)?.first_chunk()?;
+    let end = (at + 8).checked_add(length)?;
+    Some((kind, bytes.get(at + 8..end)?, end))
+}
+
+/// The JSON part, and how many channels of animations are left out of it: those that name no node, as `KHR_animation_pointer` has
+/// them, which the model does not know.
+pub(super) fn parse(path: &str, text: &[u8]) -> Result<(json::Root, usize), SceneError> {
+    if text.starts_with(POINTER) {
+        return Err(broken(
+            path,
+            String::from("it is a pointer of Git LFS; run `git lfs pull`"),
+        ));
+    }
+    let problem = match json::deserialize::from_slice(text) {
+        Ok(root) => return Ok((root, 0)),
+        Err(error) => broken(path, format!("its JSON part: {error}")),
+    };
+    let Ok(mut value) = serde_json::from_slice::<Value>(text) else {
+        return Err(problem);
+    };
+    if let Some("1.0" | "1") = value.pointer("/asset/version").and_then(Value::as_str) {
+        return Err(broken(path, String::from("it is glTF 1.0")));
+    }
+    let (mut left_out, mut mended) = (0, false);
+    let scenes = value.get_mut("scenes").and_then(Value::as_array_mut);
+    for scene in scenes.into_iter().flatten().filter_map(Value::as_object_mut) {
+        // A scene may have none.
+        mended |= !scene.contains_key("nodes");
+        scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
+    }
+    let animations = value.get_mut("animations").and_then(Value::as_array_mut);
+    for animation in animations.into_iter().flatten() {
+        if let Some(channels) = animation.get_mut("channels").and_then(Value::as_array_mut) {
+            let before = channels.len();
+            channels.retain(|channel| channel.pointer("/target/node").is_some());
+            left_out += before - channels.len();
+        }
+    }
+    match json::deserialize::from_value(value) {
+        Ok(root) if left_out > 0 || mended => Ok((root, left_out)),
+        _ => Err(problem),
+    }
+}
+
+/// All buffers, each cut to the length that the JSON claims.
+pub(super) fn buffers<'a>(
+    document: &Document<'a>,
+    binary: Option<&'a [u8]>,
+) -> Result<Vec<Cow<'a, [u8]>>, SceneError> {
+    let mut buffers = Vec::new();
+    for (index, buffer) in document.root.buffers.iter().enumerate() {
+        let element = format!("buffers[{index}]");
+        let bytes = match (&buffer.uri, binary) {
+            (Some(uri), _) => {
+                let bytes = fetch(document, uri, &element)?;
+                document.load.take(&element, "the buffer", bytes.len() as u64)?;
+                Cow::Owned(bytes)
+            }
+            (None, Some(binary)) if index == 0 => Cow::Borrowed(binary),
+            // Nothing is there: all its views are compressed.
+            (None, _) if document.is_fallback(buffer) => {
+                buffers.push(Cow::Borrowed(&[][..]));
+                continue;
+            }
+            (None, _) => {
+                let advice = "export as .glb, or keep the .bin file beside the .gltf";
+                return Err(document.malformed(element, "has neither a uri nor a binary chunk", advice));
+            }
+        };
+        let claimed = buffer.byte_length.0;
+        let found = bytes.len() as u64;
+        if claimed > found {
+            let problem = format!("claims {claimed} bytes, but only {found} are there");
+            return Err(document.malformed(
+                element,
+                problem,
+                "the file or its .bin is truncated; copy it again",
+            ));
+        }
+        let claimed = claimed as usize;
+        buffers.push(match bytes {
+            Cow::Borrowed(bytes) => Cow::Borrowed(&bytes[..claimed]),
+            Cow::Owned(mut bytes) => {
+                bytes.truncate(claimed);
+                Cow::Owned(bytes)
+            }
+        });
+    }
+    Ok(buffers)
+}
+
+/// The bytes behind a `data:` URI or a path relative to the file.
+pub(super) fn fetch(document: &Document<'_>, uri: &str, element: &str) -> Result<Vec<u8>, SceneError> {
+    if let Some(data) = uri.strip_prefix("data:") {
+        let Some((_, encoded)) = data.split_once(";base64,") else {
+            let advice = "embed it as base64";
+            return Err(document.unsupported(element, "a data URI that is not base64", advice));
+        };
+        return BASE64.decode(encoded).map_err(|error| {
+            document.malformed(element, format!("bad base64: {error}"), "export the file again")
+        });
+    }
+    let (Some(relative), Some(folder)) = (decoded_path(uri), document.load.folder()) else {
+        let shown: String = uri.chars().take(80).collect();
+        let advice = "use a path relative to the file, or embed the data";
+        return Err(document.unsupported(element, format!("the URI `{shown}`"), advice));
+    };
+    let bytes = document.load.read(&folder.join(relative))?;
+    if bytes.starts_with(POINTER) {
+        let problem = format!("`{uri}` is a pointer of Git LFS");
+        return Err(document.malformed(element, problem, "run `git lfs pull`"));
+    }
+    Ok(bytes)
+}
+
+/// A percent-decoded path; `None` for other schemes.
+fn decoded_path(uri: &str) -> Option<PathBuf> {
+    let bytes = uri.as_bytes();
+    let mut decoded = Vec::with_capacity(bytes.len());
+    let mut at = 0;
+    while at < bytes.len() {
+        let escaped = (bytes[at] == b'%').then(|| uri.get(at + 1..at + 3)).flatten();
+        match escaped.and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
+            Some(byte) => {
+                decoded.push(byte);
+                at += 3;
+            }
+            None => {
+                decoded.push(bytes[at]);
+                at += 1;
+            }
+        }
+    }
+    let path = String::from_utf8(decoded).ok().filter(|path| !path.is_empty())?;
+    (!uri.contains("://")).then(|| PathBuf::from(path))
+}

@@ -1,0 +1,111 @@
+//! Extensions: which are read, which change nothing that is used here, which are refused.
+
+use gltf::json;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+
+use super::super::error::{SceneError, not_compiled};
+use super::Document;
+
+/// Extensions that are read.
+pub(super) const READ: [&str; 14] = [
+    "EXT_lights_ies",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
+    "KHR_texture_basisu",
+    "KHR_texture_transform",
+];
+
+/// Extensions that only add what a renderer of lights has no use for: a file that requires one is shown nevertheless.
+pub(super) const HARMLESS: [&str; 4] = [
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "EXT_structural_metadata",
+    "EXT_mesh_features",
+];
+
+/// Extensions that this program was compiled without, and the features that read them.
+const NOT_COMPILED: &[(&str, &str)] = &[
+    #[cfg(not(feature = "meshopt"))]
+    ("EXT_meshopt_compression", "meshopt"),
+    #[cfg(not(feature = "meshopt"))]
+    ("KHR_meshopt_compression", "meshopt"),
+    #[cfg(not(feature = "draco"))]
+    ("KHR_draco_mesh_compression", "draco"),
+    #[cfg(not(feature = "ktx2"))]
+    ("KHR_texture_basisu", "ktx2"),
+    #[cfg(not(feature = "webp"))]
+    ("EXT_texture_webp", "webp"),
+];
+
+/// What refines surfaces; without it they look plainer.
+const LOOK: &str = "KHR_materials_";
+
+impl Document<'_> {
+    /// Refuses files that require what is not read; notes what is left out.
+    pub(super) fn check_extensions(&self) -> Result<(), SceneError> {
+        for (index, name) in self.root.extensions_required.iter().enumerate() {
+            let name = name.as_str();
+            if let Some((_, feature)) = NOT_COMPILED.iter().find(|(of, _)| *of == name) {
+                return Err(not_compiled(self.path, name, feature));
+            }
+            if !READ.contains(&name) && !HARMLESS.contains(&name) && !name.starts_with(LOOK) {
+                let advice = "export the file without this extension";
+                return Err(self.unsupported(format!("extensionsRequired[{index}]"), name, advice));
+            }
+        }
+        for name in &self.root.extensions_used {
+            if !READ.contains(&name.as_str()) {
+                self.warn(format!("extension {name} is ignored"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The object of extension `name` among `others`. One that cannot be read is an error where the file requires it,
+    /// and left out with a note where not.
+    pub(super) fn extension<T: DeserializeOwned>(
+        &self,
+        others: &Map<String, Value>,
+        name: &str,
+        element: &str,
+    ) -> Result<Option<T>, SceneError> {
+        let Some(value) = others.get(name) else {
+            return Ok(None);
+        };
+        match T::deserialize(value) {
+            Ok(extension) => Ok(Some(extension)),
+            Err(error) if self.requires(name) => {
+                let element = format!("{element}.extensions.{name}");
+                Err(self.malformed(element, error.to_string(), "export the file again"))
+            }
+            Err(error) => {
+                self.warn(format!("{element}: its extension {name} is ignored: {error}"));
+                Ok(None)
+            }
+        }
+    }
+
+    pub(super) fn requires(&self, name: &str) -> bool {
+        self.root
+            .extensions_required
+            .iter()
+            .any(|required| required == name)
+    }
+
+    /// Whether a buffer without data stands in for compressed views.
+    pub(super) fn is_fallback(&self, buffer: &json::Buffer) -> bool {
+        let others = buffer.extensions.as_ref().map(|extensions| &extensions.others);
+        let says = |name: &str| others?.get(name)?.get("fallback")?.as_bool();
+        super::meshopt::NAMES.iter().any(|name| says(name) == Some(true))
+    }
+}

@@ -1,0 +1,150 @@
+//! Compressed buffer views: `EXT_meshopt_compression`, and `KHR_meshopt_compression` as it was named later.
+//!
+//! The decoder is a crate's.
+
+use gltf::json::{Index, buffer};
+use serde::Deserialize;
+
+use super::super::error::SceneError;
+use super::Document;
+
+/// Both names of the extension.
+pub(super) const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+
+#[cfg(feature = "meshopt")]
+const ADVICE: &str = "unpack the file, for example with `gltf-transform copy`, or export it again";
+
+/// The bytes of a view, and its stride where it has one.
+pub(super) type Bytes<'a> = (&'a [u8], Option<usize>);
+
+/// As the extension's object has it.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Compressed {
+    buffer: u32,
+    #[serde(default)]
+    byte_offset: u64,
+    byte_length: u64,
+    byte_stride: u64,
+    count: u64,
+    mode: Mode,
+    #[serde(default)]
+    filter: Filter,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+enum Mode {
+    Attributes,
+    Triangles,
+    Indices,
+}
+
+#[derive(Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+enum Filter {
+    #[default]
+    None,
+    Octahedral,
+    Quaternion,
+    Exponential,
+    Color,
+}
+
+impl Document<'_> {
+    /// What a compressed view holds, and its stride; `None` for a view that is not compressed.
+    pub(super) fn unpacked(
+        &self,
+        index: Index<buffer::View>,
+        view: &buffer::View,
+        name: &str,
+    ) -> Result<Option<Bytes<'_>>, SceneError> {
+        let Some(extensions) = &view.extensions else {
+            return Ok(None);
+        };
+        let mut compressed: Option<Compressed> = None;
+        for extension in NAMES {
+            if compressed.is_none() {
+                compressed = self.extension(&extensions.others, extension, name)?;
+            }
+        }
+        let Some(compressed) = compressed else {
+            return Ok(None);
+        };
+        let cell = &self.unpacked[index.value()];
+        if cell.get().is_none() {
+            match self.unpack(&compressed, name) {
+                Ok(bytes) => cell.set(bytes).unwrap_or_default(),
+                // The file brings the same data as they are.
+                Err(error)
+                    if self
+                        .buffers
+                        .get(view.buffer.value())
+                        .is_some_and(|buffer| !buffer.is_empty()) =>
+                {
+                    self.warn(format!("its plain data are taken, as {error}"));
+                    return Ok(None);
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(cell
+            .get()
+            .map(|bytes| (bytes.as_slice(), Some(compressed.byte_stride as usize))))
+    }
+
+    fn unpack(&self, view: &Compressed, name: &str) -> Result<Vec<u8>, SceneError> {
+        let source = self.bytes(
+            gltf::json::Index::new(view.buffer),
+            (view.byte_offset, view.byte_length),
+            name,
+        )?;
+        let size = view.count.saturating_mul(view.byte_stride);
+        self.load.take(name, "what a compressed view holds", size)?;
+        self.decode_view(view, source, name)
+    }
+
+    #[cfg(not(feature = "meshopt"))]
+    fn decode_view(&self, _: &Compressed, _: &[u8], name: &str) -> Result<Vec<u8>, SceneError> {
+        Err(super::super::error::not_compiled(
+            self.path,
+            format!("{name} ({})", NAMES[0]),
+            "meshopt",
+        ))
+    }
+
+    #[cfg(feature = "meshopt")]
+    fn decode_view(&self, view: &Compressed, source: &[u8], name: &str) -> Result<Vec<u8>, SceneError> {
+        decode(view, source).map_err(|error| {
+            let problem = format!("cannot be unpacked: {error}");
+            self.malformed(name, problem, ADVICE)
+        })
+    }
+}
+
+#[cfg(feature = "meshopt")]
+fn decode(view: &Compressed, source: &[u8]) -> Result<Vec<u8>, meshoptimizer_rs::Error> {
+    use meshoptimizer_rs::codec::{
+        decode_filter_color, decode_filter_exp, decode_filter_oct, decode_filter_quat, decode_index_buffer,
+        decode_index_sequence, decode_vertex_buffer,
+    };
+    use meshoptimizer_rs::{Limits, Workspace};
+    let (count, stride) = (view.count as usize, view.byte_stride as usize);
+    let workspace = &mut Workspace::new(Limits {
+        max_bytes: count.saturating_mul(stride),
+        ..Limits::default()
+    });
+    let mut bytes = match view.mode {
+        Mode::Attributes => decode_vertex_buffer(count, stride, source, workspace)?,
+        Mode::Triangles => decode_index_buffer(count, stride, source, workspace)?,
+        Mode::Indices => decode_index_sequence(count, stride, source, workspace)?,
+    };
+    match view.filter {
+        Filter::None => {}
+        Filter::Octahedral => decode_filter_oct(&mut bytes, count, stride, workspace)?,
+        Filter::Quaternion => decode_filter_quat(&mut bytes, count, stride, workspace)?,
+        Filter::Exponential => decode_filter_exp(&mut bytes, count, stride, workspace)?,
+        Filter::Color => decode_filter_color(&mut bytes, count, stride, workspace)?,
+    }
+    Ok(bytes)
+}

@@ -1,0 +1,248 @@
+use super::*;
+use crate::Profile;
+
+/// A file of type `kind` with these angles, whose candela values are `value` of both angles.
+fn file(kind: u32, vertical: &[f64], horizontal: &[f64], value: impl Fn(f64, f64) -> f64) -> Vec<u8> {
+    let list = |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
+    let mut text = format!(
+        "IESNA:LM-63-2002\r\n[TEST] 1\r\n[MANUFAC] \u{fffd}\r\nTILT=NONE\r\n1 1000 2.0 {} {} {kind} 2 0 0 0\r\n0.5 1 40\r\n{}\r\n{}\r\n",
+        vertical.len(),
+        horizontal.len(),
+        list(vertical),
+        list(horizontal)
+    );
+    for h in horizontal {
+        let row: Vec<f64> = vertical.iter().map(|v| value(*v, *h)).collect();
+        text += &list(&row);
+        text += "\r\n";
+    }
+    text.into_bytes()
+}
+
+/// The direction at angles of type C.
+fn luminaire(vertical: f64, horizontal: f64) -> [f64; 3] {
+    let (v, h) = (vertical.to_radians(), horizontal.to_radians());
+    [v.sin() * h.cos(), v.sin() * h.sin(), v.cos()]
+}
+
+fn near(found: f64, expected: f64) {
+    assert!(
+        (found - expected).abs() < 1.0e-6 * expected.abs().max(1.0),
+        "{found}, expected {expected}"
+    );
+}
+
+fn steps(from: f64, to: f64, count: usize) -> Vec<f64> {
+    (0..count)
+        .map(|k| from + (to - from) * k as f64 / (count - 1) as f64)
+        .collect()
+}
+
+#[test]
+fn angles_of_luminaires_name_directions() {
+    let value = |v: f64, h: f64| 100.0 + v + 0.1 * h;
+    let full =
+        Photometry::read(&file(1, &steps(0.0, 180.0, 19), &steps(0.0, 360.0, 13), value)).expect("sound");
+    for (v, h) in [(0.0, 0.0), (35.0, 100.0), (90.0, 270.0), (171.0, 359.0)] {
+        let expected = if v == 0.0 {
+            full.candela([0.0, 0.0, 1.0])
+        } else {
+            value(v, h)
+        };
+        near(full.candela(luminaire(v, h)), expected);
+    }
+    // Factors count.
+    near(full.candela(luminaire(90.0, 90.0)), 199.0);
+    // A quadrant, of which the rest is an image; a half; one angle for all; a half from 90 to 270 degrees.
+    let quadrant =
+        Photometry::read(&file(1, &steps(0.0, 90.0, 10), &steps(0.0, 90.0, 4), value)).expect("sound");
+    for h in [20.0, 160.0, 200.0, 340.0] {
+        near(quadrant.candela(luminaire(50.0, h)), value(50.0, 20.0));
+    }
+    assert_eq!(
+        quadrant.candela(luminaire(95.0, 0.0)),
+        0.0,
+        "the table ends at 90 degrees"
+    );
+    let half =
+        Photometry::read(&file(1, &steps(0.0, 90.0, 10), &steps(0.0, 180.0, 4), value)).expect("sound");
+    near(half.candela(luminaire(50.0, 130.0)), value(50.0, 130.0));
+    near(half.candela(luminaire(50.0, 230.0)), value(50.0, 130.0));
+    let round = Photometry::read(&file(1, &steps(0.0, 90.0, 10), &[0.0], value)).expect("sound");
+    near(round.candela(luminaire(50.0, 230.0)), value(50.0, 0.0));
+    let old =
+        Photometry::read(&file(1, &steps(0.0, 90.0, 10), &steps(90.0, 270.0, 7), value)).expect("sound");
+    near(old.candela(luminaire(50.0, 200.0)), value(50.0, 200.0));
+    near(old.candela(luminaire(50.0, 340.0)), value(50.0, 200.0));
+    near(old.candela(luminaire(50.0, 30.0)), value(50.0, 150.0));
+    // Up lights.
+    let up = Photometry::read(&file(1, &steps(90.0, 180.0, 10), &[0.0], value)).expect("sound");
+    near(up.candela(luminaire(120.0, 0.0)), value(120.0, 0.0));
+    assert_eq!(up.candela(luminaire(60.0, 0.0)), 0.0);
+}
+
+#[test]
+fn angles_of_floodlights_and_headlamps_name_directions() {
+    let value = |v: f64, h: f64| 200.0 + v + 0.1 * h;
+    let (v, h) = (20.0_f64.to_radians(), 30.0_f64.to_radians());
+    let b =
+        Photometry::read(&file(2, &steps(-90.0, 90.0, 19), &steps(-90.0, 90.0, 19), value)).expect("sound");
+    near(
+        b.candela([h.sin(), h.cos() * v.sin(), h.cos() * v.cos()]),
+        value(20.0, 30.0),
+    );
+    near(
+        b.candela([-h.sin(), -h.cos() * v.sin(), h.cos() * v.cos()]),
+        value(-20.0, -30.0),
+    );
+    let a = Photometry::read(&file(3, &steps(-90.0, 90.0, 19), &steps(0.0, 90.0, 10), value)).expect("sound");
+    near(
+        a.candela([v.cos() * h.sin(), v.sin(), v.cos() * h.cos()]),
+        value(20.0, 30.0),
+    );
+    near(
+        a.candela([-v.cos() * h.sin(), v.sin(), v.cos() * h.cos()]),
+        value(20.0, 30.0),
+    );
+}
+
+/// Flux, mean cosine and cone of the picture against integrals of what the file says.
+#[test]
+fn pictures_have_the_flux_of_their_tables() {
+    let lambert = |v: f64, _: f64| 900.0 * v.to_radians().cos().max(0.0);
+    let narrow = |v: f64, _: f64| 5.0e4 * (-0.5 * (v / 6.0) * (v / 6.0)).exp();
+    let uneven = |v: f64, h: f64| (300.0 - 2.0 * v).max(0.0) * (1.2 + h.to_radians().sin());
+    type Case<'a> = (&'a str, Vec<f64>, Vec<f64>, &'a dyn Fn(f64, f64) -> f64);
+    let cases: [Case<'_>; 3] = [
+        ("lambert", steps(0.0, 90.0, 37), vec![0.0], &lambert),
+        ("narrow", steps(0.0, 90.0, 91), vec![0.0], &narrow),
+        ("uneven", steps(0.0, 180.0, 37), steps(0.0, 360.0, 25), &uneven),
+    ];
+    for (name, vertical, horizontal, value) in cases {
+        let bytes = file(1, &vertical, &horizontal, value);
+        let table = Photometry::read(&bytes).expect("sound");
+        let profile = Profile::read(name.into(), bytes).expect("sound");
+        // By rings, as no octahedron has them.
+        let (mut flux, mut first, mut shown) = (0.0, 0.0, 0.0);
+        let rings = 720;
+        for ring in 0..rings {
+            let v = 180.0 * (f64::from(ring) + 0.5) / f64::from(rings);
+            let solid =
+                std::f64::consts::TAU * v.to_radians().sin() * std::f64::consts::PI / f64::from(rings);
+            for k in 0..72 {
+                let d = luminaire(v, 5.0 * f64::from(k) + 2.5);
+                flux += table.candela(d) * solid / 72.0;
+                first += table.candela(d) * d[2] * solid / 72.0;
+                let seen = profile.shown(d.map(|x| x as f32));
+                shown += f64::from(seen) * f64::from(profile.peak) * solid / 72.0;
+                if seen > 0.0 {
+                    assert!(
+                        d[2] as f32 >= profile.cos_outer,
+                        "{name}: {} beyond {}",
+                        d[2],
+                        profile.cos_outer
+                    );
+                }
+            }
+        }
+        let whole = f64::from(profile.whole) * std::f64::consts::TAU * f64::from(profile.peak);
+        println!(
+            "{name}: {flux} lm, shown {shown}, told {whole}, cone {}",
+            profile.cos_outer
+        );
+        assert!((shown / flux - 1.0).abs() < 0.005, "{name}: {shown} of {flux}");
+        assert!((whole / flux - 1.0).abs() < 0.005, "{name}: {whole} of {flux}");
+        assert!(
+            (f64::from(profile.mean_cosine) - first / flux).abs() < 0.005,
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn broken_files_are_named_and_never_panic() {
+    let sound = file(1, &[0.0, 45.0, 90.0], &[0.0], |_, _| 100.0);
+    assert!(Photometry::read(&sound).is_ok());
+    let text = String::from_utf8_lossy(&sound).into_owned();
+    let says = |text: &str, part: &str| {
+        let problem = Profile::read(String::new(), text.as_bytes().to_vec()).expect_err(text);
+        assert!(problem.contains(part), "{problem}");
+    };
+    says("", "no line `TILT=`");
+    says("TILT=NONE\n1 2 3", "ends before its number of vertical angles");
+    says(&text.replace("2.0 3 1 1", "2.0 0 1 1"), "0 vertical angles");
+    says(&text.replace("2.0 3 1 1", "2.0 4096 4096 1"), "more than");
+    says(&text.replace("2.0 3 1 1", "2.0 3 1 7"), "photometric type is 7");
+    says(&text.replace("2.0 3 1 1", "nan 3 1 1"), "expected a number");
+    says(&text.replace("2.0 3 1 1", "-2.0 3 1 1"), "make -1");
+    says(&text.replace("0 45 90", "0 90 45"), "do not ascend");
+    says(&text.replace("100 100 100", "100 1e400 100"), "expected a number");
+    says(
+        &text.replace("100 100 100", "0 -5 0"),
+        "no light in any direction",
+    );
+    says(
+        &text.replace("100 100 100", "100 100"),
+        "ends before its candela value",
+    );
+    // Damage of all sorts.
+    let mut state = 1_u32;
+    let mut next = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 8) as usize
+    };
+    for _ in 0..20_000 {
+        let mut bytes = sound.clone();
+        for _ in 0..1 + next() % 4 {
+            let at = next() % bytes.len();
+            match next() % 3 {
+                0 => bytes[at] = next() as u8,
+                1 => bytes.truncate(at.max(1)),
+                _ => bytes.insert(at, b" .-e90123"[next() % 9]),
+            }
+        }
+        let _ = Photometry::read(&bytes);
+    }
+    let tilted = text.replace("TILT=NONE", "TILT=INCLUDE\n1\n2\n0 90\n1 0.9");
+    assert_eq!(Photometry::read(tilted.as_bytes()), Photometry::read(&sound));
+}
+
+/// Towards any direction the picture shows what the table says, but for what a texel smooths.
+#[test]
+fn pictures_show_their_tables() {
+    let value = |v: f64, h: f64| {
+        let side = 1.0 + 0.8 * h.to_radians().cos() + 0.1 * h.to_radians().sin();
+        600.0 * side * ((-(v - 40.0) * (v - 40.0) / 800.0).exp() + 0.2)
+    };
+    let bytes = file(1, &steps(0.0, 180.0, 37), &steps(0.0, 360.0, 25), value);
+    let table = Photometry::read(&bytes).expect("sound");
+    let profile = Profile::read(String::new(), bytes).expect("sound");
+    let (mut worst, mut at) = (0.0, [0.0; 2]);
+    for v in (13..165).step_by(3) {
+        for h in (0..360).step_by(7) {
+            let d = luminaire(f64::from(v), f64::from(h));
+            let shown = f64::from(profile.shown(d.map(|x| x as f32))) * f64::from(profile.peak);
+            let off = (shown - table.candela(d)).abs() / (table.candela(d) + 0.02 * 1000.0);
+            if off > worst {
+                (worst, at) = (off, [f64::from(v), f64::from(h)]);
+            }
+        }
+    }
+    println!("{worst} at {at:?}, side {}", profile.picture.width);
+    assert!(worst < 0.03, "{worst} at {at:?}");
+}
+
+/// Files that leave the last plane out, which is the first: from 345 to 360 degrees there is light too.
+#[test]
+fn a_circle_that_is_not_closed_is_closed() {
+    for (last, count) in [(345.0, 24), (270.0, 4), (350.0, 36)] {
+        let file = file(1, &steps(0.0, 90.0, 10), &steps(0.0, last, count), |_, h| {
+            100.0 + h
+        });
+        let table = Photometry::read(&file).expect("a table");
+        near(table.candela(luminaire(30.0, last)), 100.0 + last);
+        let between = 0.5 * (last + 360.0);
+        near(table.candela(luminaire(30.0, between)), 100.0 + 0.5 * last);
+        near(table.candela(luminaire(30.0, 0.0)), 100.0);
+    }
+}

@@ -1,0 +1,101 @@
+//! Scenes: triangles, emissive materials, node animation and a camera, turned into world-space triangles per frame.
+//!
+//! ```text
+//! Scene::open("street" | "path.glb")      load.rs: a built-in name, or a file of glTF 2.0, OBJ or PLY
+//!   └─ Scene (checked)                    model.rs: nodes, meshes, materials, animations; check.rs: what is refused
+//!        ├─ Scene::frame(n) -> Frame      frame.rs: triangles, emissive triangles, mesh lights, camera at n / 25 s
+//!        └─ Scene::to_glb()               glb_out.rs: any scene as .glb
+//! ```
+//!
+//! The three built-ins stand for the test scenes of the two-level light BVH paper, which cannot be shipped: [`street`]
+//! for Bistro Exterior (a long street along which lights are carried), [`square`] for Emerald Square (wide, thousands
+//! of small lights), [`carousel`] for Measure One (tens of thousands of emissive triangles, most of them moving).
+//!
+//! Conventions are those of glTF 2.0: metres, +Y up, right-handed, cameras look along -Z, the front of a triangle is
+//! its counter-clockwise side. All trigonometry goes through the `libm` crate and all hierarchies are multiplied in
+//! `f64`, so that a scene has the same words on every machine.
+// With fewer formats some helpers have no user.
+#![cfg_attr(not(feature = "formats"), allow(dead_code, unused_imports, unused_variables))]
+#![forbid(unsafe_code)]
+
+mod analytic;
+mod animate;
+mod builder;
+mod camera;
+mod check;
+mod clips;
+mod deform;
+mod environment;
+mod error;
+mod files;
+mod flush;
+mod frame;
+mod framing;
+#[cfg(feature = "gltf")]
+mod glb_out;
+#[cfg(any(feature = "gltf", feature = "obj"))]
+mod glow;
+#[cfg(feature = "gltf")]
+mod gltf_in;
+mod ies_in;
+mod instances;
+mod lamps;
+mod lit_by;
+mod load;
+mod model;
+mod motion_bounds;
+#[cfg(feature = "obj")]
+mod notes;
+#[cfg(feature = "obj")]
+mod obj_in;
+mod paint;
+mod pictures;
+#[cfg(feature = "ply")]
+mod ply_in;
+#[cfg(any(feature = "obj", feature = "ply"))]
+mod polygon;
+mod profile;
+mod radiance_hdr;
+mod random;
+mod ray_bvh;
+mod scene_light;
+mod shapes;
+mod shrunk;
+mod skin_words;
+mod sky;
+mod srgb;
+mod texels;
+mod track;
+mod transform;
+mod upright;
+
+pub mod carousel;
+pub mod square;
+pub mod stage;
+pub mod street;
+pub mod vector;
+
+pub use analytic::{AnalyticKind, AnalyticLight};
+pub use camera::View;
+pub use check::MAX_TRIANGLES;
+pub use clips::NoClip;
+pub use deform::{Influence, MorphChannel, Skin};
+pub use environment::read_environment;
+pub use error::SceneError;
+pub use files::Limits;
+pub use frame::{FRAMES_PER_SECOND, Frame, MeshRange};
+#[cfg(feature = "gltf")]
+pub use gltf_in::Asset;
+pub use ies_in::Photometry;
+pub use instances::Instances;
+pub use load::{BUILT_IN, STAGE};
+pub use model::{
+    Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
+};
+pub use paint::{IN_PLACE, MAX_SIDE, Opacity, Paint, Picture, Texture, Wrap};
+pub use profile::Profile;
+pub use ray_bvh::{RayBvh, RayBvhError};
+pub use scene_light::SceneLight;
+pub use skin_words::SkinArrays;
+pub use sky::Sky;
+pub use transform::Transform;

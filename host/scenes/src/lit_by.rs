@@ -1,0 +1,113 @@
+//! What lights a scene, and which commands can do with it.
+
+use super::error::SceneError;
+use super::model::{Counts, Scene};
+
+impl Scene {
+    /// What a command that knows emissive triangles alone leaves out.
+    pub fn unknown_lights(&self) -> Option<String> {
+        self.unknown("left out here")
+    }
+
+    /// What a command that chooses by emissive triangles, and names what is for the other lights, leaves out of its figures.
+    pub fn unknown_in_figures(&self) -> Option<String> {
+        self.unknown("not in the figures of triangles")
+    }
+
+    fn unknown(&self, are: &str) -> Option<String> {
+        let mut parts = Vec::new();
+        if self.has_other_lights() {
+            parts.push(format!("{} are {are}", self.other_lights()));
+        }
+        if self.data().is_painted() {
+            parts.push(String::from(
+                "textures are shown by their means here, and glass is left out",
+            ));
+        }
+        (!parts.is_empty()).then(|| format!("{}; `lightbvh render` and `verify` know them", parts.join("; ")))
+    }
+
+    /// What lights the scene beside emissive triangles, in words.
+    pub fn other_lights(&self) -> String {
+        let Counts { analytic, suns, .. } = self.counts;
+        let map = usize::from(self.data().environment.is_some());
+        let named = [
+            (
+                analytic,
+                "light of another kind than triangles",
+                "lights of other kinds than triangles",
+            ),
+            (suns, "sun", "suns"),
+            (map, "environment map", "environment maps"),
+        ];
+        let parts: Vec<String> = named
+            .into_iter()
+            .filter(|&(count, ..)| count > 0)
+            .map(|(count, one, several)| format!("{count} {}", if count == 1 { one } else { several }))
+            .collect();
+        parts.join(", ")
+    }
+
+    /// Emissive triangles of every frame.
+    pub fn emissive_count(&self) -> usize {
+        self.counts.emissive
+    }
+
+    /// Mesh lights of every frame: instances of emissive primitives.
+    pub fn mesh_light_count(&self) -> usize {
+        self.counts.mesh_lights
+    }
+
+    /// Lights by formula that are sampled, which a tree holds.
+    pub fn analytic_count(&self) -> usize {
+        self.counts.analytic
+    }
+
+    /// Suns, which stand beside trees.
+    pub fn sun_count(&self) -> usize {
+        self.counts.suns
+    }
+
+    /// Whether trees are over lights of any kind: some are of other kinds than triangles, or no triangle emits.
+    pub fn needs_any_light(&self) -> bool {
+        self.counts.analytic > 0 || (self.counts.emissive == 0 && self.has_other_lights())
+    }
+
+    /// Whether it has other light than that of emissive triangles: lights by formula, suns, an environment map.
+    pub fn has_other_lights(&self) -> bool {
+        self.counts.analytic + self.counts.suns > 0 || self.data().environment.is_some()
+    }
+
+    /// Whether only passes over all kinds of light show all of it: it has [other lights](Self::has_other_lights), or something
+    /// is painted on its surfaces.
+    pub fn has_kinds(&self) -> bool {
+        self.has_other_lights() || self.data().is_painted()
+    }
+
+    /// For commands that sample emissive triangles.
+    ///
+    /// # Errors
+    /// [`SceneError::NoEmissive`] where nothing emits, [`SceneError::OtherLights`] where no triangle does.
+    pub fn require_lights(&self) -> Result<(), SceneError> {
+        let scene = self.name().to_owned();
+        match (self.counts.emissive, self.has_other_lights()) {
+            (0, false) => Err(SceneError::NoEmissive { scene }),
+            (0, true) => Err(SceneError::OtherLights {
+                scene,
+                lights: self.other_lights(),
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// For commands that take lights of every kind.
+    ///
+    /// # Errors
+    /// [`SceneError::NoEmissive`] where nothing emits.
+    pub fn require_any_light(&self) -> Result<(), SceneError> {
+        if self.has_other_lights() {
+            return Ok(());
+        }
+        self.require_lights()
+    }
+}

@@ -1,0 +1,343 @@
+//! The scene model: a checked [`Scene`] around plain [`SceneData`].
+
+use std::sync::{Arc, OnceLock};
+
+use lightbvh::light::infinite::Environment;
+use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
+
+use crate::View;
+
+use super::analytic::AnalyticLight;
+use super::deform::{Influence, MorphChannel, Skin};
+use super::frame::emits;
+use super::paint::{Paint, Picture};
+use super::profile::Profile;
+use super::skin_words;
+use super::transform::Transform;
+
+/// A scene that passed every check of [`Scene::new`]: finite, in range, references whole.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    pub(super) data: SceneData,
+    /// Camera for scenes that bring none, made from frame 0 when it is asked for.
+    pub(super) default_camera: OnceLock<View>,
+    /// What is painted on it, made when it is asked for.
+    paint: OnceLock<Arc<Vec<u32>>>,
+    pub(super) counts: Counts,
+}
+
+/// Everything a scene is made of, unchecked, open for construction.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneData {
+    /// Built-in name or path of the file.
+    pub name: String,
+    /// Parents before their children.
+    pub nodes: Vec<Node>,
+    /// Meshes, placed by nodes, any number of times each.
+    pub meshes: Vec<Mesh>,
+    /// Materials, named by primitives.
+    pub materials: Vec<Material>,
+    /// All animations run at once, each looping over its own duration.
+    pub animations: Vec<Animation>,
+    /// Animations that move what those do, and are left out: [`play`](Self::play) brings one in.
+    pub clips: Vec<Animation>,
+    /// Animations that move nothing of the scene, and are left out: their places in the file, and their names.
+    pub idle: Vec<(u32, String)>,
+    /// The first one is the one that frames are seen from.
+    pub cameras: Vec<Camera>,
+    /// Named by nodes.
+    pub skins: Vec<Skin>,
+    /// Lights by formula.
+    pub analytic: Vec<AnalyticLight>,
+    /// Photometric profiles, named by lights.
+    pub profiles: Vec<Profile>,
+    /// Named by textures.
+    pub pictures: Vec<Picture>,
+    /// Radiance of rays that leave the scene, W/(m² sr), linear RGB, where there is no environment map.
+    pub background: [f32; 3],
+    /// Radiance from all directions: seen where nothing else is, and points are lit by it.
+    pub environment: Option<Arc<Environment>>,
+    /// What the loader left out, one sentence each.
+    pub warnings: Vec<String>,
+}
+
+impl SceneData {
+    /// Whether anything is painted on any material.
+    pub fn is_painted(&self) -> bool {
+        self.materials
+            .iter()
+            .any(|material| material.paint.as_ref().is_some_and(Paint::is_seen))
+    }
+}
+
+/// One place in the hierarchy.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Node {
+    /// For messages; need not be unique.
+    pub name: String,
+    /// Index into [`SceneData::nodes`], below the node's own index.
+    pub parent: Option<u32>,
+    /// Relative to the parent.
+    pub transform: Transform,
+    /// Index into [`SceneData::meshes`].
+    pub mesh: Option<u32>,
+    /// Index into [`SceneData::skins`]: what moves those of the mesh's primitives that have influences.
+    pub skin: Option<u32>,
+    /// How far the mesh is moved towards each of its targets while nothing animates them; missing ones are 0.
+    pub weights: Vec<f32>,
+}
+
+/// Primitives that move together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// For messages and for the names of mesh lights.
+    pub name: String,
+    /// One material each.
+    pub primitives: Vec<Primitive>,
+}
+
+/// Indexed triangles of one material.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Primitive {
+    /// Metres, in the node's space; each coordinate within ±2^40.
+    pub positions: Vec<[f32; 3]>,
+    /// Vertex indices, counter-clockwise seen from the front.
+    pub triangles: Vec<[u32; 3]>,
+    /// Index into [`SceneData::materials`].
+    pub material: u32,
+    /// Radiance of each triangle where an emissive texture makes them differ; replaces the material's.
+    pub radiance: Option<Vec<[f32; 3]>>,
+    /// Texture coordinates of each vertex, where the material has textures that lie by them.
+    pub coordinates: Option<Vec<[f32; 2]>>,
+    /// Morph targets: how far each vertex is moved where the target's weight is 1; one without entries moves nothing.
+    pub targets: Vec<Vec<[f32; 3]>>,
+    /// Joints of each vertex, in sets of four.
+    pub influences: Vec<Vec<Influence>>,
+}
+
+/// How a surface reflects and emits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// For messages.
+    pub name: String,
+    /// Linear RGB, each in [0, 1].
+    pub base_color: [f32; 3],
+    /// Emitted radiance, W/(m² sr), linear RGB, emissive strength included; not negative.
+    pub radiance: [f32; 3],
+    /// Whether the back side reflects and emits too.
+    pub double_sided: bool,
+    /// In [0, 1].
+    pub metallic: f32,
+    /// Perceptual roughness in [0, 1].
+    pub roughness: f32,
+    /// Whether alpha cuts parts of the surface out; where the reference renderer shows no [`paint`](Self::paint), it takes it
+    /// as opaque.
+    pub masked: bool,
+    /// Share of light that goes straight through, in [0, 1]; see [`is_clear`](Self::is_clear).
+    pub transmission: f32,
+    /// What is painted on it, of which all that stands above is the mean.
+    pub paint: Option<Paint>,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            name: String::from("default"),
+            base_color: [1.0; 3],
+            radiance: [0.0; 3],
+            double_sided: false,
+            metallic: 0.0,
+            roughness: 1.0,
+            masked: false,
+            transmission: 0.0,
+            paint: None,
+        }
+    }
+}
+
+impl Material {
+    /// Whether more light goes through than not. Where the reference renderer shows no [`paint`](Self::paint), it has no glass:
+    /// surfaces of such a material that do not emit are left out, so that lamps behind them are not hidden.
+    pub fn is_clear(&self) -> bool {
+        self.transmission >= 0.5
+    }
+
+    /// The reference renderer's two lobes.
+    pub fn surface(&self) -> SurfaceMaterial {
+        SurfaceMaterial::of(self.base_color, self.metallic, self.roughness)
+    }
+}
+
+/// Channels that share a clock.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Animation {
+    /// For messages, and to choose it by.
+    pub name: String,
+    /// Its place in the file, from 0.
+    pub place: u32,
+    /// What moves.
+    pub channels: Vec<Channel>,
+    /// What bends.
+    pub morphs: Vec<MorphChannel>,
+}
+
+impl Animation {
+    /// Time of the last key of any channel, in seconds; the animation starts again there.
+    pub fn duration(&self) -> f32 {
+        let moving = self.channels.iter().map(|channel| &channel.times);
+        let bending = self.morphs.iter().map(|channel| &channel.times);
+        let ends = moving.chain(bending).filter_map(|times| times.last().copied());
+        ends.fold(0.0, f32::max)
+    }
+}
+
+/// Keys for one property of one node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Index into [`SceneData::nodes`]; the node's transform must be [`Transform::Trs`].
+    pub node: u32,
+    /// What the values replace.
+    pub property: Property,
+    /// How values between keys are found.
+    pub interpolation: Interpolation,
+    /// Seconds, not negative, ascending.
+    pub times: Vec<f32>,
+    /// One per key, or in-tangent, value, out-tangent per key for [`Interpolation::CubicSpline`]. The fourth
+    /// component counts for rotations only.
+    pub values: Vec<[f32; 4]>,
+}
+
+/// The animated part of a transform.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Property {
+    /// Metres.
+    Translation,
+    /// Quaternion `[x, y, z, w]`.
+    Rotation,
+    /// Factors.
+    Scale,
+}
+
+/// glTF 2.0, appendix C.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// The last key's value.
+    Step,
+    /// Straight lines; spherical for rotations.
+    Linear,
+    /// Hermite splines with given tangents.
+    CubicSpline,
+}
+
+/// A perspective camera on a node, looking along the node's -Z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Index into [`SceneData::nodes`].
+    pub node: u32,
+    /// Vertical field of view, radians, in (0, π).
+    pub yfov: f32,
+}
+
+/// Sizes of every frame of a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Counts {
+    pub triangles: usize,
+    /// Of clear glass that does not emit.
+    pub clear: usize,
+    pub emissive: usize,
+    pub mesh_lights: usize,
+    pub analytic: usize,
+    pub suns: usize,
+}
+
+impl Primitive {
+    /// Whether triangle `index` is in frames; those of clear materials are not unless they emit.
+    pub(super) fn is_shown(&self, index: usize, material: &Material) -> bool {
+        !material.is_clear() || emits(self.triangle_radiance(index, material.radiance))
+    }
+
+    /// Whether triangle `index` emits, given its material's radiance.
+    pub(super) fn triangle_radiance(&self, index: usize, of_material: [f32; 3]) -> [f32; 3] {
+        self.radiance
+            .as_ref()
+            .map_or(of_material, |radiance| radiance[index])
+    }
+}
+
+impl Scene {
+    /// Wraps data that [`Scene::new`] found sound.
+    pub(super) fn from_checked(data: SceneData, counts: Counts) -> Self {
+        Self {
+            data,
+            default_camera: OnceLock::new(),
+            paint: OnceLock::new(),
+            counts,
+        }
+    }
+
+    /// Built-in name or path of the file.
+    pub fn name(&self) -> &str {
+        &self.data.name
+    }
+
+    /// What the scene is made of.
+    pub fn data(&self) -> &SceneData {
+        &self.data
+    }
+
+    /// Gives the parts back, for changes; [`Scene::new`] checks them again.
+    pub fn into_data(self) -> SceneData {
+        self.data
+    }
+
+    /// What the loader left out, one sentence each.
+    pub fn warnings(&self) -> &[String] {
+        &self.data.warnings
+    }
+
+    /// The scene with means in place of all that is painted on it.
+    pub fn unpainted(mut self) -> Self {
+        for material in &mut self.data.materials {
+            material.paint = None;
+        }
+        self.data.pictures.clear();
+        self.paint = OnceLock::new();
+        self
+    }
+
+    /// The words of [`SkinArrays`](super::SkinArrays).
+    pub(super) fn paint_words(&self) -> Arc<Vec<u32>> {
+        Arc::clone(self.paint.get_or_init(|| Arc::new(skin_words::words(&self.data))))
+    }
+
+    /// Says how many triangles are of glass that leaves light as it is: nobody would see them. Of clear glass that tints, what
+    /// is behind it says that it is there.
+    pub fn unseen_glass(&self) -> Option<String> {
+        let unseen = |mesh: &Mesh| -> usize {
+            let primitives = mesh.primitives.iter().map(|primitive| {
+                let material = &self.data.materials[primitive.material as usize];
+                let is_unseen = material.paint.as_ref().is_some_and(Paint::is_unseen);
+                let triangles = (0..primitive.triangles.len()).filter(|_| is_unseen);
+                triangles.filter(|&t| !primitive.is_shown(t, material)).count()
+            });
+            primitives.sum()
+        };
+        let of_meshes: Vec<usize> = self.data.meshes.iter().map(unseen).collect();
+        let placed = self.data.nodes.iter().filter_map(|node| node.mesh);
+        let count: usize = placed.map(|mesh| of_meshes[mesh as usize]).sum();
+        let there_are = match count {
+            0 => return None,
+            1 => String::from("1 triangle is"),
+            _ => format!("{count} triangles are"),
+        };
+        Some(format!(
+            "note: {there_are} clear glass, which shows nothing by itself: it neither reflects nor bends light here; give it a base colour, which \
+             tints what is behind it"
+        ))
+    }
+
+    /// Triangles of every frame.
+    pub fn triangle_count(&self) -> usize {
+        self.counts.triangles
+    }
+}

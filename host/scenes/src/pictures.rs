@@ -1,0 +1,77 @@
+//! Pictures in files, decoded within the memory of a load.
+
+use std::io::Cursor;
+use std::path::Path;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, RgbaImage};
+
+use super::error::{SceneError, not_compiled};
+use super::files::Load;
+use super::paint::{MAX_SIDE, Picture};
+
+/// What cannot be decoded.
+pub(super) fn undecoded(name: &str, problem: impl ToString) -> SceneError {
+    SceneError::Picture {
+        name: name.to_owned(),
+        problem: problem.to_string(),
+    }
+}
+
+/// Decodes a picture; `path` says its format where its first bytes do not. Its size is read from its header before memory is
+/// taken.
+pub(super) fn decode(
+    load: &Load,
+    name: &str,
+    bytes: &[u8],
+    path: Option<&Path>,
+) -> Result<DynamicImage, SceneError> {
+    let mut reader = ImageReader::new(Cursor::new(bytes));
+    if let Some(format) = path.and_then(|path| ImageFormat::from_path(path).ok()) {
+        reader.set_format(format);
+    }
+    let mut reader = reader
+        .with_guessed_format()
+        .map_err(|error| undecoded(name, error))?;
+    let feature = match reader.format() {
+        Some(ImageFormat::WebP) => "webp",
+        Some(ImageFormat::Tga) => "obj",
+        _ => "",
+    };
+    if let Some(format) = reader
+        .format()
+        .filter(|own| !own.reading_enabled() && !feature.is_empty())
+    {
+        return Err(not_compiled(
+            name,
+            format!("the picture format {format:?}"),
+            feature,
+        ));
+    }
+    let mut limits = image::Limits::default();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    limits.max_alloc = Some(load.left());
+    reader.limits(limits.clone());
+    let mut decoder = reader.into_decoder().map_err(|error| undecoded(name, error))?;
+    let (width, height) = decoder.dimensions();
+    // What is decoded, what the decoder works with, and the copy of eight bits a channel.
+    let bytes = (2 * decoder.total_bytes()).saturating_add(4 * u64::from(width) * u64::from(height));
+    load.check(name, "a picture, decoded,", bytes)?;
+    decoder
+        .set_limits(limits)
+        .and_then(|()| DynamicImage::from_decoder(decoder))
+        .map_err(|error| undecoded(name, error))
+}
+
+/// Pixels as a scene keeps them.
+pub(super) fn kept(pixels: Rc<RgbaImage>) -> Picture {
+    let (width, height) = pixels.dimensions();
+    let pixels = Rc::try_unwrap(pixels).unwrap_or_else(|shared| (*shared).clone());
+    Picture {
+        width,
+        height,
+        texels: Arc::new(pixels.into_raw()),
+    }
+}

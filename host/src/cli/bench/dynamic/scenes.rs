@@ -1,0 +1,377 @@
+//! The scenes, each made by seeded numbers: lamps, and the edits of each frame.
+
+use std::f32::consts::TAU;
+
+use lightbvh::EmissiveTriangle;
+
+use super::world::{Point, World};
+use crate::stability::random::Random;
+
+/// Lamps, and how their variance is measured.
+pub(super) struct Scene {
+    pub name: &'static str,
+    pub lamps: Vec<Lamp>,
+    /// Triangles of the mesh that they share.
+    pub triangles: Vec<EmissiveTriangle>,
+    /// Number of frames, of first frames that do not count, and of frames from one measurement of variance to the next.
+    pub frames: usize,
+    pub warm: usize,
+    pub look: usize,
+    /// Number of points at which variance is measured.
+    pub points: u32,
+    /// Side of the square that they lie in; none for points near lamps.
+    pub side: Option<f32>,
+    /// Edits a frame.
+    pub step: Step,
+}
+
+/// Initial position and radiance.
+type Lamp = (Point, f32);
+type Step = Box<dyn FnMut(usize, &mut World)>;
+
+impl Scene {
+    fn new(name: &'static str, lamps: Vec<Lamp>, step: impl FnMut(usize, &mut World) + 'static) -> Self {
+        Self {
+            name,
+            side: Some(side(lamps.len())),
+            points: match lamps.len() {
+                0..50_000 => 20,
+                50_000..500_000 => 8,
+                _ => 4,
+            },
+            lamps,
+            triangles: vec![triangle([0.0; 3])],
+            frames: 140,
+            warm: 20,
+            look: 30,
+            step: Box::new(step),
+        }
+    }
+
+    fn near(self) -> Self {
+        Self { side: None, ..self }
+    }
+}
+
+/// All scenes. A quick run has fewer frames and points, and leaves the largest scenes out.
+pub(super) fn scenes(is_quick: bool) -> Vec<Scene> {
+    let mut scenes = vec![
+        mix(1_000, 20),
+        mix(10_000, 50),
+        mix(100_000, 50),
+        mix(1_000_000, 50),
+        toggle(10_000),
+        convoy(),
+        road(5_000, 5),
+        walk(10_000, 0.42),
+        rings(100_000),
+        jump(10_000),
+        scatter(10_000),
+        insert_all(100_000),
+        remove_all(100_000),
+        clusters(16),
+        fade(10_000),
+        wall(),
+    ];
+    if is_quick {
+        for scene in &mut scenes {
+            let (frames, points) = if scene.lamps.len() < 50_000 {
+                (80, 20)
+            } else {
+                (50, 4)
+            };
+            scene.frames = scene.frames.min(frames);
+            scene.points = scene.points.min(points);
+        }
+    } else {
+        scenes.extend([jump(100_000), clusters(64)]);
+    }
+    scenes
+}
+
+/// A tenth of a metre wide, shining down.
+fn triangle([x, y, z]: Point) -> EmissiveTriangle {
+    EmissiveTriangle {
+        p: [[x, y, z], [x + 0.1, y, z], [x, y, z + 0.1]],
+        radiance: [9.0; 3],
+        mesh: 0,
+        flags: 0,
+    }
+}
+
+/// Side of the square that holds `count` lamps, metres: 4 m² for each.
+fn side(count: usize) -> f32 {
+    2.0 * (count as f32).sqrt()
+}
+
+fn anywhere(random: &mut Random, side: f32) -> Point {
+    [
+        random.between(0.0, side),
+        random.between(3.0, 6.0),
+        random.between(0.0, side),
+    ]
+}
+
+fn bright(random: &mut Random) -> f32 {
+    random.between(0.2, 1.2)
+}
+
+fn scattered(count: usize) -> Vec<Lamp> {
+    let random = &mut Random::new(1);
+    let side = side(count);
+    (0..count)
+        .map(|_| (anywhere(random, side), bright(random)))
+        .collect()
+}
+
+/// A quarter of the edits adds, a quarter removes, half move anywhere.
+fn mix(count: usize, edits: usize) -> Scene {
+    let (mut random, side) = (Random::new(2), side(count));
+    let step = move |_, world: &mut World| {
+        for _ in 0..edits {
+            match random.below(4) {
+                0 => world.add(anywhere(&mut random, side), bright(&mut random)),
+                1 => world.remove(world.some(&mut random)),
+                _ => world.place(world.some(&mut random), anywhere(&mut random, side)),
+            }
+        }
+    };
+    let name = if edits == 20 {
+        "20 random edits"
+    } else {
+        "50 random edits"
+    };
+    Scene::new(name, scattered(count), step)
+}
+
+/// Toggles 20 random lamps among every fiftieth.
+fn toggle(count: usize) -> Scene {
+    let (mut random, mut is_off) = (Random::new(3), vec![false; count]);
+    Scene::new("2 % toggle", scattered(count), move |_, world| {
+        for _ in 0..20 {
+            let lamp = 50 * random.below(count as u32 / 50) as usize;
+            is_off[lamp] ^= true;
+            world.shine(lamp, if is_off[lamp] { 0.0 } else { 1.0 });
+        }
+    })
+}
+
+/// Ten lamps in turn get 10^4 times as bright, and dark again.
+fn fade(count: usize) -> Scene {
+    Scene::new(
+        "fade to 10^4 times as bright",
+        scattered(count),
+        move |frame, world| {
+            let lamp = frame / 14 % 10 * 997 % count;
+            let high = 1.0 - (2.0 * (frame % 14) as f32 / 13.0 - 1.0).abs();
+            world.shine(lamp, 1e4_f32.powf(high));
+        },
+    )
+}
+
+/// 500 drive through 20,000.
+fn convoy() -> Scene {
+    let (mut lamps, mut random) = (scattered(20_000), Random::new(4));
+    let still = lamps.len();
+    let side = side(still);
+    let within: Vec<[f32; 2]> = (0..500)
+        .map(|_| [random.between(0.0, 60.0), random.between(0.0, 10.0)])
+        .collect();
+    let at = move |[x, z]: [f32; 2], frame: usize| [x + 0.4 * frame as f32, 1.0, side / 2.0 + z];
+    lamps.extend(within.iter().map(|&own| (at(own, 0), 2.0)));
+    let step = move |frame, world: &mut World| {
+        for (lamp, &own) in (still..).zip(&within) {
+            world.place(lamp, at(own, frame + 1));
+        }
+    };
+    Scene::new("convoy of 500 in 20,000", lamps, step).near()
+}
+
+/// Some are removed behind, as many are added in front.
+fn road(count: usize, each: usize) -> Scene {
+    let mut random = Random::new(5);
+    let mut lamp = move |number: usize| {
+        let across = [random.between(3.0, 4.0), random.between(0.0, 8.0)];
+        ([0.8 * number as f32, across[0], across[1]], 1.0)
+    };
+    let lamps = (0..count).map(&mut lamp).collect();
+    let step = move |frame: usize, world: &mut World| {
+        for number in frame * each..(frame + 1) * each {
+            world.remove(number);
+            let (at, radiance) = lamp(count + number);
+            world.add(at, radiance);
+        }
+    };
+    Scene::new("road: 5 removed, 5 added", lamps, step).near()
+}
+
+/// All walk, each its own way.
+fn walk(count: usize, step: f32) -> Scene {
+    let (mut random, side) = (Random::new(6), side(count));
+    let lamps = scattered(count);
+    let ways: Vec<(Point, f32)> = lamps
+        .iter()
+        .map(|&(at, _)| (at, random.between(0.0, TAU)))
+        .collect();
+    Scene::new("all walk", lamps, move |frame, world| {
+        let far = step * (frame + 1) as f32;
+        for (lamp, &([x, y, z], angle)) in ways.iter().enumerate() {
+            let by = |x: f32, way: f32| (x + far * way).rem_euclid(side);
+            world.place(lamp, [by(x, angle.cos()), y, by(z, angle.sin())]);
+        }
+    })
+}
+
+/// All turn about the middle at one of ten speeds.
+fn rings(count: usize) -> Scene {
+    let (mut random, side) = (Random::new(7), side(count));
+    let rings: Vec<[f32; 4]> = (0..count)
+        .map(|_| {
+            let speed = 0.05 * (0.3 + 0.2 * random.below(5) as f32) / 60.0;
+            let way = if random.below(2) == 0 { 1.0 } else { -1.0 };
+            let radius = random.unit().sqrt() * side / 2.0;
+            [
+                radius,
+                random.between(0.0, TAU),
+                random.between(3.0, 6.0),
+                way * speed,
+            ]
+        })
+        .collect();
+    let at = move |[radius, angle, y, speed]: [f32; 4], frame: usize| {
+        let (s, c) = (angle + speed * frame as f32).sin_cos();
+        [side / 2.0 + radius * c, y, side / 2.0 + radius * s]
+    };
+    let lamps = rings.iter().map(|&own| (at(own, 0), 1.0)).collect();
+    Scene {
+        frames: 60,
+        look: 20,
+        ..Scene::new("all on rings", lamps, move |frame, world| {
+            for (lamp, &own) in rings.iter().enumerate() {
+                world.place(lamp, at(own, frame + 1));
+            }
+        })
+    }
+}
+
+/// A tenth goes to one place in the third frame that counts.
+fn jump(count: usize) -> Scene {
+    let (mut random, side) = (Random::new(8), side(count));
+    Scene {
+        frames: 30,
+        look: 1,
+        ..Scene::new("10 % jump at once", scattered(count), move |frame, world| {
+            if frame == 22 {
+                for lamp in (0..count).step_by(10) {
+                    let [x, z] = [(); 2].map(|()| side * random.between(0.5, 0.6));
+                    world.place(lamp, [x, 4.0, z]);
+                }
+            }
+        })
+    }
+}
+
+/// Half of all jump in each frame.
+fn scatter(count: usize) -> Scene {
+    let (mut random, side) = (Random::new(9), side(count));
+    Scene {
+        frames: 60,
+        warm: 0,
+        look: 10,
+        ..Scene::new("half jump in each frame", scattered(count), move |_, world| {
+            for lamp in (0..count).step_by(2) {
+                world.place(lamp, anywhere(&mut random, side));
+            }
+        })
+    }
+}
+
+/// All are added in one batch.
+fn insert_all(count: usize) -> Scene {
+    Scene {
+        frames: 1,
+        warm: 0,
+        look: 1,
+        points: 4,
+        side: Some(side(count)),
+        ..Scene::new("all added in one batch", Vec::new(), move |_, world| {
+            for (at, radiance) in scattered(count) {
+                world.add(at, radiance);
+            }
+        })
+    }
+}
+
+/// All are removed in one batch.
+fn remove_all(count: usize) -> Scene {
+    Scene {
+        frames: 1,
+        warm: 0,
+        look: 1,
+        ..Scene::new("all removed in one batch", scattered(count), move |_, world| {
+            for lamp in 0..count {
+                world.remove(lamp);
+            }
+        })
+    }
+}
+
+/// Clusters of 1000 change places in 100 frames.
+fn clusters(count: usize) -> Scene {
+    const OWN: usize = 1000;
+    let mut random = Random::new(10);
+    let within: Vec<Point> = (0..count * OWN).map(|_| anywhere(&mut random, 10.0)).collect();
+    let mut targets: Vec<usize> = (0..count).collect();
+    for k in (1..count).rev() {
+        targets.swap(k, random.below(k as u32 + 1) as usize);
+    }
+    let across = (count as f32).sqrt() as usize;
+    let corner = move |cluster: usize| [cluster % across, cluster / across].map(|x| 40.0 * x as f32);
+    let at = move |lamp: usize, [x, y, z]: Point, share: f32| {
+        let (from, to) = (corner(lamp / OWN), corner(targets[lamp / OWN]));
+        let by = |axis: usize| from[axis] + (to[axis] - from[axis]) * share;
+        [x + by(0), y, z + by(1)]
+    };
+    let lamps = within
+        .iter()
+        .enumerate()
+        .map(|(lamp, &own)| (at(lamp, own, 0.0), 1.0))
+        .collect();
+    let step = move |frame: usize, world: &mut World| {
+        for (lamp, &own) in within.iter().enumerate() {
+            world.place(lamp, at(lamp, own, (frame + 1) as f32 / 100.0));
+        }
+    };
+    Scene {
+        frames: 100,
+        warm: 0,
+        look: 20,
+        points: 20,
+        ..Scene::new("clusters of 1000 change places", lamps, step)
+    }
+    .near()
+}
+
+/// The triangles of one mesh, all set in each frame: each goes its own way.
+fn wall() -> Scene {
+    const SIDE: f32 = 20.0;
+    let mut random = Random::new(11);
+    let ways: Vec<[f32; 3]> = (0..20_000)
+        .map(|_| [SIDE, SIDE, TAU].map(|most| random.between(0.0, most)))
+        .collect();
+    let at = move |[x, z, angle]: [f32; 3], frame: usize| {
+        // Turned back at the ends.
+        let by =
+            |x: f32, way: f32| ((x + 0.02 * frame as f32 * way + SIDE).rem_euclid(2.0 * SIDE) - SIDE).abs();
+        triangle([by(x, angle.cos()), 1.0, by(z, angle.sin())])
+    };
+    let triangles = ways.iter().map(|&own| at(own, 0)).collect();
+    let step = move |frame: usize, world: &mut World| {
+        world.deform(ways.iter().map(|&own| at(own, frame + 1)).collect());
+    };
+    Scene {
+        triangles,
+        side: Some(SIDE),
+        ..Scene::new("wall of 20,000 triangles", vec![([0.0; 3], 1.0)], step)
+    }
+}

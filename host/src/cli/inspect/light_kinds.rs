@@ -1,0 +1,115 @@
+//! Which kinds of light there are, and the least that a tree over all of them is made of.
+
+use lightbvh::light::{AnyLight, Light};
+
+/// Lights by their kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct LightKinds {
+    /// How many of each, by [`AnyLight::kind`].
+    pub counts: [usize; 8],
+    /// How many send their light into a cone: spots and profiles of less than a right angle around their axis.
+    pub narrow: usize,
+}
+
+/// The kinds by their number: one, several, and the type.
+const NAMES: [[&str; 3]; 8] = [
+    ["triangle", "triangles", "EmissiveTriangle"],
+    ["point", "points", "PointLight"],
+    ["spot", "spots", "SpotLight"],
+    ["sphere", "spheres", "SphereLight"],
+    ["rectangle", "rectangles", "RectangleLight"],
+    ["disc", "discs", "DiscLight"],
+    ["box", "boxes", "BoxLight"],
+    ["profile", "profiles", "ProfileLight"],
+];
+
+impl LightKinds {
+    /// Of lights; those of kinds that are not known are not counted.
+    pub fn of(lights: &[AnyLight]) -> Self {
+        let mut kinds = Self::default();
+        for light in lights {
+            if let Some(count) = kinds.counts.get_mut(light.kind() as usize) {
+                *count += 1;
+            }
+            kinds.narrow += usize::from(light.has_flux() && light.beam().is_narrow());
+        }
+        kinds
+    }
+
+    /// The type of the lights: the only kind that there is, or [`AnyLight`].
+    pub fn light_type(&self) -> &'static str {
+        let mut there = (0..8).filter(|&kind| self.counts[kind] > 0);
+        match (there.next(), there.next()) {
+            (Some(kind), None) => NAMES[kind][2],
+            _ => "AnyLight",
+        }
+    }
+
+    /// The type of a node `width` wide over all of them, as Rust has it. With cones
+    /// ([`SpotMomentNode`](lightbvh::node::SpotMomentNode)) where any light has one: without, points beside its cone choose it,
+    /// which costs variance and no bias.
+    pub fn node_type(&self, width: usize) -> String {
+        let layout = ["MomentNode", "SpotMomentNode"][usize::from(self.narrow > 0)];
+        match self.light_type() {
+            "EmissiveTriangle" => format!("{layout}<{width}>"),
+            light => format!("Lit<{layout}<{width}>, {light}>"),
+        }
+    }
+
+    /// How many there are of each, in words; empty where there is none.
+    pub fn said(&self) -> String {
+        let named = self.counts.iter().zip(NAMES).filter(|(count, _)| **count > 0);
+        let parts: Vec<String> = named
+            .map(|(count, names)| format!("{count} {}", names[usize::from(*count > 1)]))
+            .collect();
+        parts.join(", ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use lightbvh::light::{PointLight, SpotLight};
+
+    use super::*;
+
+    #[test]
+    fn the_least_type_that_holds_all() {
+        let point = AnyLight::from(PointLight {
+            p: [0.0; 3],
+            intensity: [1.0; 3],
+            range: 0.0,
+            mesh: 0,
+        });
+        let spot = |cos_outer, intensity| {
+            AnyLight::from(SpotLight {
+                p: [0.0; 3],
+                intensity: [intensity; 3],
+                range: 0.0,
+                axis: [0.0, -1.0, 0.0],
+                cos_inner: 1.0,
+                cos_outer,
+                mesh: 0,
+            })
+        };
+        for (lights, node, said) in [
+            (&[point][..], "Lit<MomentNode<8>, PointLight>", "1 point"),
+            (&[spot(0.5, 1.0)], "Lit<SpotMomentNode<8>, SpotLight>", "1 spot"),
+            // A cone of a right angle and one without light tell nothing.
+            (&[spot(0.0, 1.0)], "Lit<MomentNode<8>, SpotLight>", "1 spot"),
+            (
+                &[point, spot(0.5, 0.0)],
+                "Lit<MomentNode<8>, AnyLight>",
+                "1 point, 1 spot",
+            ),
+            (
+                &[spot(0.5, 1.0), spot(0.0, 1.0), point],
+                "Lit<SpotMomentNode<8>, AnyLight>",
+                "1 point, 2 spots",
+            ),
+            (&[], "Lit<MomentNode<8>, AnyLight>", ""),
+        ] {
+            let kinds = LightKinds::of(lights);
+            assert_eq!((kinds.node_type(8).as_str(), kinds.said().as_str()), (node, said));
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! What scenes may read, and how much memory they may take.
+
+use std::ffi::OsStr;
+use std::path::PathBuf;
+
+use crate::scene::{Limits, Scene, SceneError};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Reading {
+    /// Also read files of a scene from this folder; else from the scene's own folder and below alone.
+    #[arg(long, value_name = "DIR")]
+    read_from: Option<PathBuf>,
+    /// Most memory of a scene, MiB: its pictures, unpacked streams, instances and frames together.
+    #[arg(long, value_name = "MIB", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(1..))]
+    memory: u32,
+}
+
+impl Reading {
+    pub(super) fn limits(&self) -> Limits {
+        Limits {
+            memory: u64::from(self.memory) << 20,
+            read_from: self.read_from.clone(),
+        }
+    }
+
+    /// Opens a built-in scene or a file.
+    pub(super) fn open(&self, scene: impl AsRef<OsStr>) -> Result<Scene, SceneError> {
+        Scene::open_within(scene.as_ref(), &self.limits())
+    }
+}
