@@ -1,4 +1,4 @@
-//! Light along paths of several reflections, as pass `render` has it by the specialisation constant [`PATHS`](crate::shading::pick::by::PATHS).
+//! Light along paths of several reflections, as pass `render_paths` has it.
 
 use glam::Vec3;
 use lightbvh::exact::{div, hash};

@@ -1,5 +1,5 @@
-//! Pass `render`: direct lighting, or light along paths, one invocation per pixel. Reads the scene, the ray BVH and what lights are chosen by; writes
-//! the pixel.
+//! Passes `render` and `render_paths`: direct lighting, and light along paths, one invocation per pixel. They read the scene, the
+//! ray BVH and what lights are chosen by, and write the pixel.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{UVec3, Vec3};
@@ -16,7 +16,7 @@ use crate::shading::camera::Camera;
 use crate::shading::emitter::Emitter;
 use crate::shading::material::Material;
 use crate::shading::numbers::Part;
-use crate::shading::pick::{Chosen, PickLight, Power, Uniform, by};
+use crate::shading::pick::{Chosen, PickLight, Power, Uniform};
 use crate::shading::pixel::{Samples, Scene, reflected, see};
 use crate::shading::skin::{Corner, NoSkin, SkinView};
 use crate::shading::sky::{NoSky, SkyView};
@@ -103,7 +103,7 @@ pub fn render_pixel<L: Emitter, P: PickLight>(
 pub struct RenderPush {
     /// The image; of paths, `samples` counts them.
     pub params: RenderParams,
-    /// Most reflections of a path, at most [`MAX_BOUNCES`](crate::shading::path::MAX_BOUNCES).
+    /// Most reflections of a path, for `render_paths` alone, at most [`MAX_BOUNCES`](crate::shading::path::MAX_BOUNCES).
     pub bounces: u32,
     /// First pixel of this dispatch; `results` begins with it.
     pub first: u32,
@@ -188,16 +188,23 @@ macro_rules! scene_pass {
 pub(crate) use scene_pass;
 
 scene_pass!(
-    /// Direct lighting, or light along paths.
+    /// Direct lighting.
     [render = "render", render_eq4 = "render_eq4", render_any = "render_any"],
     RenderPush,
     [results: [f32; 3] = 9 or 14],
     |i, push, scene, picker, camera| {
         let pixel = push.first.wrapping_add(i);
-        results[i as usize] = if picker.by >= by::PATHS {
-            path_pixel(&scene, camera, &push.params, push.bounces, &picker, pixel)
-        } else {
-            render_pixel(&scene, camera, &push.params, &picker, pixel)
-        };
+        results[i as usize] = render_pixel(&scene, camera, &push.params, &picker, pixel);
+    }
+);
+
+scene_pass!(
+    /// Light along paths.
+    [render_paths = "render_paths", render_paths_eq4 = "render_paths_eq4", render_paths_any = "render_paths_any"],
+    RenderPush,
+    [results: [f32; 3] = 9 or 14],
+    |i, push, scene, picker, camera| {
+        let pixel = push.first.wrapping_add(i);
+        results[i as usize] = path_pixel(&scene, camera, &push.params, push.bounces, &picker, pixel);
     }
 );

@@ -12,7 +12,6 @@ use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
 use lightbvh_kernels::query::{Query, QueryPush};
 use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
-use lightbvh_kernels::shading::pick::by;
 
 use super::batches::{all_candidates, in_batches};
 use super::device_arrays::{DeviceEmitters, DeviceTree, HeldScene, choosing, device_time};
@@ -183,21 +182,21 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
         let candidates = all_candidates(params.candidates, params.scattered);
         let most = integrator.samples_per_invocation(candidates);
         let samples = params.samples.clamp(1, most) as usize;
-        let (paths, bounces, per_pass) = match integrator {
+        let (pass, bounces, per_pass) = match integrator {
             // Eight candidates take about as long as the sample's ray.
             Integrator::Direct => (
-                0,
+                "render",
                 0,
                 SAMPLES_PER_PASS / (samples * candidates.div_ceil(8) as usize),
             ),
             Integrator::Path { bounces } => {
                 let bounces = bounces.min(MAX_BOUNCES);
                 let surfaces = bounces as usize + 1;
-                (by::PATHS, bounces, SURFACES_PER_PASS / (samples * surfaces))
+                ("render_paths", bounces, SURFACES_PER_PASS / (samples * surfaces))
             }
         };
         let per_pass = per_pass.max(WORKGROUP as usize);
-        let kernel = device.kernel_with(&format!("render{}", C::SUFFIX), choosing(sampler) | paths)?;
+        let kernel = device.kernel_with(&format!("{pass}{}", C::SUFFIX), choosing(sampler))?;
         let mut pass = self.led();
         let mut followed = pass.len();
         let emitters = self.emitters(sampler);

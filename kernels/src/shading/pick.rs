@@ -161,7 +161,7 @@ impl PickLight for Power<'_> {
     }
 }
 
-/// How [`Chosen`] chooses lights: the values of the kernels' specialisation constant 0, to which pass `render` takes [`PATHS`](by::PATHS).
+/// How [`Chosen`] chooses lights: the values of the kernels' specialisation constant 0.
 pub mod by {
     /// [`Uniform`](super::Uniform).
     pub const UNIFORM: u32 = 0;
@@ -169,16 +169,12 @@ pub mod by {
     pub const POWER: u32 = 1;
     /// A light BVH.
     pub const TREE: u32 = 2;
-    /// Mask of the numbers above.
-    pub const LIGHTS: u32 = 3;
-    /// Added for light along paths.
-    pub const PATHS: u32 = 4;
 }
 
 /// One of all ways to choose lights, by a number that a device's compiler knows: it leaves the others out.
 #[derive(Clone, Copy)]
 pub struct Chosen<'a, T> {
-    /// Which: a number of [`by`], and whether [by paths](by::PATHS).
+    /// Which: a number of [`by`].
     pub by: u32,
     /// Where it is a light BVH.
     pub tree: T,
@@ -191,9 +187,9 @@ pub struct Chosen<'a, T> {
 impl<T: PickLight> PickLight for Chosen<'_, T> {
     #[inline]
     fn pick(&self, point: &ShadingPoint, random: Random64) -> SampledLight {
-        if self.by & by::LIGHTS == by::TREE {
+        if self.by == by::TREE {
             self.tree.pick(point, random)
-        } else if self.by & by::LIGHTS == by::POWER {
+        } else if self.by == by::POWER {
             self.power.pick(point, random)
         } else {
             self.uniform.pick(point, random)
@@ -202,9 +198,9 @@ impl<T: PickLight> PickLight for Chosen<'_, T> {
 
     #[inline]
     fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
-        if self.by & by::LIGHTS == by::TREE {
+        if self.by == by::TREE {
             self.tree.pmf(point, light, instance)
-        } else if self.by & by::LIGHTS == by::POWER {
+        } else if self.by == by::POWER {
             self.power.pmf(point, light, instance)
         } else {
             self.uniform.pmf(point, light, instance)
