@@ -1,7 +1,9 @@
 //! Numbers that look random and are the same in every run, vectors in `f64`, a room, variances in it.
 
 use lightbvh::exact::{hash, unit_f32};
-use lightbvh::importance::{ImportanceModel, Receiver};
+use lightbvh::importance::{ImportanceModel, Linked, LinkedPoint, Receiver};
+use lightbvh::light::LinkedTriangle;
+use lightbvh::node::{LinkedMomentNode, Lit};
 use lightbvh::{BuildParams, Bvh, EmissiveTriangle, LightNode, Lights, Transform};
 
 /// Hashes of 1, 2, 3 and so on after its seed.
@@ -133,7 +135,7 @@ where
         let (mut mean, mut square, mut sum) = (0.0, 0.0, 0.0);
         for (light, triangle) in (0..).zip(lights.triangles()) {
             let instance = if two { triangle.mesh } else { 0 };
-            let pmf = f64::from(bvh.tree().pmf_for(&told, light, instance));
+            let pmf = f64::from(bvh.tree().pmf(&told, light, instance));
             let f = received(triangle);
             assert!(pmf > 0.0 || f == 0.0, "{light} is lost at receiver {index}");
             mean += f;
@@ -148,4 +150,31 @@ where
     }
     assert!(reached > 0.9 * f64::from(count), "{reached}");
     all / reached
+}
+
+type LinkedNode = Lit<LinkedMomentNode<8>, LinkedTriangle>;
+
+/// Of the lights of a room, every third has a bit of the receiver, and it alone a probability.
+pub fn masks_go_with<I, P: Receiver>(random: &mut Random, point: impl Fn(&mut Random) -> P)
+where
+    Linked<I>: ImportanceModel<LinkedNode, 8, LinkedPoint<P>>,
+{
+    let own = room(random);
+    let linked = own.triangles().iter().zip(0..).map(|(&light, k)| LinkedTriangle {
+        light,
+        mask: 1 << (k % 3),
+    });
+    let linked = Lights::new(linked.collect()).expect("in the domain");
+    let bvh = Bvh::<LinkedNode, Linked<I>, 8>::two_level(&linked, &BuildParams::default());
+    let receiver = LinkedPoint {
+        point: point(random),
+        mask: 0b100,
+    };
+    let mut sum = 0.0;
+    for (light, own) in (0..).zip(own.triangles()) {
+        let pmf = bvh.tree().pmf(&receiver, light, own.mesh);
+        assert_eq!(pmf > 0.0, light % 3 == 2);
+        sum += f64::from(pmf);
+    }
+    assert!((sum - 1.0).abs() < 1e-5, "{sum}");
 }

@@ -3,7 +3,7 @@
 mod places;
 mod weights;
 
-use crate::kit::{Random, Wide, cross, dot, length, minus, room, rooms, wide};
+use crate::kit::{Random, Wide, cross, dot, length, minus, rooms, wide};
 use lightbvh::EmissiveTriangle;
 use lightbvh::importance::RaySegment;
 
