@@ -179,12 +179,7 @@ fn reflected(triangle: &EmissiveTriangle, receiver: &GlossyPoint) -> f64 {
     let v = minus(center, receiver.point.p.map(f64::from));
     let (n, d2) = (receiver.point.n.map(f64::from), dot(v, v));
     let received = dot(n, v).max(0.0);
-    let along = -dot(across, v);
-    let emitted = if triangle.is_two_sided() {
-        along.abs()
-    } else {
-        along.max(0.0)
-    };
+    let emitted = kit::emitted(triangle, -dot(across, v));
     let mirror = receiver.mirror.map(f64::from);
     let view = minus(times(n, 2.0 * dot(n, mirror)), mirror);
     let to = times(v, 1.0 / d2.sqrt());

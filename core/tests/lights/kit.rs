@@ -70,6 +70,33 @@ pub fn cross(a: Wide, b: Wide) -> Wide {
     ]
 }
 
+/// Twice a triangle's area times its normal, and the middles of `N`² pieces of it.
+pub fn pieces<const N: usize>(triangle: &EmissiveTriangle) -> (Wide, Vec<Wide>) {
+    let v = triangle.p.map(wide);
+    let (a, b) = (minus(v[1], v[0]), minus(v[2], v[0]));
+    let middle = |i: usize| {
+        let (mut s, mut t) = (
+            ((i / N) as f64 + 0.4) / N as f64,
+            ((i % N) as f64 + 0.5) / N as f64,
+        );
+        // Pieces of a square, the upper half of which is the lower one turned.
+        if s + t > 1.0 {
+            (s, t) = (1.0 - s, 1.0 - t);
+        }
+        core::array::from_fn(|k| v[0][k] + a[k] * s + b[k] * t)
+    };
+    (cross(a, b), (0..N * N).map(middle).collect())
+}
+
+/// What of a cosine at its front a triangle emits by.
+pub fn emitted(triangle: &EmissiveTriangle, cosine: f64) -> f64 {
+    if triangle.is_two_sided() {
+        cosine.abs()
+    } else {
+        cosine.max(0.0)
+    }
+}
+
 /// 200 triangles of up to half a metre in a room of 10 m, in four meshes.
 pub fn room(random: &mut Random) -> Lights {
     let triangle = |k: u32| {

@@ -1,6 +1,6 @@
 //! A surface that light reaches from both sides, against sums over all lights in `f64`.
 
-use crate::kit::{self, Random, Wide, cross, dot, minus, room, rooms, wide};
+use crate::kit::{self, Random, dot, minus, room, rooms, wide};
 use lightbvh::error::PointError;
 use lightbvh::exact::hash;
 use lightbvh::importance::{ImportanceModel, Transmissive, TransmissivePoint};
@@ -11,31 +11,16 @@ use lightbvh::{
 
 /// Irradiance, W/m², of both sides of a surface at `p` by a triangle: the integral over it, by `N`² pieces.
 fn irradiance<const N: usize>(triangle: &EmissiveTriangle, point: &ShadingPoint) -> [f64; 2] {
-    let v = triangle.p.map(wide);
-    let (a, b) = (minus(v[1], v[0]), minus(v[2], v[0]));
-    // Twice the area times the normal.
-    let across = cross(a, b);
+    let (across, places) = kit::pieces::<N>(triangle);
     let (p, n) = (wide(point.p), wide(point.n));
     let mut sides = [0.0; 2];
-    for i in 0..N {
-        for j in 0..N {
-            // Pieces of a square, the upper half of which is the lower one turned.
-            let (mut s, mut t) = ((i as f64 + 0.4) / N as f64, (j as f64 + 0.5) / N as f64);
-            if s + t > 1.0 {
-                (s, t) = (1.0 - s, 1.0 - t);
-            }
-            let to: Wide = core::array::from_fn(|k| v[0][k] + a[k] * s + b[k] * t - p[k]);
-            let d2 = dot(to, to);
-            let emitted = -dot(across, to);
-            let emitted = if triangle.is_two_sided() {
-                emitted.abs()
-            } else {
-                emitted.max(0.0)
-            };
-            let received = dot(n, to);
-            let sent = f64::from(triangle.radiance[0]) * 0.5 * emitted * received.abs() / (d2 * d2);
-            sides[usize::from(received < 0.0)] += sent / (N * N) as f64;
-        }
+    for place in places {
+        let to = minus(place, p);
+        let d2 = dot(to, to);
+        let emitted = kit::emitted(triangle, -dot(across, to));
+        let received = dot(n, to);
+        let sent = f64::from(triangle.radiance[0]) * 0.5 * emitted * received.abs() / (d2 * d2);
+        sides[usize::from(received < 0.0)] += sent / (N * N) as f64;
     }
     sides
 }

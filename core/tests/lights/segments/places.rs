@@ -1,7 +1,6 @@
 //! Places that are drawn on a segment, and estimates over them.
 
 use super::*;
-use crate::kit;
 use glam::Vec3;
 use lightbvh::exact::{hash, pow2};
 use lightbvh::importance::{RaySegment, Subtended};
@@ -175,13 +174,8 @@ fn estimates_converge() {
             let to = minus(at(&segment, f64::from(along.part)), wide(on.p));
             let d2 = dot(to, to);
             let cosine = dot(wide(on.normal), to) / d2.sqrt();
-            let cosine = if light.is_two_sided() {
-                cosine.abs()
-            } else {
-                cosine.max(0.0)
-            };
             let density = f64::from(pmf) * f64::from(on.density) * f64::from(along.density);
-            let f = f64::from(on.radiance[0]) * cosine / d2 / density;
+            let f = f64::from(on.radiance[0]) * kit::emitted(&light, cosine) / d2 / density;
             mean += f / f64::from(SAMPLES);
             square += f * f / f64::from(SAMPLES);
         }
