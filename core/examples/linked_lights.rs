@@ -62,7 +62,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             };
             let mut shares = [0.0; 4];
             for (light, own) in (0..).zip(stage.world_lights()) {
-                let pmf = stage.tree().pmf_for(&receiver, light, own.light.mesh);
+                let pmf = stage.tree().pmf(&receiver, light, own.light.mesh);
                 assert!(pmf == 0.0 || own.mask & mask != 0);
                 shares[own.light.mesh as usize / 5] += pmf;
             }
@@ -72,7 +72,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 .collect();
             println!("{name:8}: {}", shares.join(", "));
             for k in 0..1000 {
-                let sampled = stage.sample_for(&receiver, hash(k));
+                let sampled = stage.sample(&receiver, hash(k));
                 let light = stage.triangle(sampled.light, sampled.instance);
                 assert!(light.is_none_or(|light| light.mask & mask != 0));
                 assert_eq!(light.is_none(), mask == 0, "no lamp lights what has no bit");

@@ -4,13 +4,13 @@
 //! `cargo run --release -p lightbvh --example one_of_many` (seconds). Prints the squared error of each before visibility, and
 //! checks that the means are right. A ray into the lobe that finds a light shares it with these by the balance heuristic (E.
 //! Veach and L. Guibas, 1995): the density of a light's point over solid angle is `pmf · density · d² / cos`, with the pmf of
-//! [`LightBvh::pmf`] or `LightTree::pmf_for`.
+//! [`LightBvh::pmf`] or `LightTree::pmf`.
 
-use lightbvh::exact::{hash, unit_f32};
+use lightbvh::exact::hash;
 use lightbvh::importance::Glossy;
 use lightbvh::reservoir::{LightSample, Resampling, target};
 use lightbvh::{
-    Defensive, Edit, EmissiveTriangle, GlossyPoint, LightBvh, Moments, SampledLight, ShadingPoint, Transform,
+    Defensive, EmissiveTriangle, GlossyPoint, LightBvh, Moments, SampledLight, ShadingPoint, Transform,
 };
 
 /// What [`LightBvh`] chooses by, told of the lobe. The tree is the same.
@@ -28,12 +28,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let mut bvh = LightBvh::default();
     let mesh = bvh.add_mesh(vec![lamp])?;
-    let place = |k: u16| Edit::AddInstance {
-        mesh,
-        transform: Transform::at([f32::from(k % 20), 0.0, f32::from(k / 20)]),
-        radiance: 0.1 + unit_f32(hash(k.into())),
-    };
-    let lamps = bvh.apply((0..400).map(place).collect())?.instances;
+    for k in 0..400_u16 {
+        bvh.add_instance(mesh, Transform::at([f32::from(k % 20), 0.0, f32::from(k / 20)]))?;
+    }
     bvh.refit();
 
     // The floor, seen from the side: half diffuse, half a lobe about the direction of the mirror.
@@ -49,80 +46,48 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     .checked()?;
 
-    // The probability of a known light: its number and the index of its instance.
-    let first = bvh.lights_of(lamps[7]).ok_or("a lamp")?.start;
-    let instance = lamps[7].index();
-    println!(
-        "lamp 7: light {first} of instance {instance}, probability {}",
-        bvh.pmf(&receiver.point, first, instance)
-    );
-
     // What all of them send: the middles of small lamps stand for them.
     let all = bvh.world_lights();
-    let right: f64 = all
-        .iter()
-        .map(|light| f64::from(contribution(light, [0.5; 2], &receiver)))
-        .sum();
+    let right: f64 = all.iter().map(|light| contribution(light, &receiver)).sum();
     let told = bvh.by::<Told>();
-    let as_sampled = |number: u32| weighted(&bvh, &receiver, &bvh.sample(&receiver.point, number), number);
-    let as_told = |number: u32| weighted(&bvh, &receiver, &told.sample_for(&receiver, number), number);
-    report("a light as sampled", right, as_sampled);
-    report("one of eight", right, |number| {
-        one_of_eight(&bvh, &receiver, number)
+    let weighted = |sampled: SampledLight| {
+        contribution(&all[sampled.light as usize], &receiver) / f64::from(sampled.pmf)
+    };
+    report("a light as sampled", right, |number| {
+        weighted(bvh.sample(&receiver.point, number))
     });
-    report("by an importance that knows the lobe", right, as_told);
+    report("one of eight", right, |number| {
+        one_of_eight(&bvh, &all, &receiver, number)
+    });
+    report("by an importance that knows the lobe", right, |number| {
+        weighted(told.sample(&receiver, number))
+    });
     Ok(())
 }
 
-/// A sampled light's estimate: the shadow ray goes to the point that `number` chooses.
-fn weighted(bvh: &LightBvh, receiver: &GlossyPoint, sampled: &SampledLight, number: u32) -> f32 {
-    let light = bvh.triangle(sampled.light, sampled.instance);
-    light.map_or(0.0, |light| {
-        contribution(&light, uv(number), receiver) / sampled.pmf
-    })
-}
-
 /// Eight candidates by one number, and one of them in proportion to what it sends over its probability: its shadow ray carries all.
-fn one_of_eight(bvh: &LightBvh, receiver: &GlossyPoint, number: u32) -> f32 {
+fn one_of_eight(bvh: &LightBvh, all: &[EmissiveTriangle], receiver: &GlossyPoint, number: u32) -> f64 {
     let mut stream = Resampling::EMPTY;
-    for (k, sampled) in (0..).zip(bvh.sample_many::<8>(&receiver.point, number)) {
-        let uv = uv(number.wrapping_add(k));
-        let light = bvh.triangle(sampled.light, sampled.instance);
-        let sent = light.map_or(0.0, |light| contribution(&light, uv, receiver));
+    for (k, sampled) in (0..).zip(bvh.sample_many::<_, 8>(&receiver.point, number)) {
         let sample = LightSample {
             light: sampled.light,
             instance: sampled.instance,
-            uv,
+            uv: [0.5; 2],
         };
-        stream.candidate(
-            sample,
-            target(sent),
-            sampled.pmf,
-            hash(hash(number).wrapping_add(k)),
-        );
+        let sent = contribution(&all[sampled.light as usize], receiver) as f32;
+        let random = hash(hash(number).wrapping_add(k));
+        stream.candidate(sample, target(sent), sampled.pmf, random);
     }
     let chosen = stream.finish_equal();
     // Trace the one shadow ray here, to this point of this light.
-    let light = bvh.triangle(chosen.sample.light, chosen.sample.instance);
-    light.map_or(0.0, |light| {
-        contribution(&light, chosen.sample.uv, receiver) * chosen.weight
-    })
+    contribution(&all[chosen.sample.light as usize], receiver) * f64::from(chosen.weight)
 }
 
-fn uv(number: u32) -> [f32; 2] {
-    [1, 2].map(|k| unit_f32(hash(number ^ hash(k))))
-}
-
-/// What a point of a light sends to the viewer, without shadow: over its density, so that the mean over uniform points is the
-/// light's.
-fn contribution(light: &EmissiveTriangle, uv: [f32; 2], receiver: &GlossyPoint) -> f32 {
-    let on = light.point(uv);
+/// What the middle of a light sends to the viewer, without shadow, over its density.
+fn contribution(light: &EmissiveTriangle, receiver: &GlossyPoint) -> f64 {
+    let on = light.point([0.5; 2]);
     let wide = |v: [f32; 3]| v.map(f64::from);
-    let (p, n, mirror) = (
-        wide(receiver.point.p),
-        wide(receiver.point.n),
-        wide(receiver.mirror),
-    );
+    let [p, n, mirror] = [receiver.point.p, receiver.point.n, receiver.mirror].map(wide);
     let to: [f64; 3] = [0, 1, 2].map(|k| wide(on.p)[k] - p[k]);
     let d2 = dot(to, to);
     let to = to.map(|x| x / d2.sqrt());
@@ -133,17 +98,13 @@ fn contribution(light: &EmissiveTriangle, uv: [f32; 2], receiver: &GlossyPoint) 
     let [diffuse, specular, k] = [receiver.diffuse, receiver.specular, receiver.exponent].map(f64::from);
     let lobe = (k + 6.0) / 8.0 * cos.max(0.0).powf(k);
     let reflected = (diffuse + specular * lobe) / std::f64::consts::PI;
-    if on.density > 0.0 {
-        (f64::from(on.radiance[0]) * reflected * received * emitted / (d2 * f64::from(on.density))) as f32
-    } else {
-        0.0
-    }
+    f64::from(on.radiance[0]) * reflected * received * emitted / (d2 * f64::from(on.density))
 }
 
-fn report(name: &str, right: f64, estimate: impl Fn(u32) -> f32) {
+fn report(name: &str, right: f64, estimate: impl Fn(u32) -> f64) {
     let (mut sum, mut squares) = (0.0, 0.0);
     for trial in 0..TRIALS {
-        let value = f64::from(estimate(hash(trial))) / right;
+        let value = estimate(hash(trial)) / right;
         sum += value;
         squares += (value - 1.0).powi(2);
     }

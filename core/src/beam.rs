@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::cone::{sine_of, widened};
 use crate::exact::{self, pow2};
 use crate::instance::Instance;
-use crate::vector::{abs3, dot, flush3, length_squared};
+use crate::vector::{abs3, dot, flush3, length_squared, vector};
 
 /// Places within `radius` of `c`, and directions within θ_e of `axis`: no light of the set leaves from or to elsewhere.
 ///
@@ -129,7 +129,7 @@ impl Beam {
     pub(crate) fn to_world(self, instance: &Instance) -> Self {
         if self.is_narrow() & instance.is_even() {
             let c = instance.vertex([self.c.x, self.c.y, self.c.z]);
-            let c = Vec3::new(c[0], c[1], c[2]);
+            let c = vector(&c);
             let off = rounding_at(instance.origin()) * BROUGHT_BACK;
             let off = if off > rounding_at(c) * TWICE_BROUGHT_BACK {
                 off

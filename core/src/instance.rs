@@ -12,9 +12,9 @@ use glam::Vec3;
 use crate::emission::has_flux;
 use crate::exact::{self, flush, pow2};
 use crate::light::INVALID;
-use crate::light::{EmissiveTriangle, Light, MAX_COORDINATE, MIN_COORDINATE};
+use crate::light::{EmissiveTriangle, Light, MAX_COORDINATE, MIN_COORDINATE, shining};
 use crate::point::ShadingPoint;
-use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, length_squared, max3};
+use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, length_squared, max3, vector};
 
 /// Lengths below this in a mesh's space count as zero, metres: 2^-60. Entries of the maps are zero or at least 2^-60, so no
 /// product with them is subnormal.
@@ -181,22 +181,9 @@ impl Instance {
             self.vertex(local.p[2]),
         );
         let mirrored = self.mirrors();
-        let shines = self.radiance > 0.0 && has_flux(local);
-        let shine = |l: f32| {
-            let scaled = exact::clamp(
-                l * self.radiance,
-                crate::light::MIN_RADIANCE,
-                crate::light::MAX_RADIANCE,
-            );
-            if l > 0.0 && shines { scaled } else { 0.0 }
-        };
         EmissiveTriangle {
             p: [a, if mirrored { c } else { b }, if mirrored { b } else { c }],
-            radiance: [
-                shine(local.radiance[0]),
-                shine(local.radiance[1]),
-                shine(local.radiance[2]),
-            ],
+            radiance: shining(&local.radiance, self.radiance, has_flux(local)),
             mesh: index,
             flags: local.flags,
         }
@@ -313,16 +300,6 @@ pub fn world_light<L: Light>(triangles: &[L], instances: &[Instance], light: u32
         }
     }
     out
-}
-
-#[inline(always)]
-fn vector(v: &[f32; 3]) -> Vec3 {
-    Vec3::new(v[0], v[1], v[2])
-}
-
-#[inline(always)]
-fn absolute(v: Vec3) -> Vec3 {
-    Vec3::new(exact::abs(v.x), exact::abs(v.y), exact::abs(v.z))
 }
 
 /// Without components that a product could make subnormal.

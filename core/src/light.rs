@@ -47,6 +47,7 @@ pub use linked::{LinkedAny, LinkedTriangle};
 pub use point::{LightPoint, uniform_point};
 pub use profile::ProfileLight;
 pub use punctual::{PointLight, SpotLight};
+pub(crate) use record::shining;
 pub use record::{Light, LightSlots};
 pub use sphere::SphereLight;
 pub use volume::BoxLight;
@@ -54,6 +55,7 @@ pub use volume::BoxLight;
 use crate::emission::luminance_of;
 use crate::error::Number;
 use crate::exact;
+use crate::vector::vector;
 
 /// "No such index."
 pub const INVALID: u32 = u32::MAX;
@@ -109,7 +111,7 @@ impl EmissiveTriangle {
         } else {
             self.p[2]
         };
-        Vec3::new(p[0], p[1], p[2])
+        vector(&p)
     }
 
     /// Whether both faces emit.

@@ -17,7 +17,7 @@ use crate::error::Number;
 use crate::exact;
 use crate::instance::Instance;
 use crate::light::{MAX_COORDINATE, MIN_COORDINATE};
-use crate::vector::length_squared;
+use crate::vector::{length_squared, vector};
 
 /// By how much the squared length of a normal may differ from 1: 2^-7, so that normals of 8-bit components divided by a rough
 /// root pass.
@@ -63,10 +63,8 @@ impl ShadingPoint {
         }
     }
 
-    /// Whether sampling means anything here: what debug builds assert where a point comes in. Wider than
-    /// [`checked`](Self::checked), up to [`MAX_REACH`].
-    #[cfg(feature = "alloc")]
-    pub(crate) fn is_within_reach(&self) -> bool {
+    /// Whether sampling means anything here. Wider than [`checked`](Self::checked), up to [`MAX_REACH`].
+    fn is_within_reach(&self) -> bool {
         let mut within = self.has_sound_normal();
         for axis in 0..3 {
             within &= (-MAX_REACH..=MAX_REACH).contains(&self.p[axis]);
@@ -85,14 +83,14 @@ impl ShadingPoint {
     #[inline]
     #[must_use]
     pub fn position(&self) -> Vec3 {
-        Vec3::new(self.p[0], self.p[1], self.p[2])
+        vector(&self.p)
     }
 
     /// Normal, or zero.
     #[inline]
     #[must_use]
     pub fn normal(&self) -> Vec3 {
-        Vec3::new(self.n[0], self.n[1], self.n[2])
+        vector(&self.n)
     }
 }
 
@@ -101,12 +99,23 @@ impl ShadingPoint {
 pub trait Receiver: Copy {
     /// The receiver in the space of the instance's mesh.
     fn to_local(&self, instance: &Instance) -> Self;
+
+    /// Asserts in debug builds that sampling means anything here.
+    #[doc(hidden)]
+    fn assert_within_reach(&self) {}
 }
 
 impl Receiver for ShadingPoint {
     #[inline(always)]
     fn to_local(&self, instance: &Instance) -> Self {
         instance.to_local(self)
+    }
+
+    fn assert_within_reach(&self) {
+        debug_assert!(
+            self.is_within_reach(),
+            "not a shading point: {self:?}; `ShadingPoint::checked` says why"
+        );
     }
 }
 

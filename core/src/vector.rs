@@ -7,6 +7,12 @@ use glam::Vec3;
 
 use crate::exact;
 
+/// The same coordinates.
+#[inline(always)]
+pub(crate) fn vector(v: &[f32; 3]) -> Vec3 {
+    Vec3::new(v[0], v[1], v[2])
+}
+
 /// `(ax bx + ay by) + az bz`.
 #[inline]
 #[must_use]

@@ -82,7 +82,7 @@ macro_rules! query_passes {
                     high: query.words[0],
                     low: query.words[1],
                 };
-                results[i as usize] = tree.sample_for(&query.receiver(), number);
+                results[i as usize] = tree.sample(&query.receiver(), number);
             }
         }
 
@@ -101,7 +101,7 @@ macro_rules! query_passes {
             if i < push.count && i < queries.len() as u32 {
                 let tree: $tree<'_> = push.tree.tree(nodes, instances, trails);
                 let query = queries[i as usize];
-                results[i as usize] = tree.pmf_for(&query.receiver(), query.words[0], query.words[1]);
+                results[i as usize] = tree.pmf(&query.receiver(), query.words[0], query.words[1]);
             }
         }
     };

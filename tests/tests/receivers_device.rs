@@ -121,7 +121,7 @@ fn masks_leave_out_the_same_lights_on_every_device() {
             let expected: Vec<_> = receivers
                 .iter()
                 .zip(&numbers)
-                .map(|(receiver, &number)| scene.sample_for(receiver, number))
+                .map(|(receiver, &number)| scene.sample(receiver, number))
                 .collect();
             let sampled: Vec<SampledLight> = ask(&held, KernelSet::LINKED.sample, &asked);
             assert_equal("sample_linked", &sampled, &expected);
@@ -142,7 +142,7 @@ fn masks_leave_out_the_same_lights_on_every_device() {
                 .map(|k| LinkedQuery::pmf(receivers[k], which(k).0, which(k).1))
                 .collect();
             let expected: Vec<f32> = (0..QUERIES)
-                .map(|k| scene.tree().pmf_for(&receivers[k], which(k).0, which(k).1))
+                .map(|k| scene.tree().pmf(&receivers[k], which(k).0, which(k).1))
                 .collect();
             let pmfs: Vec<f32> = ask(&held, KernelSet::LINKED.pmf, &asked);
             assert_equal("pmf_linked", &pmfs, &expected);

@@ -50,23 +50,3 @@ pub unsafe extern "C" fn lightbvh_free(bvh: *mut Handle) {
     // SAFETY: the caller's promise.
     unsafe { Held::free(bvh) }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn after_a_panic_it_can_only_be_freed() {
-        let bvh = lightbvh_create();
-        // SAFETY: it was just made, and is freed last.
-        unsafe {
-            assert_eq!(Handle::change(bvh, |_| Ok(())), Status::Ok);
-            assert_eq!(Handle::ask(bvh, |_| panic!("while asked")), Status::Panicked);
-            assert_eq!(Handle::ask(bvh, |_| Ok(())), Status::Ok);
-            assert_eq!(Handle::change(bvh, |_| panic!("while changed")), Status::Panicked);
-            assert_eq!(Handle::ask(bvh, |_| Ok(())), Status::Panicked);
-            assert_eq!(Handle::change(bvh, |_| Ok(())), Status::Panicked);
-            lightbvh_free(bvh);
-        }
-    }
-}

@@ -23,6 +23,16 @@ fn last() -> String {
     text.to_str().unwrap().to_owned()
 }
 
+#[track_caller]
+fn ok(found: Status) {
+    assert_eq!(found, Status::Ok);
+}
+
+#[track_caller]
+fn refused(found: Status) {
+    assert_eq!(found, Status::Refused);
+}
+
 /// A transform, an id: plain words of C.
 fn words<T: Copy, const N: usize>(words: [u32; N]) -> T {
     assert_eq!(size_of::<T>(), 4 * N);
@@ -83,14 +93,11 @@ fn null_and_unaligned_pointers_are_refused() {
         ];
         assert_eq!(refused, [Status::BadPointer; 31]);
         // A mesh whose id could not be returned was not made.
-        assert_eq!(lightbvh_light_count(bvh, &mut count), Status::Ok);
+        ok(lightbvh_light_count(bvh, &mut count));
         assert_eq!(count, 0);
         // No elements need no array.
-        assert_eq!(
-            lightbvh_sample_batch(bvh, null(), null(), 0, null_mut()),
-            Status::Ok
-        );
-        assert_eq!(lightbvh_pmf(bvh, &POINT, 0, 0, &mut pmf), Status::Ok);
+        ok(lightbvh_sample_batch(bvh, null(), null(), 0, null_mut()));
+        ok(lightbvh_pmf(bvh, &POINT, 0, 0, &mut pmf));
         assert_eq!(pmf.to_bits(), 0);
         lightbvh_rebuilder_free(rebuilder);
         lightbvh_rebuilder_free(null_mut());
@@ -108,25 +115,22 @@ fn counts_and_numbers_out_of_range_are_refused() {
     // SAFETY: counts that no memory holds are refused before it is read; else all pointers are good.
     unsafe {
         let many = (1 << 30) + 1;
-        assert_eq!(lightbvh_add_mesh(bvh, &LAMP, many, &mut mesh), Status::Refused);
+        refused(lightbvh_add_mesh(bvh, &LAMP, many, &mut mesh));
         assert!(last().contains("1073741825 triangles"), "{}", last());
-        assert_eq!(lightbvh_set_triangles(bvh, mesh, &LAMP, 1 << 40), Status::Refused);
-        assert_eq!(lightbvh_add_mesh(bvh, &LAMP, 1, &mut mesh), Status::Ok);
+        refused(lightbvh_set_triangles(bvh, mesh, &LAMP, 1 << 40));
+        ok(lightbvh_add_mesh(bvh, &LAMP, 1, &mut mesh));
         // Nobody has 2^29 triangles at that address: reading them would fault.
-        assert_eq!(lightbvh_set_triangles(bvh, mesh, &LAMP, 1 << 29), Status::Refused);
+        refused(lightbvh_set_triangles(bvh, mesh, &LAMP, 1 << 29));
         assert!(last().contains("for a mesh of 1"), "{}", last());
-        assert_eq!(
-            lightbvh_add_instance(bvh, mesh, &identity(), 1.0, &mut instance),
-            Status::Ok
-        );
-        assert_eq!(lightbvh_refit(bvh), Status::Ok);
+        ok(lightbvh_add_instance(bvh, mesh, &identity(), 1.0, &mut instance));
+        ok(lightbvh_refit(bvh));
         for [u, v] in [[f32::NAN, 0.5], [0.5, 1.0], [-5.0, 3.0], [0.5, f32::INFINITY]] {
             let asked = lightbvh_point_of(bvh, 0, 0, u, v, point.insert(std::mem::zeroed()));
             assert_eq!(asked, Status::BadPoint, "{u}, {v}");
             assert!(last().contains("expected numbers in [0, 1)"), "{}", last());
         }
         let asked = lightbvh_point_of(bvh, 0, 0, 0.0, 0.999, point.insert(std::mem::zeroed()));
-        assert_eq!(asked, Status::Ok);
+        ok(asked);
         lightbvh_free(bvh);
     }
 }
@@ -137,11 +141,11 @@ unsafe fn add(bvh: *mut Handle, places: &[CTransform]) -> Vec<CInstance> {
     let mut instances = vec![words([0; 4]); places.len()];
     // SAFETY: the caller's light BVH, and places for all results.
     unsafe {
-        assert_eq!(lightbvh_add_mesh(bvh, &LAMP, 1, &mut mesh), Status::Ok);
+        ok(lightbvh_add_mesh(bvh, &LAMP, 1, &mut mesh));
         let out = instances.as_mut_ptr();
         let added = lightbvh_add_instances(bvh, mesh, places.as_ptr(), 1.0, places.len(), out);
-        assert_eq!(added, Status::Ok);
-        assert_eq!(lightbvh_refit(bvh), Status::Ok);
+        ok(added);
+        ok(lightbvh_refit(bvh));
     }
     instances
 }
@@ -161,38 +165,26 @@ fn numbers_of_lights_are_kept_until_they_are_forgotten() {
     unsafe {
         let own = add(bvh, &[0.0, 2.0, 4.0, 6.0].map(at));
         let mut number = |instance: CInstance| {
-            assert_eq!(
-                lightbvh_lights_of(bvh, instance, &mut first, &mut lights),
-                Status::Ok
-            );
+            ok(lightbvh_lights_of(bvh, instance, &mut first, &mut lights));
             first
         };
         let gone = [number(own[2]), number(own[0])];
-        assert_eq!(lightbvh_remove_instance(bvh, own[2]), Status::Ok);
-        assert_eq!(lightbvh_remove_instance(bvh, own[0]), Status::Ok);
-        assert_eq!(
-            lightbvh_removed_lights(bvh, null_mut(), 0, &mut count),
-            Status::Ok
-        );
+        ok(lightbvh_remove_instance(bvh, own[2]));
+        ok(lightbvh_remove_instance(bvh, own[0]));
+        ok(lightbvh_removed_lights(bvh, null_mut(), 0, &mut count));
         assert_eq!((count, ranges), (2, [CRange::default(); 3]));
         let known = gone.map(|first| CRange { first, count: 1 });
         for capacity in 1..=3 {
             let out = ranges.as_mut_ptr();
-            assert_eq!(
-                lightbvh_removed_lights(bvh, out, capacity, &mut count),
-                Status::Ok
-            );
+            ok(lightbvh_removed_lights(bvh, out, capacity, &mut count));
             let written = capacity.min(2);
             assert_eq!((count, &ranges[..written]), (2, &known[..written]));
         }
         assert_eq!(ranges[2], CRange::default());
         let kept = number(add(bvh, &[at(8.0)])[0]);
         assert!(!gone.contains(&kept));
-        assert_eq!(lightbvh_forget_removed_lights(bvh), Status::Ok);
-        assert_eq!(
-            lightbvh_removed_lights(bvh, null_mut(), 0, &mut count),
-            Status::Ok
-        );
+        ok(lightbvh_forget_removed_lights(bvh));
+        ok(lightbvh_removed_lights(bvh, null_mut(), 0, &mut count));
         assert_eq!(count, 0);
         assert!(gone.contains(&number(add(bvh, &[at(9.0)])[0])));
         lightbvh_free(bvh);
@@ -209,9 +201,9 @@ fn a_build_for_another_light_bvh_is_dropped() {
     unsafe {
         add(bvh, &[at(0.0)]);
         add(other, &[at(0.0)]);
-        assert_eq!(lightbvh_begin_frame(rebuilder, bvh, &mut start), Status::Ok);
-        assert_eq!(lightbvh_end_frame(rebuilder, bvh), Status::Ok);
-        assert_eq!(lightbvh_begin_frame(rebuilder, other, &mut start), Status::Ok);
+        ok(lightbvh_begin_frame(rebuilder, bvh, &mut start));
+        ok(lightbvh_end_frame(rebuilder, bvh));
+        ok(lightbvh_begin_frame(rebuilder, other, &mut start));
         assert_eq!(start, CFrameStart::default());
         lightbvh_rebuilder_free(rebuilder);
         lightbvh_free(bvh);
@@ -230,28 +222,16 @@ fn wrong_ids_points_and_lights_are_refused() {
     let mut on = LAMP.point([0.5, 0.5]);
     // SAFETY: all pointers are good.
     unsafe {
-        assert_eq!(lightbvh_add_mesh(bvh, null(), 0, &mut mesh), Status::Refused);
-        assert_eq!(lightbvh_add_mesh(bvh, &LAMP, 1, &mut mesh), Status::Ok);
+        refused(lightbvh_add_mesh(bvh, null(), 0, &mut mesh));
+        ok(lightbvh_add_mesh(bvh, &LAMP, 1, &mut mesh));
         // Cleared memory, another light BVH, a bad factor.
         let cleared = words([0; 4]);
-        assert_eq!(
-            lightbvh_add_instance(bvh, cleared, &place, 1.0, &mut instance),
-            Status::Refused
-        );
+        refused(lightbvh_add_instance(bvh, cleared, &place, 1.0, &mut instance));
         assert!(last().contains("lightbvh_add_mesh"), "{}", last());
-        assert_eq!(
-            lightbvh_add_instance(other, mesh, &place, 1.0, &mut instance),
-            Status::Refused
-        );
-        assert_eq!(
-            lightbvh_add_instance(bvh, mesh, &place, f32::NAN, &mut instance),
-            Status::Refused
-        );
-        assert_eq!(
-            lightbvh_add_instance(bvh, mesh, &place, 1.0, &mut instance),
-            Status::Ok
-        );
-        assert_eq!(lightbvh_refit(bvh), Status::Ok);
+        refused(lightbvh_add_instance(other, mesh, &place, 1.0, &mut instance));
+        refused(lightbvh_add_instance(bvh, mesh, &place, f32::NAN, &mut instance));
+        ok(lightbvh_add_instance(bvh, mesh, &place, 1.0, &mut instance));
+        ok(lightbvh_refit(bvh));
         // The second point is bad, so the first one is not answered either.
         let far = ShadingPoint {
             p: [f32::INFINITY, 0.0, 0.0],
@@ -262,7 +242,7 @@ fn wrong_ids_points_and_lights_are_refused() {
         assert_eq!(status, Status::BadPoint);
         assert!(last().starts_with("point 1"), "{}", last());
         assert_eq!(samples, [SampledLight::NONE; 2]);
-        assert_eq!(lightbvh_triangle_of(bvh, 0, 0, &mut triangle), Status::Ok);
+        ok(lightbvh_triangle_of(bvh, 0, 0, &mut triangle));
         assert_eq!(lightbvh_triangle_of(bvh, 1, 0, &mut triangle), Status::NoLight);
         assert_eq!(
             lightbvh_triangle_of(bvh, 0, u32::MAX, &mut triangle),
@@ -274,23 +254,17 @@ fn wrong_ids_points_and_lights_are_refused() {
         far[11] = f32::NAN;
         let mut two = [instance; 2];
         let status = lightbvh_add_instances(bvh, mesh, [place, flat].as_ptr(), 1.0, 2, two.as_mut_ptr());
-        assert_eq!(status, Status::Refused);
+        refused(status);
         assert!(last().starts_with("instance 1"), "{}", last());
-        assert_eq!(lightbvh_light_count(bvh, &mut count), Status::Ok);
+        ok(lightbvh_light_count(bvh, &mut count));
         assert_eq!(count, 1);
-        assert_eq!(
-            lightbvh_lights_of(bvh, instance, &mut first, &mut lights),
-            Status::Ok
-        );
+        ok(lightbvh_lights_of(bvh, instance, &mut first, &mut lights));
         assert_eq!((first, lights), (0, 1));
-        assert_eq!(lightbvh_remove_instance(bvh, instance), Status::Ok);
-        assert_eq!(lightbvh_remove_instance(bvh, instance), Status::Refused);
-        assert_eq!(
-            lightbvh_lights_of(bvh, instance, &mut first, &mut lights),
-            Status::Refused
-        );
+        ok(lightbvh_remove_instance(bvh, instance));
+        refused(lightbvh_remove_instance(bvh, instance));
+        refused(lightbvh_lights_of(bvh, instance, &mut first, &mut lights));
         assert_eq!(lightbvh_point_of(bvh, 0, 0, 0.5, 0.5, &mut on), Status::NoLight);
-        assert_eq!(lightbvh_remove_mesh(bvh, mesh), Status::Ok);
+        ok(lightbvh_remove_mesh(bvh, mesh));
         lightbvh_free(bvh);
         lightbvh_free(other);
     }

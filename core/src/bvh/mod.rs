@@ -52,7 +52,7 @@ use core::ops::Range;
 
 pub use apply::Added;
 pub use edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
-pub use follow::{FollowError, MeshCounts};
+pub use follow::FollowError;
 pub use log::{Cursor, RefitPlan};
 pub use serial::{FORMAT, ReadError};
 pub use static_bvh::StaticBvh;
@@ -214,12 +214,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         };
         scene.top.build(&scene.params);
         scene
-    }
-
-    /// The arrays as traversal takes them.
-    #[must_use]
-    pub fn tree(&self) -> LightTree<'_, N, I, W> {
-        self.arrays()
     }
 
     /// The same tree, walked by another importance.

@@ -6,7 +6,6 @@
 //! least log2(*n*) / 2 times the most that was ever live at once, for some sequence of edits). First fit needs at most about
 //! log2(*n*) times that (Robson 1977), and is the best rule known in that respect; best fit may need *n* times. Where all
 //! ranges are equally long, as those of instances, meshes and single nodes, the space is the most that was live at once.
-//! `tests` measures what lies between.
 
 mod holes;
 

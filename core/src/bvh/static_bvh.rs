@@ -3,13 +3,9 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use super::trails::Sampled;
 use super::{Bvh, Trails, WithTrails};
-use crate::importance::ImportanceModel;
 use crate::instance::Instance;
 use crate::node::Node;
-use crate::point::{Receiver, ShadingPoint};
-use crate::traverse::{Random64, SampledLight};
 use crate::tree::{LightTree, Links};
 
 /// The arrays of a [`Bvh`] that sampling reads, for lights that do not change: nodes, links, instances, trails if [`WithTrails`].
@@ -63,7 +59,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
-    fn arrays(&self) -> LightTree<'_, N, I, W> {
+    pub(super) fn arrays(&self) -> LightTree<'_, N, I, W> {
         let [root, trail_words, live, lights, depth] = self.words;
         LightTree {
             nodes: &self.nodes,
@@ -98,86 +94,5 @@ impl<N: Node<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
             + links
             + size_of_val(&*self.instances)
             + size_of_val(&*self.trails)
-    }
-}
-
-impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
-    /// As [`Bvh::sample`].
-    #[must_use]
-    pub fn sample(&self, point: &ShadingPoint, random: impl Into<Random64>) -> SampledLight {
-        const { Sampled::<N, I, W, T>::ALLOWED };
-        self.arrays().sample(point, random)
-    }
-
-    /// As [`Bvh::sample_batch`].
-    pub fn sample_batch(&self, points: &[ShadingPoint], randoms: &[Random64], sampled: &mut [SampledLight]) {
-        const { Sampled::<N, I, W, T>::ALLOWED };
-        self.arrays().sample_batch(points, randoms, sampled);
-    }
-
-    /// As [`Bvh::sample_many`].
-    #[must_use]
-    pub fn sample_many<const COUNT: usize>(
-        &self,
-        point: &ShadingPoint,
-        random: impl Into<Random64>,
-    ) -> [SampledLight; COUNT] {
-        const { Sampled::<N, I, W, T>::ALLOWED };
-        self.arrays().sample_many(point, random)
-    }
-
-    /// As [`Bvh::sample_spaced`].
-    pub fn sample_spaced(
-        &self,
-        point: &ShadingPoint,
-        random: impl Into<Random64>,
-        first: u32,
-        count: u32,
-        sampled: &mut [SampledLight],
-    ) {
-        const { Sampled::<N, I, W, T>::ALLOWED };
-        self.arrays().sample_spaced(point, random, first, count, sampled);
-    }
-}
-
-impl<N: Node<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
-    /// As [`Bvh::sample_for`].
-    #[must_use]
-    pub fn sample_for<P: Receiver>(&self, receiver: &P, random: impl Into<Random64>) -> SampledLight
-    where
-        I: ImportanceModel<N, W, P>,
-    {
-        const { Sampled::<N, I, W, T, P>::ALLOWED };
-        self.arrays().sample_for(receiver, random)
-    }
-
-    /// As [`Bvh::sample_many_for`].
-    #[must_use]
-    pub fn sample_many_for<P: Receiver, const COUNT: usize>(
-        &self,
-        receiver: &P,
-        random: impl Into<Random64>,
-    ) -> [SampledLight; COUNT]
-    where
-        I: ImportanceModel<N, W, P>,
-    {
-        const { Sampled::<N, I, W, T, P>::ALLOWED };
-        self.arrays().sample_many_for(receiver, random)
-    }
-}
-
-impl<N: Node<W>, I, const W: usize> StaticBvh<N, I, W> {
-    /// The arrays as traversal takes them.
-    #[must_use]
-    pub fn tree(&self) -> LightTree<'_, N, I, W> {
-        self.arrays()
-    }
-}
-
-impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> StaticBvh<N, I, W> {
-    /// As [`Bvh::pmf`].
-    #[must_use]
-    pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
-        self.arrays().pmf(point, light, instance)
     }
 }

@@ -5,13 +5,10 @@ use core::ops::Range;
 
 use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId};
 use super::{Added, Bvh, Trails, WithTrails};
-use crate::importance::ImportanceModel;
 use crate::node::{Holds, Node};
-use crate::point::{Receiver, ShadingPoint};
 #[cfg(feature = "std")]
 use crate::rebuilder::{FrameStart, RebuildError, Rebuilder};
 use crate::transform::Extent;
-use crate::traverse::{Random64, SampledLight};
 use crate::tree::LightTree;
 
 /// A [`Bvh`] whose instances are added, removed, moved and dimmed, and whose meshes do not change. It keeps no triangles, which
@@ -138,6 +135,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
         self.0.take_removed_lights()
     }
 
+    pub(super) fn arrays(&self) -> LightTree<'_, N, I, W> {
+        self.0.arrays()
+    }
+
     /// As [`Bvh::bytes`].
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -148,80 +149,5 @@ impl<N: Node<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
     #[must_use]
     pub fn memory(&self) -> usize {
         self.0.memory()
-    }
-}
-
-impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
-    /// As [`Bvh::sample`].
-    #[must_use]
-    pub fn sample(&self, point: &ShadingPoint, random: impl Into<Random64>) -> SampledLight {
-        self.0.sample(point, random)
-    }
-
-    /// As [`Bvh::sample_batch`].
-    pub fn sample_batch(&self, points: &[ShadingPoint], randoms: &[Random64], sampled: &mut [SampledLight]) {
-        self.0.sample_batch(points, randoms, sampled);
-    }
-
-    /// As [`Bvh::sample_many`].
-    #[must_use]
-    pub fn sample_many<const COUNT: usize>(
-        &self,
-        point: &ShadingPoint,
-        random: impl Into<Random64>,
-    ) -> [SampledLight; COUNT] {
-        self.0.sample_many(point, random)
-    }
-
-    /// As [`Bvh::sample_spaced`].
-    pub fn sample_spaced(
-        &self,
-        point: &ShadingPoint,
-        random: impl Into<Random64>,
-        first: u32,
-        count: u32,
-        sampled: &mut [SampledLight],
-    ) {
-        self.0.sample_spaced(point, random, first, count, sampled);
-    }
-}
-
-impl<N: Node<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
-    /// As [`Bvh::sample_for`].
-    #[must_use]
-    pub fn sample_for<P: Receiver>(&self, receiver: &P, random: impl Into<Random64>) -> SampledLight
-    where
-        I: ImportanceModel<N, W, P>,
-    {
-        self.0.sample_for(receiver, random)
-    }
-
-    /// As [`Bvh::sample_many_for`].
-    #[must_use]
-    pub fn sample_many_for<P: Receiver, const COUNT: usize>(
-        &self,
-        receiver: &P,
-        random: impl Into<Random64>,
-    ) -> [SampledLight; COUNT]
-    where
-        I: ImportanceModel<N, W, P>,
-    {
-        self.0.sample_many_for(receiver, random)
-    }
-}
-
-impl<N: Node<W>, I, const W: usize> StaticMeshBvh<N, I, W> {
-    /// As [`Bvh::tree`].
-    #[must_use]
-    pub fn tree(&self) -> LightTree<'_, N, I, W> {
-        self.0.tree()
-    }
-}
-
-impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> StaticMeshBvh<N, I, W> {
-    /// As [`Bvh::pmf`].
-    #[must_use]
-    pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
-        self.0.pmf(point, light, instance)
     }
 }

@@ -65,10 +65,7 @@ impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W> for Eq4 {
 
     #[inline(always)]
     fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
-        let mut scaled = [Scaled {
-            significand: 0.0,
-            exponent: -1024,
-        }; W];
+        let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let cluster = node.cluster(slot);
             let (factor, d_squared) = Eq4::factor(&cluster, point);
@@ -137,16 +134,7 @@ fn over_distance(cluster: &Cluster, distance_squared: f32, factor: f32) -> Scale
         MIN_DISTANCE_SQUARED,
     );
     let value = significand(cluster.phi) * recip_rough(significand(soft)) * factor;
-    // The comparison also turns the NaN of hostile words into "no importance".
-    let shines = cluster.phi > 0.0;
-    Scaled {
-        significand: if shines & (value > 0.0) { value } else { 0.0 },
-        exponent: if shines {
-            exponent(cluster.phi) - exponent(soft)
-        } else {
-            -1024
-        },
-    }
+    Scaled::of(cluster.phi, value, -exponent(soft))
 }
 
 /// Square root by the rough reciprocal root; 2^-62 for anything below 2^-124.

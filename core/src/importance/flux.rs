@@ -21,24 +21,13 @@ impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for FluxOverDistance {
 
     #[inline(always)]
     fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
-        let mut scaled = [Scaled {
-            significand: 0.0,
-            exponent: -1024,
-        }; W];
+        let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let summary = node.summary(slot);
             let (phi, away) = (summary.phi(), offset(summary.center(), point));
             let soft = exact::max(length_squared(away) + summary.spread(), MIN_DISTANCE_SQUARED);
             let value = significand(phi) * recip_rough(significand(soft));
-            let shines = (phi > 0.0) & (value > 0.0);
-            scaled[slot] = Scaled {
-                significand: if shines { value } else { 0.0 },
-                exponent: if shines {
-                    exponent(phi) - exponent(soft)
-                } else {
-                    -1024
-                },
-            };
+            scaled[slot] = Scaled::of(phi, value, -exponent(soft));
         }
         on_one_scale(&scaled)
     }

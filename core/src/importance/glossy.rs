@@ -10,7 +10,7 @@ use crate::exact::{self, pow2, recip, rsqrt};
 use crate::node::Node;
 use crate::point::GlossyPoint;
 use crate::summary::Summary;
-use crate::vector::length_squared;
+use crate::vector::{length_squared, vector};
 
 /// The importance `I`, which knows the receiver's cosine, times the reflectance of a [`GlossyPoint`] towards a child, as a mean over where
 /// its lights are. On any layout.
@@ -73,7 +73,7 @@ fn reflectance(center: Vec3, spread: f32, receiver: &GlossyPoint) -> f32 {
     let kappa = 0.25 * receiver.exponent;
     let widened = 1.0 + kappa * (0.5 * spread * recip(exact::max(d_squared, spread * NEAREST)));
     let narrower = recip(widened);
-    let mirror = Vec3::new(receiver.mirror[0], receiver.mirror[1], receiver.mirror[2]);
+    let mirror = vector(&receiver.mirror);
     // Half the squared chord: an error in the length of the direction counts squared only.
     let apart = 0.5 * length_squared(away * rsqrt(d_squared) - mirror);
     let rise = 1.0 + 0.25 * (kappa * narrower * apart);

@@ -26,7 +26,7 @@ use crate::point::LinkedPoint;
 /// # use lightbvh::{Bvh, Moments, ShadingPoint};
 /// type Layout = Lit<LinkedMomentNode<8>, LinkedTriangle>;
 /// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
-/// let sampled = Bvh::<Layout, Linked<Leveled<Moments, 9>>, 8>::default().sample_for(&receiver, 1_u32);
+/// let sampled = Bvh::<Layout, Linked<Leveled<Moments, 9>>, 8>::default().sample(&receiver, 1_u32);
 /// ```
 /// Receivers of other kinds have masks as well: a leaf of two sides, say.
 /// ```
@@ -38,7 +38,7 @@ use crate::point::LinkedPoint;
 /// # let leaf = TransmissivePoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, front: 0.5, back: 0.5 };
 /// let receiver = LinkedPoint { point: leaf, mask: 1 };
 /// let lights = Bvh::<Layout, Linked<Leveled<Transmissive<Moments>, 9>>, 8>::default();
-/// let sampled = lights.sample_for(&receiver, 1_u32);
+/// let sampled = lights.sample(&receiver, 1_u32);
 /// ```
 /// ```compile_fail
 /// # use lightbvh::importance::{Defensive, Linked, LinkedPoint};
@@ -47,7 +47,7 @@ use crate::point::LinkedPoint;
 /// # use lightbvh::{Bvh, Moments, ShadingPoint};
 /// # type Layout = Lit<LinkedMomentNode<8>, LinkedTriangle>;
 /// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
-/// let sampled = Bvh::<Layout, Linked<Defensive<Moments, 6>>, 8>::default().sample_for(&receiver, 1_u32);
+/// let sampled = Bvh::<Layout, Linked<Defensive<Moments, 6>>, 8>::default().sample(&receiver, 1_u32);
 /// ```
 /// ```compile_fail
 /// # use lightbvh::importance::{Defensive, Linked, LinkedPoint};
@@ -56,7 +56,7 @@ use crate::point::LinkedPoint;
 /// # use lightbvh::{Bvh, Moments, ShadingPoint};
 /// # type Layout = Lit<LinkedMomentNode<8>, LinkedTriangle>;
 /// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
-/// let sampled = Bvh::<Layout, Defensive<Linked<Moments>, 6>, 8>::default().sample_for(&receiver, 1_u32);
+/// let sampled = Bvh::<Layout, Defensive<Linked<Moments>, 6>, 8>::default().sample(&receiver, 1_u32);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Linked<I>(PhantomData<I>);

@@ -126,6 +126,21 @@ impl Scaled {
         significand: 0.0,
         exponent: -1024,
     };
+
+    /// `value` · 2^(exponent of `phi` + `exponent`), for a child of flux `phi`, W.
+    #[inline(always)]
+    pub(crate) fn of(phi: f32, value: f32, exponent: i32) -> Self {
+        // The comparison also turns the NaN of hostile words into "no importance".
+        let shines = (phi > 0.0) & (value > 0.0);
+        Self {
+            significand: if shines { value } else { 0.0 },
+            exponent: if shines {
+                exact::exponent(phi) + exponent
+            } else {
+                -1024
+            },
+        }
+    }
 }
 
 /// Brings the weights of a node's children to one scale: that of the greatest exponent. A weight below 2^-60 of the scale

@@ -1,7 +1,7 @@
 //! Flux alone.
 
 use super::{ImportanceModel, Scaled, on_one_scale};
-use crate::exact::{exponent, significand};
+use crate::exact::significand;
 use crate::node::Node;
 use crate::point::ShadingPoint;
 use crate::summary::Summary;
@@ -18,18 +18,10 @@ impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for Flux {
 
     #[inline(always)]
     fn weights(node: &N, _: &ShadingPoint) -> [f32; W] {
-        let mut scaled = [Scaled {
-            significand: 0.0,
-            exponent: -1024,
-        }; W];
+        let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let phi = node.summary(slot).phi();
-            // The comparison also turns the NaN of hostile words into "no importance".
-            let shines = phi > 0.0;
-            scaled[slot] = Scaled {
-                significand: if shines { significand(phi) } else { 0.0 },
-                exponent: if shines { exponent(phi) } else { -1024 },
-            };
+            scaled[slot] = Scaled::of(phi, significand(phi), 0);
         }
         on_one_scale(&scaled)
     }

@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 
 use super::moments::{SOFT, soft};
 use super::{Eq4, ExactMath, ImportanceModel, Math, Moments, Scaled, on_one_scale};
-use crate::exact::{self, exponent, pow2, significand};
+use crate::exact::{self, pow2, significand};
 use crate::moments::LEAST_LENGTH;
 use crate::node::{BoundsNode, MomentLayout};
 use crate::point::{RaySegment, ShadingPoint};
@@ -40,18 +40,8 @@ const LEAST_SQUARED: f32 = pow2(-30);
 /// Φ · `mean`, which is a mean of 1/d² in units of the scale 2^`scale`.
 #[inline(always)]
 fn weight(phi: f32, mean: f32, scale: i32) -> Scaled {
-    // The comparison also turns the NaN of hostile words into "no importance".
-    let shines = (phi > 0.0) & (mean > 0.0);
-    Scaled {
-        significand: if shines { significand(phi) * mean } else { 0.0 },
-        exponent: if shines { exponent(phi) - 2 * scale } else { -1024 },
-    }
+    Scaled::of(phi, significand(phi) * mean, -2 * scale)
 }
-
-const NONE: Scaled = Scaled {
-    significand: 0.0,
-    exponent: -1024,
-};
 
 impl<M: Math, N: MomentLayout<W>, const W: usize> ImportanceModel<N, W, RaySegment>
     for Subtended<Moments<M>>
@@ -60,7 +50,7 @@ impl<M: Math, N: MomentLayout<W>, const W: usize> ImportanceModel<N, W, RaySegme
 
     #[inline(always)]
     fn weights(node: &N, segment: &RaySegment) -> [f32; W] {
-        let mut scaled = [NONE; W];
+        let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let set = node.summary(slot);
             let size = glam::Vec3::new(set.across, set.along, 0.0);
@@ -98,7 +88,7 @@ impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W, RaySegment> for Sub
 
     #[inline(always)]
     fn weights(node: &N, segment: &RaySegment) -> [f32; W] {
-        let mut scaled = [NONE; W];
+        let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let cluster = node.cluster(slot);
             let line = Line::of(segment, cluster.center, cluster.extent);

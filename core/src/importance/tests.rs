@@ -5,8 +5,6 @@
 
 mod eq4;
 mod flux;
-#[cfg(feature = "alloc")]
-mod glossy;
 mod linked;
 mod moments;
 #[cfg(feature = "alloc")]
@@ -15,7 +13,7 @@ mod trees;
 use glam::Vec3;
 
 use crate::exact::pow2;
-use crate::kit::{Random, Wide, cross, dot, minus, narrow, normalize, times, wide};
+use crate::kit::{Random, Wide, dot, minus, narrow, normalize, times, wide};
 
 impl Random {
     /// Half extents of about `size`.

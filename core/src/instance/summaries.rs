@@ -2,14 +2,14 @@
 
 use glam::Vec3;
 
-use super::{Instance, absolute, flushed};
+use super::{Instance, flushed};
 use crate::bounds::LightBounds;
 use crate::cone::normalized;
 use crate::emission::{MAX_SUM, MIN_PHI};
 use crate::exact::{self, exponent, pow2, significand};
 use crate::light::{Light, MIN_COORDINATE};
 use crate::moments::LightMoments;
-use crate::vector::{dot, flush3, greatest_exponent, length_squared, max3};
+use crate::vector::{abs3, dot, flush3, greatest_exponent, length_squared, max3};
 
 /// A constant of its own: rust-gpu does not fold an expression of literals.
 const THIRD: f32 = 1.0 / 3.0;
@@ -24,11 +24,7 @@ impl Instance {
     pub(crate) fn bounds_to_world(&self, local: &LightBounds) -> LightBounds {
         let center = flushed((local.min + local.max) * 0.5);
         let half = flushed(local.max - center);
-        let (a, b, c) = (
-            absolute(self.column(0)),
-            absolute(self.column(1)),
-            absolute(self.column(2)),
-        );
+        let (a, b, c) = (abs3(self.column(0)), abs3(self.column(1)), abs3(self.column(2)));
         let middle = self.forward(center) + self.origin();
         let extent = (a * half.x + b * half.y) + c * half.z;
         let turned = self.normal_to_world(flushed(local.axis));
@@ -80,8 +76,8 @@ impl Instance {
 
         // Map and deviations of about 1, by powers of two.
         let entries = max3(
-            absolute(self.column(0)),
-            max3(absolute(self.column(1)), absolute(self.column(2))),
+            abs3(self.column(0)),
+            max3(abs3(self.column(1)), abs3(self.column(2))),
         );
         let map_exponent = greatest_exponent(entries, -100);
         let own_exponent = greatest_exponent(Vec3::new(local.across, local.along, 0.0), -100);
@@ -111,11 +107,7 @@ impl Instance {
         let e = map_exponent + own_exponent;
         let unit = if e < LEAST_WORLD_EXPONENT { 0.0 } else { pow2(e) };
         let h = flushed(local.h);
-        let (x, y, z) = (
-            absolute(self.column(0)),
-            absolute(self.column(1)),
-            absolute(self.column(2)),
-        );
+        let (x, y, z) = (abs3(self.column(0)), abs3(self.column(1)), abs3(self.column(2)));
         LightMoments {
             phi: self.flux_to_world(local.phi, area),
             c: self.forward(flushed(local.c)) + self.origin(),

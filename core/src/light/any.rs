@@ -196,9 +196,6 @@ impl AnyLight {
             mesh: self.mesh,
         }
     }
-}
-
-impl AnyLight {
     /// It as a [`ProfileLight`]; numbers that mean nothing where it is of another kind.
     #[inline(always)]
     #[must_use]
@@ -218,77 +215,28 @@ impl AnyLight {
     }
 }
 
-impl From<ProfileLight> for AnyLight {
-    #[inline(always)]
-    fn from(own: ProfileLight) -> Self {
-        Self::new(Self::PROFILE, own.flags, own.mesh, own.intensity)
-            .with(0, &own.p)
-            .with(3, &own.axis)
-            .with(6, &own.across)
-            .with(9, &[own.cos_outer, own.whole, own.mean_cosine])
-    }
+macro_rules! into_any {
+    ($($light:ident: $own:ident $kind:ident, $flags:expr, $emission:ident, [$($at:literal $three:expr),*];)*) => {
+        $(impl From<$own> for AnyLight {
+            #[inline(always)]
+            fn from($light: $own) -> Self {
+                Self::new(Self::$kind, $flags, $light.mesh, $light.$emission)$(.with($at, &$three))*
+            }
+        })*
+    };
 }
 
-impl From<EmissiveTriangle> for AnyLight {
-    #[inline(always)]
-    fn from(own: EmissiveTriangle) -> Self {
-        let any = Self::new(Self::TRIANGLE, own.flags, own.mesh, own.radiance);
-        any.with(0, &own.p[0]).with(3, &own.p[1]).with(6, &own.p[2])
-    }
-}
-
-impl From<PointLight> for AnyLight {
-    #[inline(always)]
-    fn from(own: PointLight) -> Self {
-        let any = Self::new(Self::POINT, 0, own.mesh, own.intensity);
-        any.with(0, &own.p).with(3, &[own.range, 0.0, 0.0])
-    }
-}
-
-impl From<SpotLight> for AnyLight {
-    #[inline(always)]
-    fn from(own: SpotLight) -> Self {
-        let any = Self::new(Self::SPOT, 0, own.mesh, own.intensity);
-        any.with(0, &own.p)
-            .with(3, &own.axis)
-            .with(6, &[own.cos_inner, own.cos_outer, own.range])
-    }
-}
-
-impl From<SphereLight> for AnyLight {
-    #[inline(always)]
-    fn from(own: SphereLight) -> Self {
-        let any = Self::new(Self::SPHERE, 0, own.mesh, own.radiance);
-        any.with(0, &own.p).with(3, &[own.radius, 0.0, 0.0])
-    }
-}
-
-impl From<RectangleLight> for AnyLight {
-    #[inline(always)]
-    fn from(own: RectangleLight) -> Self {
-        let any = Self::new(Self::RECTANGLE, own.flags, own.mesh, own.radiance);
-        any.with(0, &own.p).with(3, &own.half[0]).with(6, &own.half[1])
-    }
-}
-
-impl From<DiscLight> for AnyLight {
-    #[inline(always)]
-    fn from(own: DiscLight) -> Self {
-        let any = Self::new(Self::DISC, own.flags, own.mesh, own.radiance);
-        any.with(0, &own.p).with(3, &own.half[0]).with(6, &own.half[1])
-    }
-}
-
-impl From<BoxLight> for AnyLight {
-    #[inline(always)]
-    fn from(own: BoxLight) -> Self {
-        let any = Self::new(Self::BOX, 0, own.mesh, own.radiance);
-        any.with(0, &own.p)
-            .with(3, &own.half[0])
-            .with(6, &own.half[1])
-            .with(9, &own.half[2])
-    }
-}
+into_any!(
+    own: EmissiveTriangle TRIANGLE, own.flags, radiance, [0 own.p[0], 3 own.p[1], 6 own.p[2]];
+    own: PointLight POINT, 0, intensity, [0 own.p, 3 [own.range, 0.0, 0.0]];
+    own: SpotLight SPOT, 0, intensity, [0 own.p, 3 own.axis, 6 [own.cos_inner, own.cos_outer, own.range]];
+    own: SphereLight SPHERE, 0, radiance, [0 own.p, 3 [own.radius, 0.0, 0.0]];
+    own: RectangleLight RECTANGLE, own.flags, radiance, [0 own.p, 3 own.half[0], 6 own.half[1]];
+    own: DiscLight DISC, own.flags, radiance, [0 own.p, 3 own.half[0], 6 own.half[1]];
+    own: BoxLight BOX, 0, radiance, [0 own.p, 3 own.half[0], 6 own.half[1], 9 own.half[2]];
+    own: ProfileLight PROFILE, own.flags, intensity,
+        [0 own.p, 3 own.axis, 6 own.across, 9 [own.cos_outer, own.whole, own.mean_cosine]];
+);
 
 macro_rules! back {
     ($($own:ident $kind:ident $as:ident),*) => {
@@ -317,39 +265,17 @@ back!(
 /// What `$of` says of the light as what its kind makes it; any kind that is none counts as a point without intensity.
 macro_rules! by_kind {
     ($self:ident, $own:ident => $of:expr, $none:expr) => {
+        by_kind!(
+            $self, $own => $of, $none;
+            TRIANGLE triangle, POINT point, SPOT spot, SPHERE sphere, RECTANGLE rectangle, DISC disc, BOX volume, PROFILE profile
+        )
+    };
+    ($self:ident, $own:ident => $of:expr, $none:expr; $($kind:ident $as:ident),*) => {
         match $self.kind() {
-            AnyLight::TRIANGLE => {
-                let $own = $self.triangle();
+            $(AnyLight::$kind => {
+                let $own = $self.$as();
                 $of
-            }
-            AnyLight::POINT => {
-                let $own = $self.point();
-                $of
-            }
-            AnyLight::SPOT => {
-                let $own = $self.spot();
-                $of
-            }
-            AnyLight::SPHERE => {
-                let $own = $self.sphere();
-                $of
-            }
-            AnyLight::RECTANGLE => {
-                let $own = $self.rectangle();
-                $of
-            }
-            AnyLight::DISC => {
-                let $own = $self.disc();
-                $of
-            }
-            AnyLight::BOX => {
-                let $own = $self.volume();
-                $of
-            }
-            AnyLight::PROFILE => {
-                let $own = $self.profile();
-                $of
-            }
+            })*
             _ => $none,
         }
     };

@@ -13,7 +13,7 @@ use crate::exact::{self, pow2};
 use crate::instance::Instance;
 use crate::light::point::MAX_DENSITY;
 use crate::moments::LightMoments;
-use crate::vector::{abs3, dot, flush3, greatest_exponent, max3};
+use crate::vector::{abs3, dot, flush3, greatest_exponent, max3, vector};
 
 /// What a rectangle and a disc share: a centre and two half axes. Area 0 has no flux.
 #[repr(C)]
@@ -84,16 +84,11 @@ struct Scaled {
 }
 
 impl Flat {
-    #[inline(always)]
-    fn center(&self) -> Vec3 {
-        Vec3::new(self.p[0], self.p[1], self.p[2])
-    }
-
     // By a choice: rust-gpu inlines whatever has an index that might be out of bounds.
     #[inline(always)]
     fn axis(&self, k: usize) -> Vec3 {
         let half = if k == 0 { self.half[0] } else { self.half[1] };
-        Vec3::new(half[0], half[1], half[2])
+        vector(&half)
     }
 
     #[inline(always)]
@@ -134,8 +129,8 @@ impl Flat {
         let own = self.scaled(shape);
         let directed = !self.is_two_sided() & (own.emission.exponent >= LEAST_NORMAL);
         LightBounds {
-            min: self.center() - half,
-            max: self.center() + half,
+            min: vector(&self.p) - half,
+            max: vector(&self.p) + half,
             axis: if directed {
                 normalized(own.emission.normal)
             } else {
@@ -156,7 +151,7 @@ impl Flat {
         let directed = exact::mask_of(directed);
         LightMoments {
             phi: own.emission.phi,
-            c: self.center(),
+            c: vector(&self.p),
             across,
             along: exact::masked(!directed, across),
             m: own.emission.normal * exact::masked(directed, exact::rsqrt(own.emission.squared)),
@@ -194,7 +189,7 @@ impl Flat {
         let exponent = own.emission.exponent + own.e + own.e;
         let density = (per_length * shape.per_area) * pow2(-exponent);
         let offset = flush3(self.axis(0) * x, MIN_OFFSET) + flush3(self.axis(1) * y, MIN_OFFSET);
-        let p = self.center() + offset;
+        let p = vector(&self.p) + offset;
         let n = own.emission.normal * per_length;
         LightPoint {
             p: [p.x, p.y, p.z],

@@ -7,7 +7,7 @@ use super::{EmissiveTriangle, MIN_OFFSET};
 use crate::emission::flux;
 use crate::exact;
 use crate::point::ShadingPoint;
-use crate::vector::{abs3, dot, flush3, greatest_exponent, length_squared, max3};
+use crate::vector::{abs3, dot, flush3, greatest_exponent, length_squared, max3, vector};
 
 /// A point on a light, and the density with which it was chosen. Plain words, the same on devices.
 #[repr(C)]
@@ -49,7 +49,7 @@ impl LightPoint {
     #[inline(always)]
     #[must_use]
     pub fn irradiance(&self, receiver: &ShadingPoint) -> [f32; 3] {
-        let away = Vec3::new(self.p[0], self.p[1], self.p[2]) - receiver.position();
+        let away = vector(&self.p) - receiver.position();
         let e = greatest_exponent(away, -50);
         let d = flush3(away * exact::pow2(-e), exact::pow2(-60));
         let squared = exact::max(length_squared(d), exact::pow2(-60));
@@ -58,7 +58,7 @@ impl LightPoint {
         let in_volume = (n.x == 0.0) & (n.y == 0.0) & (n.z == 0.0);
         let incident = dot(d, n) * per_distance;
         let incident = if in_volume { 1.0 } else { exact::max(incident, 0.0) };
-        let own = Vec3::new(self.normal[0], self.normal[1], self.normal[2]);
+        let own = vector(&self.normal);
         let emitted = -(dot(d, own) * per_distance);
         let emitted = if self.flags & EmissiveTriangle::TWO_SIDED != 0 {
             exact::abs(emitted)

@@ -15,7 +15,7 @@ use crate::exact::{self, pow2};
 use crate::instance::Instance;
 use crate::moments::LightMoments;
 use crate::point::NORMAL_TOLERANCE;
-use crate::vector::{cross, dot, flush3, length_squared};
+use crate::vector::{cross, dot, flush3, length_squared, vector};
 
 /// A point with a photometric profile: what it sends in each direction is its greatest intensity times what a table says there, as IES files
 /// (ANSI/IES LM-63) have one. The table is the engine's; a tree needs three numbers of it, its integral, its mean cosine, and its cone.
@@ -59,28 +59,13 @@ impl ProfileLight {
     /// Bit of [`flags`](Self::flags): the horizontal angle grows the other way.
     pub const MIRRORED: u32 = 2;
 
-    #[inline(always)]
-    fn axis(&self) -> Vec3 {
-        Vec3::new(self.axis[0], self.axis[1], self.axis[2])
-    }
-
-    #[inline(always)]
-    fn across(&self) -> Vec3 {
-        Vec3::new(self.across[0], self.across[1], self.across[2])
-    }
-
-    #[inline(always)]
-    fn place(&self) -> Vec3 {
-        Vec3::new(self.p[0], self.p[1], self.p[2])
-    }
-
     /// Where a picture of the table, an unfolded octahedron with the axis in the middle ([`place_of`], halved and moved to 0..=1), has the
     /// direction from the light to `from`.
     #[inline(always)]
     #[must_use]
     pub fn coordinates(&self, from: Vec3) -> [f32; 2] {
-        let d = towards(self.place(), from);
-        let third = cross(self.across(), self.axis());
+        let d = towards(vector(&self.p), from);
+        let third = cross(vector(&self.across), vector(&self.axis));
         let along = dot(d, third);
         let turned = if self.flags & Self::MIRRORED != 0 {
             -along
@@ -88,7 +73,7 @@ impl ProfileLight {
             along
         };
         let local = flush3(
-            Vec3::new(dot(d, self.across()), dot(d, self.axis()), turned),
+            Vec3::new(dot(d, vector(&self.across)), dot(d, vector(&self.axis)), turned),
             pow2(-30),
         );
         // Where the light is, no direction is better than another.
@@ -120,13 +105,13 @@ impl Light for ProfileLight {
         self.p = checked_place("light with a profile", self.p)?;
         self.intensity = checked_emission("intensity of a light with a profile", self.intensity)?;
         for axis in [self.axis, self.across] {
-            let squared = length_squared(Vec3::new(axis[0], axis[1], axis[2]));
+            let squared = length_squared(vector(&axis));
             // NaN is in no range.
             if !(1.0 - NORMAL_TOLERANCE..=1.0 + NORMAL_TOLERANCE).contains(&squared) {
                 return Err(LightError::Axis { axis });
             }
         }
-        if exact::abs(dot(self.axis(), self.across())) > NORMAL_TOLERANCE {
+        if exact::abs(dot(vector(&self.axis), vector(&self.across))) > NORMAL_TOLERANCE {
             return Err(LightError::Axis { axis: self.across });
         }
         let (outer, whole, mean) = (self.cos_outer, self.whole, self.mean_cosine);
@@ -160,13 +145,13 @@ impl Light for ProfileLight {
 
     #[inline(always)]
     fn beam(&self) -> Beam {
-        Beam::of_cone(self.place(), self.axis(), self.cos_outer)
+        Beam::of_cone(vector(&self.p), vector(&self.axis), self.cos_outer)
     }
 
     #[inline(always)]
     fn bounds(&self) -> LightBounds {
         let cone = Cone {
-            axis: self.axis(),
+            axis: vector(&self.axis),
             cos_theta_o: 1.0,
         };
         let within = self.cos_outer >= 0.0;
@@ -181,14 +166,14 @@ impl Light for ProfileLight {
         let per_intensity = phi_per_intensity(TWO_PI * if shines { self.whole } else { 1.0 });
         let own = phi(&self.intensity, per_intensity);
         let length = exact::clamp(PER_MEAN_DIRECTION * self.mean_cosine, -1.0, 1.0);
-        let m = flush3(self.axis() * exact::flush(length, pow2(-30)), pow2(-60));
+        let m = flush3(vector(&self.axis) * exact::flush(length, pow2(-30)), pow2(-60));
         moments(&self.p, if shines { own } else { 0.0 }, m)
     }
 
     #[inline(always)]
     fn in_world(&self, instance: &Instance, index: u32) -> Self {
-        let axis = instance.direction_to_world(self.axis());
-        let turned = instance.direction_to_world(self.across());
+        let axis = instance.direction_to_world(vector(&self.axis));
+        let turned = instance.direction_to_world(vector(&self.across));
         // Across again, which a map that shears does not leave it.
         let off = flush3(turned - axis * dot(turned, axis), pow2(-30));
         let squared = length_squared(off);
@@ -222,7 +207,7 @@ impl Light for ProfileLight {
 
     #[inline(always)]
     fn point_for(&self, from: Vec3, _uv: [f32; 2]) -> LightPoint {
-        let within = within_cone(self.axis(), self.cos_outer, towards(self.place(), from));
+        let within = within_cone(vector(&self.axis), self.cos_outer, towards(vector(&self.p), from));
         let [r, g, b] = self.intensity;
         at(&self.p, if within { [r, g, b] } else { [0.0; 3] })
     }

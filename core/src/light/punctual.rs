@@ -13,7 +13,7 @@ use crate::exact::{self, exponent, pow2, significand};
 use crate::instance::Instance;
 use crate::moments::LightMoments;
 use crate::point::NORMAL_TOLERANCE;
-use crate::vector::{flush3, length_squared};
+use crate::vector::{flush3, length_squared, vector};
 
 /// A point that sends the same intensity in every direction. An instance that scales leaves it as it is, and its range.
 #[repr(C)]
@@ -67,7 +67,7 @@ const PER_MEAN_DIRECTION: f32 = 1.5;
 pub(super) fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
     LightMoments {
         phi,
-        c: Vec3::new(p[0], p[1], p[2]),
+        c: vector(p),
         across: 0.0,
         along: 0.0,
         m,
@@ -77,7 +77,7 @@ pub(super) fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
 
 #[inline(always)]
 pub(super) fn bounds(p: &[f32; 3], phi: f32, cone: Cone) -> LightBounds {
-    let p = Vec3::new(p[0], p[1], p[2]);
+    let p = vector(p);
     LightBounds {
         min: p,
         max: p,
@@ -213,16 +213,11 @@ impl Light for PointLight {
 }
 
 impl SpotLight {
-    #[inline(always)]
-    fn axis(&self) -> Vec3 {
-        Vec3::new(self.axis[0], self.axis[1], self.axis[2])
-    }
-
     /// Intensity in a direction, of length 1 up to 2^-16, over that along the axis.
     #[inline(always)]
     #[must_use]
     pub fn falloff(&self, direction: Vec3) -> f32 {
-        let gap = 0.5 * apart_squared(self.axis(), direction);
+        let gap = 0.5 * apart_squared(vector(&self.axis), direction);
         let linear = exact::clamp(exact::div((1.0 - self.cos_outer) - gap, self.fall()), 0.0, 1.0);
         // What a device flushes is cut here.
         exact::flush(linear * linear, pow2(-60))
@@ -271,7 +266,7 @@ impl Light for SpotLight {
         self.p = checked_place("spot", self.p)?;
         self.intensity = checked_emission("intensity of a spot", self.intensity)?;
         self.range = checked_range(self.range)?;
-        let squared = length_squared(self.axis());
+        let squared = length_squared(vector(&self.axis));
         // NaN is in no range.
         if !(1.0 - NORMAL_TOLERANCE..=1.0 + NORMAL_TOLERANCE).contains(&squared) {
             return Err(LightError::Axis { axis: self.axis });
@@ -299,18 +294,14 @@ impl Light for SpotLight {
 
     #[inline(always)]
     fn beam(&self) -> Beam {
-        Beam::of_cone(
-            Vec3::new(self.p[0], self.p[1], self.p[2]),
-            self.axis(),
-            self.cos_outer,
-        )
+        Beam::of_cone(vector(&self.p), vector(&self.axis), self.cos_outer)
     }
 
     /// A cone of normals that is one direction, where half the sphere about it holds all that the spot sends.
     #[inline(always)]
     fn bounds(&self) -> LightBounds {
         let cone = Cone {
-            axis: self.axis(),
+            axis: vector(&self.axis),
             cos_theta_o: 1.0,
         };
         let within = self.cos_outer >= 0.0;
@@ -323,12 +314,12 @@ impl Light for SpotLight {
         let [whole, first] = self.integrals();
         let length = exact::min(PER_MEAN_DIRECTION * exact::div(first, whole), 1.0);
         let length = exact::flush(exact::max(length, 0.0), pow2(-30));
-        moments(&self.p, self.phi(), self.axis() * length)
+        moments(&self.p, self.phi(), vector(&self.axis) * length)
     }
 
     #[inline(always)]
     fn in_world(&self, instance: &Instance, index: u32) -> Self {
-        let axis = instance.direction_to_world(self.axis());
+        let axis = instance.direction_to_world(vector(&self.axis));
         Self {
             p: instance.vertex(self.p),
             intensity: shining(&self.intensity, instance.radiance, self.has_flux()),
@@ -340,7 +331,7 @@ impl Light for SpotLight {
 
     #[inline(always)]
     fn point_for(&self, from: Vec3, _uv: [f32; 2]) -> LightPoint {
-        let direction = towards(Vec3::new(self.p[0], self.p[1], self.p[2]), from);
+        let direction = towards(vector(&self.p), from);
         let left = window(&self.p, self.range, from);
         let falloff = exact::flush(self.falloff(direction) * left, pow2(-60));
         let [r, g, b] = self.intensity;

@@ -216,7 +216,10 @@ pub(super) fn checked_place(what: &'static str, mut place: [f32; 3]) -> Result<[
 }
 
 /// Linear R, G, B in the domain, of what is named.
-pub(super) fn checked_emission(what: &'static str, mut emission: [f32; 3]) -> Result<[f32; 3], LightError> {
+pub(in crate::light) fn checked_emission(
+    what: &'static str,
+    mut emission: [f32; 3],
+) -> Result<[f32; 3], LightError> {
     for channel in 0..3 {
         let value = emission[channel];
         if value != 0.0 && !(MIN_RADIANCE..=MAX_RADIANCE).contains(&value) {

@@ -13,7 +13,7 @@ use crate::exact::{self, exponent, flush, pow2, significand};
 use crate::instance::Instance;
 use crate::light::point::MAX_DENSITY;
 use crate::moments::LightMoments;
-use crate::vector::{flush3, greatest_exponent, length_squared};
+use crate::vector::{flush3, greatest_exponent, length_squared, vector};
 
 /// A sphere whose surface emits the same radiance in every direction outward.
 #[repr(C)]
@@ -39,11 +39,6 @@ const INV_TWO_PI: f32 = 1.0 / (2.0 * core::f32::consts::PI);
 const ROOT_THIRD: f32 = 0.577_350_26;
 
 impl SphereLight {
-    #[inline(always)]
-    fn center(&self) -> Vec3 {
-        Vec3::new(self.p[0], self.p[1], self.p[2])
-    }
-
     #[inline(always)]
     fn phi(&self) -> f32 {
         let luminance = luminance_of(&self.radiance);
@@ -90,7 +85,7 @@ impl Light for SphereLight {
 
     #[inline(always)]
     fn bounds(&self) -> LightBounds {
-        let (c, r) = (self.center(), self.radius);
+        let (c, r) = (vector(&self.p), self.radius);
         let half = Vec3::new(r, r, r);
         LightBounds {
             min: c - half,
@@ -108,7 +103,7 @@ impl Light for SphereLight {
         let deviation = r * ROOT_THIRD;
         LightMoments {
             phi: self.phi(),
-            c: self.center(),
+            c: vector(&self.p),
             across: deviation,
             along: deviation,
             m: Vec3::new(0.0, 0.0, 0.0),
@@ -129,7 +124,7 @@ impl Light for SphereLight {
     /// Evenly over the cap that the receiver sees: from within the sphere there is none.
     #[inline(always)]
     fn point_for(&self, from: Vec3, uv: [f32; 2]) -> LightPoint {
-        let away = from - self.center();
+        let away = from - vector(&self.p);
         let e = greatest_exponent(away, exponent(self.radius));
         let d = flush3(away * pow2(-e), pow2(-60));
         let r = flush(self.radius * pow2(-e), pow2(-60));
@@ -148,7 +143,7 @@ impl Light for SphereLight {
             (s * (ring * cos) + t * (ring * sin)) + axis * (1.0 - below),
             pow2(-60),
         );
-        let p = self.center() + n * self.radius;
+        let p = vector(&self.p) + n * self.radius;
         let own = significand(self.radius);
         let exponent = exponent(self.radius);
         let density = exact::div(INV_TWO_PI, own * own * gap) * pow2(-(exponent + exponent));

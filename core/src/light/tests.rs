@@ -4,7 +4,7 @@
 extern crate std;
 
 use std::format;
-use std::string::String;
+
 use std::vec::Vec;
 
 use glam::Vec3;
@@ -160,5 +160,4 @@ mod cones;
 mod domain;
 mod irradiance;
 mod moments;
-mod punctual;
 mod ranges;

@@ -12,7 +12,7 @@ use crate::exact::{self, exponent, hash, pow2, significand, unit_f32};
 use crate::instance::Instance;
 use crate::light::point::MAX_DENSITY;
 use crate::moments::LightMoments;
-use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, max3};
+use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, max3, vector};
 
 /// A box of glowing matter, which sends the same light from every place within it in every direction: fire, plasma. A parallelepiped
 /// where its half axes are not square to each other. Volume 0 has no flux.
@@ -47,11 +47,6 @@ struct Scaled {
 
 impl BoxLight {
     #[inline(always)]
-    fn center(&self) -> Vec3 {
-        Vec3::new(self.p[0], self.p[1], self.p[2])
-    }
-
-    #[inline(always)]
     fn axis(&self, k: usize) -> Vec3 {
         // By a choice, as of `Flat`.
         let half = if k == 0 {
@@ -61,7 +56,7 @@ impl BoxLight {
         } else {
             self.half[2]
         };
-        Vec3::new(half[0], half[1], half[2])
+        vector(&half)
     }
 
     #[inline(always)]
@@ -138,8 +133,8 @@ impl Light for BoxLight {
     fn bounds(&self) -> LightBounds {
         let half = self.half();
         LightBounds {
-            min: self.center() - half,
-            max: self.center() + half,
+            min: vector(&self.p) - half,
+            max: vector(&self.p) + half,
             axis: Cone::SPHERE.axis,
             cos_theta_o: -1.0,
             cos_theta_e: 0.0,
@@ -155,7 +150,7 @@ impl Light for BoxLight {
         let deviation = exact::sqrt(sum * NINTH) * exact::power(own.e);
         LightMoments {
             phi: self.phi(),
-            c: self.center(),
+            c: vector(&self.p),
             across: deviation,
             along: deviation,
             m: Vec3::new(0.0, 0.0, 0.0),
@@ -194,7 +189,7 @@ impl Light for BoxLight {
         };
         let third = unit_f32(hash(uv[0].to_bits() ^ hash(uv[1].to_bits())));
         let along = |k: usize, u: f32| flush3(self.axis(k) * (2.0 * u - 1.0), MIN_OFFSET);
-        let p = self.center() + ((along(0, uv[0]) + along(1, uv[1])) + along(2, third));
+        let p = vector(&self.p) + ((along(0, uv[0]) + along(1, uv[1])) + along(2, third));
         LightPoint {
             p: [p.x, p.y, p.z],
             density: if has_volume {

@@ -4,11 +4,11 @@ mod reference;
 
 use glam::Vec3;
 
-use reference::{Exact, Wide, merged};
+use reference::{Exact, merged};
 
 use super::LightMoments;
 use crate::exact::{self, pow2};
-use crate::kit::Random;
+use crate::kit::{Random, cross, dot, minus, normalize, wide};
 use crate::light::{EmissiveTriangle, TWO_SIDED};
 use crate::node::{LightNode, MomentNode, Node, kind};
 use crate::vector::{max3, min3};
@@ -100,25 +100,6 @@ fn powers_of_two_change_no_bit() {
     }
 }
 
-/// Whatever the numbers of a set without flux are.
-#[test]
-fn sets_without_flux_are_ignored() {
-    let mut random = Random(4);
-    let mut sets = [0; 8].map(|_| random.set(1.0, 1.0));
-    for i in [0, 3, 7] {
-        sets[i] = LightMoments::EMPTY;
-    }
-    let expected = LightMoments::merge(&sets);
-    for i in [0, 3, 7] {
-        sets[i] = random.set(1e20, 0.0);
-    }
-    assert_eq!(LightMoments::merge(&sets), expected);
-    assert_eq!(
-        LightMoments::merge(&[random.set(1.0, 0.0); 8]),
-        LightMoments::EMPTY
-    );
-}
-
 #[test]
 fn one_set_alone_stays_as_it_is() {
     let mut random = Random(5);
@@ -150,23 +131,26 @@ fn moments_of_triangles_are_the_integrals() {
             mesh: 0,
             flags,
         };
-        let (p0, a, b) = (Wide::of(at), Wide::of(b - at), Wide::of(c - at));
-        let (cross, mean) = (a.cross(b), (a + b) / 3.0);
-        let longest = a.dot(a).max(b.dot(b));
-        let squares = mean.dot(mean) + (a - mean).dot(a - mean) + (b - mean).dot(b - mean);
+        let (p0, a, b) = (wide(at), wide(b - at), wide(c - at));
+        let normal = cross(a, b);
+        let length = dot(normal, normal).sqrt();
+        let mean = [0, 1, 2].map(|k| (a[k] + b[k]) / 3.0);
+        let longest = dot(a, a).max(dot(b, b));
+        let offsets = [mean, minus(a, mean), minus(b, mean)];
+        let squares: f64 = offsets.iter().map(|&d| dot(d, d)).sum();
         let deviation = (squares / 24.0).sqrt();
         let luminance = 0.2126 * f64::from(radiance[0]) + 0.7152 * 2.0 + 0.0722 * f64::from(radiance[2]);
         let sides = if flags == 0 { 1.0 } else { 2.0 };
         let expected = Exact {
-            phi: core::f64::consts::FRAC_PI_2 * cross.length() * luminance * sides,
-            c: p0 + mean,
+            phi: core::f64::consts::FRAC_PI_2 * length * luminance * sides,
+            c: [0, 1, 2].map(|k| p0[k] + mean[k]),
             across: deviation,
             along: if flags == 0 { 0.0 } else { deviation },
-            m: if flags == 0 { cross.normalize() } else { Wide::ZERO },
-            h: mean.abs().max((a - mean).abs()).max((b - mean).abs()),
+            m: if flags == 0 { normalize(normal) } else { [0.0; 3] },
+            h: [0, 1, 2].map(|k| offsets.iter().fold(0.0, |most, d| d[k].abs().max(most))),
         };
         // Rounding turns the normals of needles.
-        if cross.length() > 0.1 * longest {
+        if length > 0.1 * longest {
             alike(&LightMoments::of_triangle(&triangle), &expected, f64::from(size));
         }
     }
@@ -269,15 +253,8 @@ fn sets_without_flux_do_not_matter() {
             }
         }
         assert_eq!(LightMoments::merge(&plain), LightMoments::merge(&dirty));
-        let node = |sets: &[LightMoments; 8]| {
-            let mut node = MomentNode::<8>::EMPTY;
-            for slot in 0..8 {
-                node.set_child(slot, kind::LIGHT, slot as u32);
-            }
-            node.set_summaries(sets);
-            node
-        };
-        assert_eq!(node(&plain), node(&dirty));
+        assert_eq!(LightMoments::merge(&[garbage; 8]), LightMoments::EMPTY);
+        assert_eq!(node::<MomentNode<8>>(&plain), node(&dirty));
     }
 }
 
@@ -305,11 +282,7 @@ fn flux_stays_in_its_range() {
     for phi in [most, most * 0.99] {
         set.phi = phi;
         assert_eq!(LightMoments::merge(&[set; 8]).phi, most);
-        let mut node = MomentNode::<8>::EMPTY;
-        for slot in 0..8 {
-            node.set_child(slot, kind::LIGHT, slot as u32);
-        }
-        node.set_summaries(&[set; 8]);
+        let node: MomentNode<8> = node(&[set; 8]);
         for slot in 0..8 {
             assert_eq!(node.summary(slot).phi, most, "{slot}");
         }

@@ -1,11 +1,11 @@
 //! A receiver that also mirrors.
 
 use bytemuck::{Pod, Zeroable};
-use glam::Vec3;
 
 use super::{PointError, Receiver, ShadingPoint};
 use crate::exact;
 use crate::instance::Instance;
+use crate::vector::vector;
 
 /// Greatest exponent of a lobe.
 const MAX_EXPONENT: f32 = 65_536.0;
@@ -64,7 +64,7 @@ impl Receiver for GlossyPoint {
     /// The mirror direction as a difference of points: under a map that bends angles the lobe is another, which costs variance.
     #[inline(always)]
     fn to_local(&self, instance: &Instance) -> Self {
-        let mirror = Vec3::new(self.mirror[0], self.mirror[1], self.mirror[2]);
+        let mirror = vector(&self.mirror);
         Self {
             point: instance.to_local(&self.point),
             mirror: instance.direction_to_local(mirror).to_array(),

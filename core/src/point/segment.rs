@@ -7,7 +7,7 @@ use super::{PointError, Receiver, ShadingPoint};
 use crate::exact::{self, div, pow2};
 use crate::instance::Instance;
 use crate::light::MIN_OFFSET;
-use crate::vector::{abs3, flush3, greatest_exponent, length_squared, max3};
+use crate::vector::{abs3, flush3, greatest_exponent, length_squared, max3, vector};
 
 /// A piece of a ray through a volume, from one point to another: light reaches it everywhere. What
 /// [`Subtended`](crate::importance::Subtended) is told to choose a light by; [`sample`](Self::sample) then chooses a distance for that light.
@@ -77,8 +77,8 @@ impl RaySegment {
     #[inline]
     #[must_use]
     pub fn at(&self, part: f32) -> [f32; 3] {
-        let from = flush3(vector(self.from) * (1.0 - part), MIN_OFFSET);
-        let p = from + flush3(vector(self.to) * part, MIN_OFFSET);
+        let from = flush3(vector(&self.from) * (1.0 - part), MIN_OFFSET);
+        let p = from + flush3(vector(&self.to) * part, MIN_OFFSET);
         [p.x, p.y, p.z]
     }
 
@@ -138,12 +138,12 @@ impl RaySegment {
 
     #[inline(always)]
     fn view(&self, center: Vec3) -> View {
-        let (start, end) = (vector(self.from) - center, vector(self.to) - center);
+        let (start, end) = (vector(&self.from) - center, vector(&self.to) - center);
         let exponent = greatest_exponent(max3(abs3(start), abs3(end)), LEAST_EXPONENT);
         let to_one = pow2(-exponent);
         View {
             start: start * to_one,
-            chord: (vector(self.to) - vector(self.from)) * to_one,
+            chord: (vector(&self.to) - vector(&self.from)) * to_one,
             exponent,
         }
     }
@@ -204,9 +204,4 @@ impl Receiver for RaySegment {
             to: instance.to_local(&to).p,
         }
     }
-}
-
-#[inline(always)]
-fn vector(v: [f32; 3]) -> Vec3 {
-    Vec3::new(v[0], v[1], v[2])
 }

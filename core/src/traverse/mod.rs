@@ -24,17 +24,22 @@ pub use sample::SampledLight;
 
 use crate::importance::ImportanceModel;
 use crate::node::Node;
-use crate::point::{Receiver, ShadingPoint};
+use crate::point::Receiver;
 use crate::tree::LightTree;
 
-impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N, I, W> {
-    /// Chooses one light for `point` by `random` (paper section 3.6), after at most as many steps as the tree is deep.
+impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
+    /// Chooses one light for `point` by `random` (paper section 3.6), after at most as many steps as the tree is deep. `point` is
+    /// a [`ShadingPoint`](crate::ShadingPoint), or a receiver of which the importance knows more, as
+    /// [`Glossy`](crate::importance::Glossy) does of a [`GlossyPoint`](crate::point::GlossyPoint).
     ///
     /// A light is returned whenever one has flux. The pmf is to the bit the one that [`pmf`](Self::pmf) gives for the light, and
     /// the share of random numbers that choose it.
     #[inline(always)]
     #[must_use]
-    pub fn sample(&self, point: &ShadingPoint, random: impl Into<Random64>) -> SampledLight {
+    pub fn sample<P: Receiver>(&self, point: &P, random: impl Into<Random64>) -> SampledLight
+    where
+        I: ImportanceModel<N, W, P>,
+    {
         widest::sample(self, point, random.into())
     }
 
@@ -42,7 +47,10 @@ impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N, I, W
     /// faster: several walks hide each other's waits for memory. `points`, `randoms` and `sampled` are of one length; what is
     /// longer is left alone.
     #[inline(always)]
-    pub fn sample_batch(&self, points: &[ShadingPoint], randoms: &[Random64], sampled: &mut [SampledLight]) {
+    pub fn sample_batch<P: Receiver>(&self, points: &[P], randoms: &[Random64], sampled: &mut [SampledLight])
+    where
+        I: ImportanceModel<N, W, P>,
+    {
         widest::sample_batch(self, points, randoms, sampled);
     }
 
@@ -54,11 +62,14 @@ impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N, I, W
     /// is smaller as a rule, for the numbers are in the order of lights. At most `COUNT` nodes are evaluated on each level.
     #[inline(always)]
     #[must_use]
-    pub fn sample_many<const COUNT: usize>(
+    pub fn sample_many<P: Receiver, const COUNT: usize>(
         &self,
-        point: &ShadingPoint,
+        point: &P,
         random: impl Into<Random64>,
-    ) -> [SampledLight; COUNT] {
+    ) -> [SampledLight; COUNT]
+    where
+        I: ImportanceModel<N, W, P>,
+    {
         // All walks are on the stack.
         const { assert!(COUNT > 0 && COUNT <= 256, "1 to 256") };
         widest::sample_many(self, point, random.into())
@@ -68,14 +79,16 @@ impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N, I, W
     /// [`random.spaced(first + k, count)`](Random64::spaced), with that pmf. As [`sample_many`](Self::sample_many), where the number of
     /// lights is known at run time alone; each 32 share their nodes.
     #[inline(always)]
-    pub fn sample_spaced(
+    pub fn sample_spaced<P: Receiver>(
         &self,
-        point: &ShadingPoint,
+        point: &P,
         random: impl Into<Random64>,
         first: u32,
         count: u32,
         sampled: &mut [SampledLight],
-    ) {
+    ) where
+        I: ImportanceModel<N, W, P>,
+    {
         widest::sample_spaced(self, point, random.into(), first, count, sampled);
     }
 
@@ -83,59 +96,10 @@ impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N, I, W
     /// at `point`: 0 if there is no such light. A single level has one instance, whichever is named.
     #[inline(always)]
     #[must_use]
-    pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
+    pub fn pmf<P: Receiver>(&self, point: &P, light: u32, instance: u32) -> f32
+    where
+        I: ImportanceModel<N, W, P>,
+    {
         widest::pmf(self, point, light, instance)
-    }
-}
-
-impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
-    /// [`sample`](Self::sample) for a receiver of which an importance may know more than a [`ShadingPoint`] says, as
-    /// [`Glossy`](crate::importance::Glossy) does of a [`GlossyPoint`](crate::point::GlossyPoint). For a `ShadingPoint` to the same bits.
-    #[inline]
-    #[must_use]
-    pub fn sample_for<P: Receiver>(&self, receiver: &P, random: impl Into<Random64>) -> SampledLight
-    where
-        I: ImportanceModel<N, W, P>,
-    {
-        sample::sample(self, receiver, random.into())
-    }
-
-    /// [`sample_batch`](Self::sample_batch) for such receivers, to the words of [`sample_for`](Self::sample_for).
-    #[inline]
-    pub fn sample_batch_for<P: Receiver>(
-        &self,
-        receivers: &[P],
-        randoms: &[Random64],
-        sampled: &mut [SampledLight],
-    ) where
-        I: ImportanceModel<N, W, P>,
-    {
-        batch::sample_batch(self, receivers, randoms, sampled);
-    }
-
-    /// [`sample_many`](Self::sample_many) for such a receiver, to the words of [`sample_for`](Self::sample_for).
-    #[inline]
-    #[must_use]
-    pub fn sample_many_for<P: Receiver, const COUNT: usize>(
-        &self,
-        receiver: &P,
-        random: impl Into<Random64>,
-    ) -> [SampledLight; COUNT]
-    where
-        I: ImportanceModel<N, W, P>,
-    {
-        const { assert!(COUNT > 0 && COUNT <= 256, "1 to 256") };
-        many::sample_many(self, receiver, random.into())
-    }
-
-    /// The probability with which [`sample_for`](Self::sample_for) returns light `light` of instance `instance`: as
-    /// [`pmf`](Self::pmf).
-    #[inline]
-    #[must_use]
-    pub fn pmf_for<P: Receiver>(&self, receiver: &P, light: u32, instance: u32) -> f32
-    where
-        I: ImportanceModel<N, W, P>,
-    {
-        sample::pmf(self, receiver, light, instance)
     }
 }

@@ -198,15 +198,15 @@ fn candidates_are_samples_of_their_numbers() {
     for seed in 0..200_u32 {
         let random = Random64::from(crate::exact::hash(seed));
         NODES.set(0);
-        let many = tree.sample_many::<16>(&POINT, random);
+        let many = tree.sample_many::<_, 16>(&POINT, random);
         for (k, found) in (0..).zip(many) {
             NODES.set(0);
             assert_eq!(found, tree.sample(&POINT, random.spaced(k, 16)), "{k} of {seed}");
         }
         // The four nodes, for all sixteen.
-        assert_eq!(nodes_of(|| tree.sample_many::<16>(&POINT, random)), 4);
+        assert_eq!(nodes_of(|| tree.sample_many::<_, 16>(&POINT, random)), 4);
         assert_eq!(
-            tree.sample_many::<1>(&POINT, random),
+            tree.sample_many::<_, 1>(&POINT, random),
             [tree.sample(&POINT, random)]
         );
     }
@@ -225,7 +225,7 @@ fn candidates_are_samples_of_their_numbers() {
     for seed in 0..200_u32 {
         let random = Random64::from(crate::exact::hash(seed));
         NODES.set(0);
-        for (k, found) in (0..).zip(ring.sample_many::<32>(&POINT, random)) {
+        for (k, found) in (0..).zip(ring.sample_many::<_, 32>(&POINT, random)) {
             NODES.set(0);
             let expected = ring.sample(&POINT, random.spaced(k, 32));
             assert_eq!(

@@ -4,14 +4,14 @@
 mod dispatched {
     use crate::importance::ImportanceModel;
     use crate::node::Node;
-    use crate::point::ShadingPoint;
+    use crate::point::Receiver;
     use crate::traverse::{Random64, SampledLight, batch, many, sample};
     use crate::tree::LightTree;
     use crate::widest::widest;
 
-    pub fn sample<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(
+    pub fn sample<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
         tree: &LightTree<'_, N, I, W>,
-        point: &ShadingPoint,
+        point: &P,
         random: Random64,
     ) -> SampledLight {
         widest(
@@ -20,9 +20,9 @@ mod dispatched {
         )
     }
 
-    pub fn pmf<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(
+    pub fn pmf<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
         tree: &LightTree<'_, N, I, W>,
-        point: &ShadingPoint,
+        point: &P,
         light: u32,
         instance: u32,
     ) -> f32 {
@@ -32,9 +32,15 @@ mod dispatched {
         )
     }
 
-    pub fn sample_many<N: Node<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
+    pub fn sample_many<
+        N: Node<W>,
+        I: ImportanceModel<N, W, P>,
+        P: Receiver,
+        const W: usize,
+        const COUNT: usize,
+    >(
         tree: &LightTree<'_, N, I, W>,
-        point: &ShadingPoint,
+        point: &P,
         random: Random64,
     ) -> [SampledLight; COUNT] {
         widest(
@@ -43,9 +49,9 @@ mod dispatched {
         )
     }
 
-    pub fn sample_spaced<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(
+    pub fn sample_spaced<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
         tree: &LightTree<'_, N, I, W>,
-        point: &ShadingPoint,
+        point: &P,
         random: Random64,
         first: u32,
         count: u32,
@@ -57,9 +63,9 @@ mod dispatched {
         );
     }
 
-    pub fn sample_batch<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(
+    pub fn sample_batch<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
         tree: &LightTree<'_, N, I, W>,
-        points: &[ShadingPoint],
+        points: &[P],
         randoms: &[Random64],
         sampled: &mut [SampledLight],
     ) {

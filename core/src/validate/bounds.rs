@@ -24,20 +24,7 @@ pub(crate) fn same<N: Node<W>, const W: usize>(index: u32, expected: &N, found: 
             )?;
         }
     }
-    let words = |node: &N, i: usize| {
-        let bytes = bytemuck::bytes_of(node);
-        u32::from_ne_bytes([bytes[4 * i], bytes[4 * i + 1], bytes[4 * i + 2], bytes[4 * i + 3]])
-    };
-    for i in 0..size_of::<N>() / 4 {
-        equal(
-            index,
-            INVALID,
-            What::Word(i as u32),
-            words(expected, i),
-            words(found, i),
-        )?;
-    }
-    Ok(())
+    same_words(index, INVALID, expected, found)
 }
 
 /// Checks that two records have the same words; the first that differs is named by its place.

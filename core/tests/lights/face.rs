@@ -336,37 +336,3 @@ fn a_mirrored_lamp_shines_to_its_mirrored_side() {
         assert!(normal(&bvh) * side * before > 0.0, "{diagonal:?}");
     }
 }
-
-/// The recipe for multiple importance sampling holds in a single level too.
-#[test]
-fn a_single_level_has_one_instance_whichever_is_named() {
-    let lights = Lights::new(vec![lamp(0), lamp(0)]).expect("lights");
-    let bvh = LightBvh::single_level(&lights, &Default::default());
-    let id = bvh.instance_id(0).expect("the one");
-    let first = bvh.lights_of(id).expect("there").start;
-    for k in 0..2 {
-        let pmf = bvh.pmf(&POINT, first + k, id.index());
-        assert!(pmf > 0.0);
-        assert_eq!(pmf, bvh.pmf(&POINT, first + k, INVALID));
-    }
-    assert_eq!(bvh.pmf(&POINT, 2, id.index()), 0.0);
-}
-
-/// Lights of another instance are not this one's.
-#[test]
-fn a_light_has_the_triangle_of_its_own_instance_alone() {
-    let mut bvh = LightBvh::default();
-    let mesh = bvh.add_mesh(vec![lamp(0), lamp(0)]).expect("a mesh");
-    let ids = [0.0, 5.0].map(|x| {
-        bvh.add_instance(mesh, Transform::at([x, 0.0, 0.0]))
-            .expect("there")
-    });
-    bvh.refit();
-    for (k, &id) in ids.iter().enumerate() {
-        let own = bvh.lights_of(id).expect("there");
-        for light in 0..8 {
-            let found = bvh.tree().triangle(bvh.triangles(), light, id.index());
-            assert_eq!(found.radiance != [0.0; 3], own.contains(&light), "{light} of {k}");
-        }
-    }
-}

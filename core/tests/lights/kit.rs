@@ -1,7 +1,9 @@
 //! Numbers that look random and are the same in every run, vectors in `f64`, a room, variances in it.
 
 use lightbvh::exact::{hash, unit_f32};
-use lightbvh::importance::{ImportanceModel, Receiver};
+use lightbvh::importance::{ImportanceModel, Linked, LinkedPoint, Receiver};
+use lightbvh::light::LinkedTriangle;
+use lightbvh::node::{LinkedMomentNode, Lit};
 use lightbvh::{BuildParams, Bvh, EmissiveTriangle, LightNode, Lights, Transform};
 
 /// Hashes of 1, 2, 3 and so on after its seed.
@@ -66,6 +68,33 @@ pub fn cross(a: Wide, b: Wide) -> Wide {
         a[2] * b[0] - a[0] * b[2],
         a[0] * b[1] - a[1] * b[0],
     ]
+}
+
+/// Twice a triangle's area times its normal, and the middles of `N`² pieces of it.
+pub fn pieces<const N: usize>(triangle: &EmissiveTriangle) -> (Wide, Vec<Wide>) {
+    let v = triangle.p.map(wide);
+    let (a, b) = (minus(v[1], v[0]), minus(v[2], v[0]));
+    let middle = |i: usize| {
+        let (mut s, mut t) = (
+            ((i / N) as f64 + 0.4) / N as f64,
+            ((i % N) as f64 + 0.5) / N as f64,
+        );
+        // Pieces of a square, the upper half of which is the lower one turned.
+        if s + t > 1.0 {
+            (s, t) = (1.0 - s, 1.0 - t);
+        }
+        core::array::from_fn(|k| v[0][k] + a[k] * s + b[k] * t)
+    };
+    (cross(a, b), (0..N * N).map(middle).collect())
+}
+
+/// What of a cosine at its front a triangle emits by.
+pub fn emitted(triangle: &EmissiveTriangle, cosine: f64) -> f64 {
+    if triangle.is_two_sided() {
+        cosine.abs()
+    } else {
+        cosine.max(0.0)
+    }
 }
 
 /// 200 triangles of up to half a metre in a room of 10 m, in four meshes.
@@ -133,7 +162,7 @@ where
         let (mut mean, mut square, mut sum) = (0.0, 0.0, 0.0);
         for (light, triangle) in (0..).zip(lights.triangles()) {
             let instance = if two { triangle.mesh } else { 0 };
-            let pmf = f64::from(bvh.tree().pmf_for(&told, light, instance));
+            let pmf = f64::from(bvh.tree().pmf(&told, light, instance));
             let f = received(triangle);
             assert!(pmf > 0.0 || f == 0.0, "{light} is lost at receiver {index}");
             mean += f;
@@ -148,4 +177,31 @@ where
     }
     assert!(reached > 0.9 * f64::from(count), "{reached}");
     all / reached
+}
+
+type LinkedNode = Lit<LinkedMomentNode<8>, LinkedTriangle>;
+
+/// Of the lights of a room, every third has a bit of the receiver, and it alone a probability.
+pub fn masks_go_with<I, P: Receiver>(random: &mut Random, point: impl Fn(&mut Random) -> P)
+where
+    Linked<I>: ImportanceModel<LinkedNode, 8, LinkedPoint<P>>,
+{
+    let own = room(random);
+    let linked = own.triangles().iter().zip(0..).map(|(&light, k)| LinkedTriangle {
+        light,
+        mask: 1 << (k % 3),
+    });
+    let linked = Lights::new(linked.collect()).expect("in the domain");
+    let bvh = Bvh::<LinkedNode, Linked<I>, 8>::two_level(&linked, &BuildParams::default());
+    let receiver = LinkedPoint {
+        point: point(random),
+        mask: 0b100,
+    };
+    let mut sum = 0.0;
+    for (light, own) in (0..).zip(own.triangles()) {
+        let pmf = bvh.tree().pmf(&receiver, light, own.mesh);
+        assert_eq!(pmf > 0.0, light % 3 == 2);
+        sum += f64::from(pmf);
+    }
+    assert!((sum - 1.0).abs() < 1e-5, "{sum}");
 }

@@ -4,6 +4,7 @@
 #![allow(clippy::disallowed_methods, reason = "nothing here is shared with devices")]
 
 mod face;
+mod glossy;
 mod kinds;
 mod kit;
 mod linked;

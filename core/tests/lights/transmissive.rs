@@ -1,43 +1,26 @@
 //! A surface that light reaches from both sides, against sums over all lights in `f64`.
 
-use crate::kit::{self, Random, Wide, cross, dot, minus, room, rooms, wide};
+use crate::kit::{self, Random, dot, minus, room, rooms, wide};
 use lightbvh::error::PointError;
 use lightbvh::exact::hash;
-use lightbvh::importance::{ImportanceModel, Linked, LinkedPoint, Transmissive, TransmissivePoint};
-use lightbvh::light::LinkedTriangle;
-use lightbvh::node::{LinkedMomentNode, Lit};
+use lightbvh::importance::{ImportanceModel, Transmissive, TransmissivePoint};
 use lightbvh::{
-    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, LightNode, Lights, MomentNode, Moments,
+    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, LightNode, MomentNode, Moments,
     Receiver, ShadingPoint,
 };
 
 /// Irradiance, W/m², of both sides of a surface at `p` by a triangle: the integral over it, by `N`² pieces.
 fn irradiance<const N: usize>(triangle: &EmissiveTriangle, point: &ShadingPoint) -> [f64; 2] {
-    let v = triangle.p.map(wide);
-    let (a, b) = (minus(v[1], v[0]), minus(v[2], v[0]));
-    // Twice the area times the normal.
-    let across = cross(a, b);
+    let (across, places) = kit::pieces::<N>(triangle);
     let (p, n) = (wide(point.p), wide(point.n));
     let mut sides = [0.0; 2];
-    for i in 0..N {
-        for j in 0..N {
-            // Pieces of a square, the upper half of which is the lower one turned.
-            let (mut s, mut t) = ((i as f64 + 0.4) / N as f64, (j as f64 + 0.5) / N as f64);
-            if s + t > 1.0 {
-                (s, t) = (1.0 - s, 1.0 - t);
-            }
-            let to: Wide = core::array::from_fn(|k| v[0][k] + a[k] * s + b[k] * t - p[k]);
-            let d2 = dot(to, to);
-            let emitted = -dot(across, to);
-            let emitted = if triangle.is_two_sided() {
-                emitted.abs()
-            } else {
-                emitted.max(0.0)
-            };
-            let received = dot(n, to);
-            let sent = f64::from(triangle.radiance[0]) * 0.5 * emitted * received.abs() / (d2 * d2);
-            sides[usize::from(received < 0.0)] += sent / (N * N) as f64;
-        }
+    for place in places {
+        let to = minus(place, p);
+        let d2 = dot(to, to);
+        let emitted = kit::emitted(triangle, -dot(across, to));
+        let received = dot(n, to);
+        let sent = f64::from(triangle.radiance[0]) * 0.5 * emitted * received.abs() / (d2 * d2);
+        sides[usize::from(received < 0.0)] += sent / (N * N) as f64;
     }
     sides
 }
@@ -112,7 +95,7 @@ fn a_part_of_one_side_is_that_side_to_the_bit() {
         let mut receiver = surface(random, [0.3, 0.0]);
         let number = hash(k);
         assert_eq!(
-            bvh.sample_for(&receiver, number),
+            bvh.sample(&receiver, number),
             plain.sample(&receiver.point, number)
         );
         receiver.point.n = receiver.point.n.map(|x| -x);
@@ -124,10 +107,7 @@ fn a_part_of_one_side_is_that_side_to_the_bit() {
             front: 0.0,
             back: 0.7,
         };
-        assert_eq!(
-            bvh.sample_for(&behind, number),
-            plain.sample(&receiver.point, number)
-        );
+        assert_eq!(bvh.sample(&behind, number), plain.sample(&receiver.point, number));
     }
 }
 
@@ -145,8 +125,8 @@ fn no_part_at_all_counts_both_alike() {
         ..receiver
     };
     for light in 0..200 {
-        let pmf = bvh.tree().pmf_for(&receiver, light, 0);
-        assert_eq!(pmf.to_bits(), bvh.tree().pmf_for(&alike, light, 0).to_bits());
+        let pmf = bvh.tree().pmf(&receiver, light, 0);
+        assert_eq!(pmf.to_bits(), bvh.tree().pmf(&alike, light, 0).to_bits());
         assert!(pmf > 0.0);
     }
 }
@@ -205,7 +185,7 @@ fn estimates_converge() {
         let expected: f64 = f.iter().sum();
         let mut square = 0.0;
         for ((light, own), f) in (0..).zip(&world).zip(&f) {
-            let pmf = f64::from(bvh.tree().pmf_for(&receiver, light, own.mesh));
+            let pmf = f64::from(bvh.tree().pmf(&receiver, light, own.mesh));
             assert!(pmf > 0.0);
             square += f * f / pmf;
         }
@@ -213,7 +193,7 @@ fn estimates_converge() {
         let mut mean = 0.0;
         for _ in 0..SAMPLES {
             random.0 = random.0.wrapping_add(1);
-            let sampled = bvh.sample_for(&receiver, hash(random.0));
+            let sampled = bvh.sample(&receiver, hash(random.0));
             mean += f[sampled.light as usize] / f64::from(sampled.pmf) / f64::from(SAMPLES);
         }
         assert!(
@@ -226,28 +206,7 @@ fn estimates_converge() {
 /// Masks and both sides together.
 #[test]
 fn masks_go_with_it() {
-    type Tree = Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Transmissive<Moments>>, 8>;
-    let random = &mut Random(8);
-    let own = room(random);
-    let linked = own.triangles().iter().zip(0..).map(|(&light, k)| LinkedTriangle {
-        light,
-        mask: 1 << (k % 3),
-    });
-    let bvh = Tree::two_level(
-        &Lights::new(linked.collect()).expect("in the domain"),
-        &BuildParams::default(),
-    );
-    let receiver = LinkedPoint {
-        point: surface(random, [0.4, 0.6]),
-        mask: 0b100,
-    };
-    let mut sum = 0.0;
-    for (light, own) in (0..).zip(own.triangles()) {
-        let pmf = bvh.tree().pmf_for(&receiver, light, own.mesh);
-        assert_eq!(pmf > 0.0, light % 3 == 2);
-        sum += f64::from(pmf);
-    }
-    assert!((sum - 1.0).abs() < 1e-5, "{sum}");
+    kit::masks_go_with::<Transmissive<Moments>, _>(&mut Random(8), |random| surface(random, [0.4, 0.6]));
 }
 
 #[test]

@@ -48,7 +48,7 @@ pub struct LinkedQuery {
 }
 
 impl LinkedQuery {
-    /// Asks for what `LightTree::sample_for(receiver, random)` gives.
+    /// Asks for what `LightTree::sample(receiver, random)` gives.
     #[must_use]
     pub fn sample(receiver: LinkedPoint<ShadingPoint>, random: impl Into<Random64>) -> Self {
         let LinkedPoint { point, mask } = receiver;
@@ -56,7 +56,7 @@ impl LinkedQuery {
         Self { point, mask, words }
     }
 
-    /// Asks for what `LightTree::pmf_for(receiver, light, instance)` gives.
+    /// Asks for what `LightTree::pmf(receiver, light, instance)` gives.
     #[must_use]
     pub fn pmf(receiver: LinkedPoint<ShadingPoint>, light: u32, instance: u32) -> Self {
         let LinkedPoint { point, mask } = receiver;

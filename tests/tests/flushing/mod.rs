@@ -87,13 +87,13 @@ where
 {
     let tree = bvh.by::<I>();
     let [high, low, third, fourth] = numbers;
-    let sample = tree.sample_for(receiver, Random64 { high, low });
+    let sample = tree.sample(receiver, Random64 { high, low });
     let mut all = words(&[sample]);
     if let Some(id) = bvh.instances().len().checked_sub(1) {
         let instance = third % (id as u32 + 1);
         let of = &bvh.instances()[instance as usize];
         all.push(
-            tree.pmf_for(receiver, of.first + fourth % of.count.max(1), instance)
+            tree.pmf(receiver, of.first + fourth % of.count.max(1), instance)
                 .to_bits(),
         );
     }

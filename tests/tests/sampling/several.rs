@@ -128,7 +128,7 @@ fn candidates_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, cons
         point: &ShadingPoint,
         number: Random64,
     ) {
-        let many = bvh.sample_many::<COUNT>(point, number);
+        let many = bvh.sample_many::<_, COUNT>(point, number);
         for (k, found) in (0..).zip(many) {
             let expected = bvh.sample(point, number.spaced(k, COUNT as u32));
             assert_eq!(found, expected, "{k} of {COUNT}");

@@ -139,39 +139,3 @@ fn as_much_comes_as_goes() {
     let all = [uniform, equal, powers, skewed, meshes];
     assert!(all.iter().all(|&ratio| ratio < 1.5), "{all:?}");
 }
-
-/// Robson's sequence: ever longer ranges, of which one is kept in each stretch that the next length needs. No rule of fit that
-/// moves nothing keeps the space near what is live; first fit keeps to his bound for it.
-#[test]
-fn the_worst_is_what_theory_says() {
-    let live = 1 << 16;
-    let longest = 12;
-    let mut ranges = Ranges::default();
-    let mut held: Vec<Range<u32>> = (0..live).map(|_| ranges.take(1)).collect();
-    let mut offset = 0;
-    for i in 1..=longest {
-        let step = 1_u32 << i;
-        // The offset of the two that most ranges touch.
-        let touch = |range: &Range<u32>, offset: u32| {
-            let first = range.start.wrapping_sub(offset).wrapping_add(step - 1) / step * step;
-            first.wrapping_add(offset) < range.end
-        };
-        let other = offset + step / 2;
-        let count = |offset: u32| held.iter().filter(|range| touch(range, offset)).count();
-        if count(other) > count(offset) {
-            offset = other;
-        }
-        held.retain(|range| {
-            let keep = touch(range, offset);
-            if !keep {
-                ranges.give(range.clone());
-            }
-            keep
-        });
-        let used: usize = held.iter().map(ExactSizeIterator::len).sum();
-        let more = (live as usize - used) / step as usize;
-        held.extend((0..more).map(|_| ranges.take(step)));
-    }
-    let ratio = f64::from(ranges.end()) / f64::from(live);
-    assert!(ratio > 1.5 && ratio <= f64::from(longest), "{ratio}");
-}

@@ -7,7 +7,6 @@
 
 mod error;
 mod header;
-mod places;
 mod read;
 mod restore;
 #[cfg(test)]
@@ -18,25 +17,11 @@ mod write;
 pub use error::ReadError;
 pub use header::FORMAT;
 
-use alloc::vec::Vec;
-
 use self::words::Words;
 use super::Bvh;
 use crate::node::Node;
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
-    /// The BVH as words, which [`from_words`](Self::from_words) reads; a file holds them in little-endian order. They name the
-    /// layout `N` and the width `W`, not the importance `I`, of which no word depends. Takes time and memory in proportion to
-    /// the arrays.
-    ///
-    /// Nothing is refitted here, and nothing need be: where edits wait for their refit, what is read has been refitted, and may
-    /// be once more. Trees that later edits build are then as good, but not the same word for word as those of the original,
-    /// which built them before its refit: refit first where that matters.
-    #[must_use]
-    pub fn to_words(&self) -> Vec<u32> {
-        self.written()
-    }
-
     /// Reads what [`to_words`](Self::to_words) wrote. The BVH goes on as the one that was written: the same samples and pmfs,
     /// and after the same edits, refits and rebuilds the same words if it was refitted when it was written. Places of its
     /// arrays that are not in use hold the words of nothing.

@@ -4,8 +4,7 @@ use alloc::vec::Vec;
 
 use super::error::ReadError;
 use super::header::Header;
-use super::places::{read_indices, read_range, read_ranges, taken};
-use super::words::Words;
+use super::words::{Words, taken};
 use crate::bvh::check::factor;
 use crate::bvh::powers::Powers;
 use crate::bvh::records::Mesh;
@@ -25,7 +24,11 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         bvh.bottom_depth = header.bottom_depth;
         bvh.read_meshes(words, &header)?;
         bvh.read_instances(words, &header)?;
-        bvh.removed_lights = read_ranges(words, header.removed, header.lights, "removed lights")?;
+        words.need(header.removed)?;
+        for _ in 0..header.removed {
+            let range = words.range(header.lights, "removed lights")?;
+            bvh.removed_lights.push(range);
+        }
         words.expect(!header.forgotten || header.removed > 0, "removed lights")?;
         bvh.read_top(words, &header)?;
         let count = words.need(header.nodes)?;
@@ -59,7 +62,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 let is_range = start < end && end <= room && room <= header.nodes;
                 words.expect(is_range, "nodes of a mesh")?;
                 (mesh.nodes, mesh.room) = (start..end, room);
-                mesh.triangles = read_range(words, header.triangles, "triangles of a mesh")?;
+                mesh.triangles = words.range(header.triangles, "triangles of a mesh")?;
                 let reshaped = words.one()?;
                 words.expect(reshaped < 2, "whether a mesh changed")?;
                 if reshaped == 1 {
@@ -118,9 +121,14 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     fn read_top(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
         let mut top = Top {
             root: header.top_root,
-            free: read_indices(words, header.top_free, header.top_nodes, "free node")?,
             ..Top::default()
         };
+        words.need(header.top_free)?;
+        for _ in 0..header.top_free {
+            let index = words.one()?;
+            words.expect(index < header.top_nodes, "free node")?;
+            top.free.push(index);
+        }
         words.need(header.opened)?;
         let mut places = Vec::new();
         for _ in 0..header.opened {

@@ -5,7 +5,7 @@ use core::ops::Range;
 
 use super::error::ReadError;
 use super::header::Header;
-use super::places::taken;
+use super::words::taken;
 use crate::bvh::Bvh;
 use crate::bvh::apply::NO_INSTANCE;
 use crate::bvh::log::Log;

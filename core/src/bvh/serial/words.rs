@@ -1,6 +1,10 @@
 //! Words one after another.
 
+use alloc::vec::Vec;
+use core::ops::Range;
+
 use super::error::ReadError;
+use crate::bvh::ranges::Ranges;
 
 /// Words that are read in order, never beyond their end.
 #[derive(Debug)]
@@ -33,6 +37,13 @@ impl<'a> Words<'a> {
     /// The next one.
     pub fn one(&mut self) -> Result<u32, ReadError> {
         self.array::<1>().map(|[word]| word)
+    }
+
+    /// A range of at least one of `end`.
+    pub fn range(&mut self, end: u32, what: &'static str) -> Result<Range<u32>, ReadError> {
+        let [from, to] = self.array()?;
+        self.expect(from < to && to <= end, what)?;
+        Ok(from..to)
     }
 
     /// `Ok` where at least `count` words are left, so that memory for as many things may be taken.
@@ -78,4 +89,9 @@ impl<'a> Words<'a> {
             found: self.all.len(),
         }
     }
+}
+
+/// The index space of which `used` is in use.
+pub(super) fn taken(end: u32, used: Vec<Range<u32>>, what: &'static str) -> Result<Ranges, ReadError> {
+    Ranges::taken(end, used).ok_or(ReadError::Places { what })
 }

@@ -9,7 +9,15 @@ use crate::node::{Node, kind};
 use crate::tree::INVALID;
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
-    pub(super) fn written(&self) -> Vec<u32> {
+    /// The BVH as words, which [`from_words`](Self::from_words) reads; a file holds them in little-endian order. They name the
+    /// layout `N` and the width `W`, not the importance `I`, of which no word depends. Takes time and memory in proportion to
+    /// the arrays.
+    ///
+    /// Nothing is refitted here, and nothing need be: where edits wait for their refit, what is read has been refitted, and may
+    /// be once more. Trees that later edits build are then as good, but not the same word for word as those of the original,
+    /// which built them before its refit: refit first where that matters.
+    #[must_use]
+    pub fn to_words(&self) -> Vec<u32> {
         let header = Header {
             params: self.params,
             single: self.single,

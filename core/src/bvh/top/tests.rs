@@ -77,6 +77,9 @@ where
         opened += bvh.top.opened.values().filter(|own| own.first != INVALID).count();
     }
     assert!((7..60).contains(&wholes) && opened > 100, "{wholes} {opened}");
+    let read = Bvh::<N, I, W>::from_words(&bvh.to_words()).expect("its own words");
+    assert!(read.to_words() == bvh.to_words());
+    assert_eq!(sound_samples(&read), sound_samples(&bvh));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::exact::{self, pow2};
 use crate::importance::Math;
 use crate::point::RaySegment;
-use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, length_squared, max3};
+use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, length_squared, max3, vector};
 
 /// What the arc of the tangent x is taken as, up to 1: x/(1 + BEND x²).
 const BEND: f32 = 0.28;
@@ -29,8 +29,8 @@ impl Line {
     #[inline(always)]
     pub fn of(segment: &RaySegment, center: Vec3, size: Vec3) -> Self {
         let (from, to) = (&segment.from, &segment.to);
-        let a = Vec3::new(from[0], from[1], from[2]) - center;
-        let b = Vec3::new(to[0], to[1], to[2]) - center;
+        let a = vector(from) - center;
+        let b = vector(to) - center;
         let greatest = max3(max3(abs3(a), abs3(b)), abs3(size));
         let exponent = greatest_exponent(greatest, LEAST_EXPONENT);
         let to_one = pow2(-exponent);

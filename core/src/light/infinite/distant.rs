@@ -4,11 +4,9 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::error::LightError;
 use crate::exact;
-use crate::light::record::unit;
-use crate::light::{MAX_RADIANCE, MIN_RADIANCE};
+use crate::light::record::{checked_emission, unit};
 use crate::point::ShadingPoint;
-use crate::vector::dot;
-use glam::Vec3;
+use crate::vector::{dot, vector};
 
 /// The same light from one direction, wherever a point is.
 #[repr(C)]
@@ -16,7 +14,7 @@ use glam::Vec3;
 pub struct DistantLight {
     /// Unit vector towards the light.
     pub direction: [f32; 3],
-    /// Irradiance of a surface that faces it, W/m², linear RGB; zero or in [`MIN_RADIANCE`]`..=`[`MAX_RADIANCE`].
+    /// Irradiance of a surface that faces it, W/m², linear RGB; zero or in from 2^-100 to 2^100.
     pub irradiance: [f32; 3],
 }
 
@@ -38,17 +36,7 @@ impl DistantLight {
                 return Err(LightError::Axis { axis: self.direction });
             }
         }
-        for channel in 0..3 {
-            let value = self.irradiance[channel];
-            if value != 0.0 && !(MIN_RADIANCE..=MAX_RADIANCE).contains(&value) {
-                return Err(LightError::Emission {
-                    what: "distant light",
-                    channel,
-                    value,
-                });
-            }
-            self.irradiance[channel] = exact::flush(value, MIN_RADIANCE);
-        }
+        self.irradiance = checked_emission("distant light", self.irradiance)?;
         Ok(self)
     }
 
@@ -58,7 +46,7 @@ impl DistantLight {
     pub fn irradiance_at(&self, receiver: &ShadingPoint) -> [f32; 3] {
         let n = receiver.normal();
         let in_volume = (n.x == 0.0) & (n.y == 0.0) & (n.z == 0.0);
-        let d = Vec3::new(self.direction[0], self.direction[1], self.direction[2]);
+        let d = vector(&self.direction);
         let cosine = exact::flush(exact::max(dot(d, n), 0.0), exact::pow2(-24));
         let cosine = if in_volume { 1.0 } else { cosine };
         [

@@ -5,97 +5,64 @@ use super::*;
 /// What is out of the domain, and what each message names.
 #[test]
 fn wrong_lights_are_refused_by_name() {
-    let text = |error: Result<(), LightError>| -> String { format!("{}", error.expect_err("it is wrong")) };
-    let refused = |light: SpotLight, part: &str| {
-        let found = text(light.checked().map(|_| ()));
-        assert!(found.contains(part), "{found}");
-    };
-    let good = spot(0.9, 0.5);
-    assert_eq!(good.checked(), Ok(good));
     refused(
-        SpotLight {
-            cos_inner: 0.4,
-            ..good
-        },
-        "inner cosine of 0.4 to an outer one of 0.5",
-    );
-    refused(
-        SpotLight {
-            cos_outer: 1.0,
-            cos_inner: 1.0,
-            ..good
-        },
-        "outer < 1",
-    );
-    refused(
-        SpotLight {
-            cos_inner: f32::NAN,
-            ..good
-        },
-        "inner cosine of NaN",
-    );
-    refused(
-        SpotLight {
-            cos_outer: -1.5,
-            ..good
-        },
-        "-1.5",
-    );
-    refused(
-        SpotLight {
-            axis: [0.0; 3],
-            ..good
-        },
-        "is (0, 0, 0), expected length 1",
-    );
-    refused(
-        SpotLight {
-            axis: [f32::NAN; 3],
-            ..good
-        },
-        "is (NaN",
-    );
-    refused(
-        SpotLight {
-            intensity: [0.0, -1.0, 0.0],
-            ..good
-        },
-        "green of the intensity of a spot is -1",
-    );
-    refused(
-        SpotLight {
-            p: [0.0, 0.0, f32::INFINITY],
-            ..good
-        },
-        "coordinate z of the spot is inf",
+        spot(0.9, 0.5),
+        &[
+            (
+                |l| l.cos_inner = 0.4,
+                "inner cosine of 0.4 to an outer one of 0.5",
+            ),
+            (|l| (l.cos_outer, l.cos_inner) = (1.0, 1.0), "outer < 1"),
+            (|l| l.cos_inner = f32::NAN, "inner cosine of NaN"),
+            (|l| l.cos_outer = -1.5, "-1.5"),
+            (|l| l.axis = [0.0; 3], "is (0, 0, 0), expected length 1"),
+            (|l| l.axis = [f32::NAN; 3], "is (NaN"),
+            (
+                |l| l.intensity[1] = -1.0,
+                "green of the intensity of a spot is -1",
+            ),
+            (|l| l.p[2] = f32::INFINITY, "coordinate z of the spot is inf"),
+            (|l| l.range = -1.0, "the range of a light is -1"),
+        ],
     );
     for radius in [0.0, -1.0, f32::NAN, f32::INFINITY, exact::pow2(-61)] {
-        let found = text(SphereLight { radius, ..sphere() }.checked().map(|_| ()));
-        assert!(found.contains("the radius of a sphere is"), "{found}");
+        let wrong = SphereLight { radius, ..sphere() };
+        refused(wrong, &[(|_| (), "the radius of a sphere is")]);
     }
-    let flags = RectangleLight {
-        flags: 2,
-        ..rectangle(0)
-    };
-    assert_eq!(flags.checked(), Err(LightError::Flags { flags: 2 }));
-    let edge = DiscLight {
-        half: [[0.0, f32::NAN, 0.0], [1.0, 0.0, 0.0]],
-        ..disc(0)
-    };
-    let found = text(edge.checked().map(|_| ()));
-    assert!(
-        found.contains("coordinate y of the half axis of a disc is NaN"),
-        "{found}"
+    refused(rectangle(0), &[(|l| l.flags = 2, "flags are 0x2")]);
+    let axis = "coordinate y of the half axis of a disc is NaN";
+    refused(disc(0), &[(|l| l.half[0][1] = f32::NAN, axis)]);
+    refused(
+        glow(),
+        &[(|l| l.radiance[0] = 1e31, "red of the radiance of a box")],
     );
-    let found = text(
-        BoxLight {
-            radiance: [1e31, 0.0, 0.0],
-            ..glow()
-        }
-        .checked()
-        .map(|_| ()),
+    refused(
+        profile(),
+        &[
+            (|l| l.whole = 2.5, "integral 2.5"),
+            (|l| l.whole = f32::NAN, "a profile of integral"),
+            (|l| l.mean_cosine = 0.4, "mean cosine 0.4"),
+            (|l| l.cos_outer = 1.0, "cone from cosine 1"),
+            (|l| l.across = [0.0, -0.6, 0.8], "at right angles"),
+            (|l| l.axis = [0.0; 3], "expected length 1"),
+            (|l| l.flags = 1, "flags are 0x1"),
+            (|l| l.p[0] = f32::NAN, "light with a profile"),
+            (|l| l.intensity = [-1.0; 3], "intensity of a light with a profile"),
+        ],
     );
-    assert!(found.contains("red of the radiance of a box"), "{found}");
+}
+
+/// A change of a light, and what the message that refuses it says.
+type Wrong<L> = (fn(&mut L), &'static str);
+
+/// A sound light, and changes that are refused with a message each.
+fn refused<L: Light>(good: L, wrong: &[Wrong<L>]) {
+    for (change, part) in wrong {
+        let mut light = good;
+        change(&mut light);
+        let found = format!("{}", light.checked().expect_err("it is wrong"));
+        assert!(found.contains(part), "{found}");
+    }
 }
 
 /// Over the whole range of lengths and radiances, numbers stay in theirs.

@@ -213,7 +213,7 @@ fn check<N: Node<8>, I, P: Receiver>(
     let (mut sum, mut allowed, mut shining) = (0.0, 0, 0);
     let mut pmfs = Vec::with_capacity(known.len());
     for own in known {
-        let pmf = tree.pmf_for(receiver, own.light, own.instance);
+        let pmf = tree.pmf(receiver, own.light, own.instance);
         let is_allowed = own.shines && own.mask & receiver.mask != 0;
         assert_eq!(
             pmf > 0.0,
@@ -255,18 +255,18 @@ fn check<N: Node<8>, I, P: Receiver>(
             high: random.word(),
             low: random.word(),
         };
-        let sampled = tree.sample_for(receiver, number);
+        let sampled = tree.sample(receiver, number);
         right(&sampled);
-        let many = tree.sample_many_for::<LinkedPoint<P>, 5>(receiver, number);
+        let many = tree.sample_many::<LinkedPoint<P>, 5>(receiver, number);
         for (k, one) in (0..).zip(&many) {
-            assert_eq!(*one, tree.sample_for(receiver, number.spaced(k, 5)));
+            assert_eq!(*one, tree.sample(receiver, number.spaced(k, 5)));
         }
         let mut batch = [SampledLight::NONE; 2];
-        tree.sample_batch_for(&[*receiver; 2], &[number; 2], &mut batch);
+        tree.sample_batch(&[*receiver; 2], &[number; 2], &mut batch);
         assert_eq!(batch, [sampled; 2]);
     }
     for number in [0, u32::MAX] {
-        right(&tree.sample_for(
+        right(&tree.sample(
             receiver,
             Random64 {
                 high: number,

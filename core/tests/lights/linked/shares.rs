@@ -1,66 +1,10 @@
-//! Frequencies, least shares, and what masks that allow all leave as it was.
+//! Least shares, and what masks that allow all leave as it was.
 
 use super::*;
 use lightbvh::importance::{Leveled, Linked};
 use lightbvh::light::LinkedTriangle;
 use lightbvh::node::{LinkedMomentNode, Lit, Node, PackedMomentNode};
-use lightbvh::{BuildParams, Bvh, Lights, MomentNode, Moments, Random64, TwoSidedMomentNode};
-
-/// Frequencies against probabilities: χ² of the lights with at least 8 expected samples, the others together.
-#[test]
-fn frequencies_are_the_probabilities() {
-    const SAMPLES: u32 = 200_000;
-    let random = &mut Random(5);
-    let mut bvh = Tree::<LinkedTriangle>::default();
-    for _ in 0..5 {
-        let mesh = bvh.add_mesh(lights(40, random, triangle)).expect("in the domain");
-        for _ in 0..3 {
-            bvh.add_instance(mesh, place(random)).expect("in the domain");
-        }
-    }
-    bvh.refit();
-    let all = known(&bvh);
-    for mask in [u32::MAX, 1 << 4, 0b11 << 6, 1 << 31] {
-        let mut receiver = random.receiver(30.0);
-        receiver.mask = mask;
-        let mut counts = vec![0_u32; all.len()];
-        for _ in 0..SAMPLES {
-            let number = Random64 {
-                high: random.word(),
-                low: random.word(),
-            };
-            let sampled = bvh.sample_for(&receiver, number);
-            let at = all
-                .iter()
-                .position(|own| own.light == sampled.light && own.instance == sampled.instance);
-            counts[at.expect("a light")] += 1;
-        }
-        let (mut chi, mut degrees) = (0.0, -1.0);
-        let mut rest = [0.0; 2];
-        let mut add = |expected: f64, found: f64| {
-            chi += (found - expected).powi(2) / expected;
-            degrees += 1.0;
-        };
-        for (own, &count) in all.iter().zip(&counts) {
-            let expected =
-                f64::from(bvh.tree().pmf_for(&receiver, own.light, own.instance)) * f64::from(SAMPLES);
-            if expected >= 8.0 {
-                add(expected, f64::from(count));
-            } else {
-                rest[0] += expected;
-                rest[1] += f64::from(count);
-            }
-        }
-        if rest[0] >= 8.0 {
-            add(rest[0], rest[1]);
-        }
-        // Wilson & Hilferty: the cube root is nearly normal. Five of its deviations.
-        let z = ((chi / degrees).cbrt() - (1.0 - 2.0 / (9.0 * degrees))) / (2.0 / (9.0 * degrees)).sqrt();
-        println!("mask {mask:#x}: chi-squared {chi:.1} of {degrees} degrees, z {z:.2}");
-        assert!(degrees > 3.0, "few lights: {degrees}");
-        assert!(z < 5.0, "{chi} of {degrees}");
-    }
-}
+use lightbvh::{BuildParams, Bvh, Lights, MomentNode, Moments, TwoSidedMomentNode};
 
 /// With every bit in common, light and probability are those of the importance, to the bit; and other importances do not see masks.
 #[test]
@@ -90,11 +34,11 @@ fn masks_that_allow_all_change_nothing() {
         receiver.mask |= 1 << (k % 32);
         let number = random.word();
         let sampled = plain.sample(&receiver.point, number);
-        assert_eq!(sampled, masked.sample_for(&receiver, number));
+        assert_eq!(sampled, masked.sample(&receiver, number));
         assert_eq!(sampled, masked.by::<Moments>().sample(&receiver.point, number));
         assert_eq!(
             plain.pmf(&receiver.point, k % 700, 0).to_bits(),
-            masked.tree().pmf_for(&receiver, k % 700, 0).to_bits()
+            masked.tree().pmf(&receiver, k % 700, 0).to_bits()
         );
     }
 }
@@ -113,9 +57,9 @@ fn least_shares_bound_probabilities() {
     for _ in 0..40 {
         let receiver = random.receiver(6.0);
         for light in 0..600 {
-            let plain = bvh.tree().pmf_for(&receiver, light, 0);
+            let plain = bvh.tree().pmf(&receiver, light, 0);
             let tree = bvh.by::<Linked<Leveled<Moments, 9>>>();
-            let pmf = f64::from(tree.pmf_for(&receiver, light, 0));
+            let pmf = f64::from(tree.pmf(&receiver, light, 0));
             assert_eq!(plain > 0.0, pmf > 0.0);
             assert!(pmf == 0.0 || pmf >= bound, "{pmf} of {bound}");
             below += u32::from(plain > 0.0 && f64::from(plain) < bound);

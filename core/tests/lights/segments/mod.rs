@@ -3,7 +3,7 @@
 mod places;
 mod weights;
 
-use crate::kit::{Random, Wide, cross, dot, length, minus, room, rooms, wide};
+use crate::kit::{self, Random, Wide, cross, dot, length, minus, rooms, wide};
 use lightbvh::EmissiveTriangle;
 use lightbvh::importance::RaySegment;
 
@@ -45,29 +45,15 @@ fn mean_along(segment: &RaySegment, center: Wide, steps: u32, f: impl Fn(Wide) -
 
 /// What the segment receives of a triangle, W/m: the fluence over all directions along it, from `N`² pieces of the triangle.
 fn received<const N: usize>(triangle: &EmissiveTriangle, segment: &RaySegment, steps: u32) -> f64 {
-    let v = triangle.p.map(wide);
-    let (a, b) = (minus(v[1], v[0]), minus(v[2], v[0]));
-    let across = cross(a, b);
+    let (across, places) = kit::pieces::<N>(triangle);
     let mut sum = 0.0;
-    for i in 0..N {
-        for j in 0..N {
-            let (mut s, mut t) = ((i as f64 + 0.4) / N as f64, (j as f64 + 0.5) / N as f64);
-            if s + t > 1.0 {
-                (s, t) = (1.0 - s, 1.0 - t);
-            }
-            let place: Wide = core::array::from_fn(|k| v[0][k] + a[k] * s + b[k] * t);
-            sum += mean_along(segment, place, steps, |p| {
-                let to = minus(p, place);
-                let d2 = dot(to, to);
-                let emitted = 0.5 * dot(across, to) / d2.sqrt();
-                let emitted = if triangle.is_two_sided() {
-                    emitted.abs()
-                } else {
-                    emitted.max(0.0)
-                };
-                f64::from(triangle.radiance[0]) * emitted / d2
-            });
-        }
+    for place in places {
+        sum += mean_along(segment, place, steps, |p| {
+            let to = minus(p, place);
+            let d2 = dot(to, to);
+            let emitted = kit::emitted(triangle, 0.5 * dot(across, to) / d2.sqrt());
+            f64::from(triangle.radiance[0]) * emitted / d2
+        });
     }
     sum / (N * N) as f64 * length(minus(wide(segment.to), wide(segment.from)))
 }

@@ -3,10 +3,8 @@
 use super::*;
 use glam::Vec3;
 use lightbvh::exact::{hash, pow2};
-use lightbvh::importance::{Linked, LinkedPoint, RaySegment, Subtended};
-use lightbvh::light::LinkedTriangle;
-use lightbvh::node::{LinkedMomentNode, Lit};
-use lightbvh::{BuildParams, Bvh, Defensive, Lights, MomentNode, Moments};
+use lightbvh::importance::{RaySegment, Subtended};
+use lightbvh::{Bvh, Defensive, MomentNode, Moments};
 
 /// Steps even in `u` have that much of the density between them, and the density is nearly that of the angle.
 #[test]
@@ -167,8 +165,8 @@ fn estimates_converge() {
         let (mut mean, mut square) = (0.0, 0.0);
         for _ in 0..SAMPLES {
             random.0 = random.0.wrapping_add(1);
-            let sampled = bvh.sample_for(&segment, hash(random.0));
-            let pmf = bvh.tree().pmf_for(&segment, sampled.light, sampled.instance);
+            let sampled = bvh.sample(&segment, hash(random.0));
+            let pmf = bvh.tree().pmf(&segment, sampled.light, sampled.instance);
             assert_eq!(sampled.pmf.to_bits(), pmf.to_bits());
             let light = bvh.triangle(sampled.light, sampled.instance).expect("a light");
             let on = light.point([random.unit(), random.unit()]);
@@ -176,13 +174,8 @@ fn estimates_converge() {
             let to = minus(at(&segment, f64::from(along.part)), wide(on.p));
             let d2 = dot(to, to);
             let cosine = dot(wide(on.normal), to) / d2.sqrt();
-            let cosine = if light.is_two_sided() {
-                cosine.abs()
-            } else {
-                cosine.max(0.0)
-            };
             let density = f64::from(pmf) * f64::from(on.density) * f64::from(along.density);
-            let f = f64::from(on.radiance[0]) * cosine / d2 / density;
+            let f = f64::from(on.radiance[0]) * kit::emitted(&light, cosine) / d2 / density;
             mean += f / f64::from(SAMPLES);
             square += f * f / f64::from(SAMPLES);
         }
@@ -203,26 +196,7 @@ fn estimates_converge() {
 /// Masks and segments together.
 #[test]
 fn masks_go_with_it() {
-    type Tree = Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Subtended<Moments>>, 8>;
-    let random = &mut Random(9);
-    let own = room(random);
-    let linked = own.triangles().iter().zip(0..).map(|(&light, k)| LinkedTriangle {
-        light,
-        mask: 1 << (k % 3),
-    });
-    let linked = Lights::new(linked.collect()).expect("in the domain");
-    let bvh = Tree::two_level(&linked, &BuildParams::default());
-    let receiver = LinkedPoint {
-        point: random.segment(5.0, 4.0),
-        mask: 0b100,
-    };
-    let mut sum = 0.0;
-    for (light, own) in (0..).zip(own.triangles()) {
-        let pmf = bvh.tree().pmf_for(&receiver, light, own.mesh);
-        assert_eq!(pmf > 0.0, light % 3 == 2);
-        sum += f64::from(pmf);
-    }
-    assert!((sum - 1.0).abs() < 1e-5, "{sum}");
+    kit::masks_go_with::<Subtended<Moments>, _>(&mut Random(9), |random| random.segment(5.0, 4.0));
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! Importances of a segment: means along it, positive everywhere, and what they save.
 
 use super::*;
-use crate::kit;
 use glam::Vec3;
 use lightbvh::exact::{hash, pow2};
 use lightbvh::importance::{ImportanceModel, RaySegment, Receiver, Subtended};

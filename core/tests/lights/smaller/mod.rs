@@ -132,8 +132,8 @@ fn samples_need_no_trails() {
                 let number = random.below(1 << 24) << 8;
                 assert_eq!(with.sample(&point, number), without.sample(&point, number));
                 assert_eq!(
-                    with.sample_many::<4>(&point, number),
-                    without.sample_many::<4>(&point, number)
+                    with.sample_many::<_, 4>(&point, number),
+                    without.sample_many::<_, 4>(&point, number)
                 );
             }
         }
@@ -190,8 +190,8 @@ fn static_light_bvhs_say_the_same_in_fewer_bytes() {
             assert_eq!(bvh.sample(point, number), still.sample(point, number));
             assert_eq!(sampled, still.sample(point, number));
             assert_eq!(
-                bvh.sample_many::<3>(point, number),
-                still.sample_many::<3>(point, number)
+                bvh.sample_many::<_, 3>(point, number),
+                still.sample_many::<_, 3>(point, number)
             );
             assert_eq!(
                 still.pmf(point, sampled.light, sampled.instance).to_bits(),

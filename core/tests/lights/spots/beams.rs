@@ -162,58 +162,6 @@ fn wide_sets_of_narrow_cones_leave_no_light_out() {
     assert_eq!(seen.wrong, 0, "{seen:?}");
 }
 
-/// A node of one spot knows its cone, wherever in its space the spot stands.
-#[test]
-fn spots_alone_in_their_meshes_keep_their_cones() {
-    for away in [0.0_f32, 1.0, 300.0] {
-        let random = &mut Random(31);
-        let own: Vec<SpotLight> = (0..60)
-            .map(|_| {
-                let [x, y, z] = random.vector(6.0);
-                SpotLight {
-                    p: [x + away, y, z + 3.0],
-                    axis: [0.0, 0.0, -1.0],
-                    intensity: [1.0; 3],
-                    range: 0.0,
-                    cos_inner: 0.996,
-                    cos_outer: 0.995,
-                    mesh: 0,
-                }
-            })
-            .collect();
-        let mut bvh = Tree::<AnyLight>::default();
-        for spot in &own {
-            let mesh = bvh.add_mesh(any([*spot].to_vec())).expect("in the domain");
-            bvh.add_instance(mesh, Transform::IDENTITY)
-                .expect("in the domain");
-        }
-        bvh.refit();
-        let (mut dark, mut outside) = (0, 0);
-        for _ in 0..200 {
-            let [x, y, _] = random.vector(7.0);
-            let p = [x + away, y, -2.0];
-            for found in told(
-                &bvh,
-                &ShadingPoint {
-                    p,
-                    n: [0.0, 0.0, 1.0],
-                },
-            ) {
-                let light = world_light(bvh.triangles(), bvh.instances(), found.light, found.instance);
-                let is_lit = sent(&light, p) > 0.0;
-                assert!(!is_lit || found.least >= 0.99);
-                dark += u32::from(!is_lit);
-                outside += u32::from(!is_lit && found.least < 0.99);
-            }
-        }
-        // All but those at the very edge.
-        assert!(
-            dark > 9000 && outside * 100 >= dark * 99,
-            "{away}: {outside} of {dark}"
-        );
-    }
-}
-
 /// A map that is no similarity changes angles: beams do not count there, and probabilities are those without.
 #[test]
 fn uneven_maps_leave_beams_out() {

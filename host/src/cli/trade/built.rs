@@ -66,10 +66,10 @@ where
             let number = hash(number);
             sum += match candidates {
                 1 => tree.sample(point, number).pmf,
-                2 => tree.sample_many::<2>(point, number)[1].pmf,
-                4 => tree.sample_many::<4>(point, number)[3].pmf,
-                8 => tree.sample_many::<8>(point, number)[7].pmf,
-                _ => tree.sample_many::<16>(point, number)[15].pmf,
+                2 => tree.sample_many::<_, 2>(point, number)[1].pmf,
+                4 => tree.sample_many::<_, 4>(point, number)[3].pmf,
+                8 => tree.sample_many::<_, 8>(point, number)[7].pmf,
+                _ => tree.sample_many::<_, 16>(point, number)[15].pmf,
             };
         }
         std::hint::black_box(sum);
@@ -89,10 +89,10 @@ where
         };
         match candidates {
             1 => take(&[tree.sample(point, number)]),
-            2 => take(&tree.sample_many::<2>(point, number)),
-            4 => take(&tree.sample_many::<4>(point, number)),
-            8 => take(&tree.sample_many::<8>(point, number)),
-            _ => take(&tree.sample_many::<16>(point, number)),
+            2 => take(&tree.sample_many::<_, 2>(point, number)),
+            4 => take(&tree.sample_many::<_, 4>(point, number)),
+            8 => take(&tree.sample_many::<_, 8>(point, number)),
+            _ => take(&tree.sample_many::<_, 16>(point, number)),
         }
     }
 

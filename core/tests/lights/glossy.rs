@@ -1,18 +1,26 @@
 //! The factor of a glossy receiver against its formula, and what it is worth.
 
-extern crate std;
-
-use std::vec::Vec;
-
-use super::{Random, cross, dot, minus, narrow, normalize, times, wide};
-use crate::importance::{Defensive, Eq4, Flux, Glossy, ImportanceModel, Moments};
-use crate::node::{CompactNode, LightNode, MomentNode, Node, kind};
-use crate::point::{GlossyPoint, PointError, Receiver};
-use crate::summary::Summary;
-use crate::{
-    BuildParams, Bvh, Edit, EmissiveTriangle, INVALID, LightMoments, Lights, Random64, SampledLight,
-    ShadingPoint, Transform, exact,
+use glam::Vec3;
+use lightbvh::error::PointError;
+use lightbvh::exact;
+use lightbvh::importance::{Flux, Glossy, ImportanceModel, Receiver};
+use lightbvh::node::kind;
+use lightbvh::{
+    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, GlossyPoint, LightMoments, MomentNode,
+    Moments, Node, Random64, SampledLight, ShadingPoint, Summary, Transform,
 };
+
+use crate::kit::{self, Random, Wide, cross, dot, length, minus, room, wide};
+
+fn times(v: Wide, s: f64) -> Wide {
+    v.map(|x| x * s)
+}
+
+/// From 2^`low` to 2^`high`, as often in each octave.
+fn power(random: &mut Random, low: i32, high: i32) -> f32 {
+    let octave = low + random.below((high - low) as u32) as i32;
+    exact::pow2(octave) * (1.0 + random.unit())
+}
 
 /// A surface at the origin of a view `to` away from it.
 fn surface(p: [f32; 3], n: [f32; 3], to: [f64; 3], specular: f32, log2: u32) -> GlossyPoint {
@@ -20,7 +28,7 @@ fn surface(p: [f32; 3], n: [f32; 3], to: [f64; 3], specular: f32, log2: u32) -> 
     let along = 2.0 * dot(normal, to);
     GlossyPoint {
         point: ShadingPoint { p, n },
-        mirror: narrow(minus(times(normal, along), to)).to_array(),
+        mirror: minus(times(normal, along), to).map(|x| x as f32),
         diffuse: 0.5 * (1.0 - specular),
         specular,
         exponent: exact::pow2(log2 as i32),
@@ -29,15 +37,14 @@ fn surface(p: [f32; 3], n: [f32; 3], to: [f64; 3], specular: f32, log2: u32) -> 
 
 /// Within a cube of twice `size`.
 fn any_surface(random: &mut Random, size: f32) -> GlossyPoint {
-    let p = (random.vector() * size).to_array();
-    let n = random.direction();
-    let mut to = wide(random.direction());
+    let (p, n) = (random.vector(size), random.unit_vector());
+    let mut to = wide(random.unit_vector());
     if dot(to, wide(n)) < 0.0 {
         to = times(to, -1.0);
     }
     let specular = [0.0, 0.3, 1.0][random.below(3) as usize];
     let log2 = random.below(17);
-    surface(p, n.to_array(), to, specular, log2)
+    surface(p, n, to, specular, log2)
 }
 
 #[test]
@@ -45,22 +52,21 @@ fn the_factor_is_its_formula() {
     let random = &mut Random(1);
     let (mut within, mut beside, mut wide_of) = (0, 0, 0);
     for _ in 0..20_000 {
-        let size = random.power(-20, 20);
+        let size = power(random, -20, 20);
         let receiver = any_surface(random, size);
         let sets = [0; 4].map(|_| {
-            let mirror = glam::Vec3::from_array(receiver.mirror);
             let to = if random.below(2) == 0 {
-                random.direction()
+                Vec3::from_array(random.unit_vector())
             } else {
-                mirror + random.vector() * 0.2
+                Vec3::from_array(receiver.mirror) + Vec3::from_array(random.vector(0.2))
             };
             LightMoments {
                 phi: 1.0,
-                c: receiver.point.position() + to * (size * random.power(-4, 4)),
-                across: size * random.power(-8, 1),
+                c: receiver.point.position() + to * (size * power(random, -4, 4)),
+                across: size * power(random, -8, 1),
                 along: 0.0,
-                m: glam::Vec3::ZERO,
-                h: glam::Vec3::ZERO,
+                m: Vec3::ZERO,
+                h: Vec3::ZERO,
             }
         });
         let mut node = MomentNode::<4>::EMPTY;
@@ -71,7 +77,7 @@ fn the_factor_is_its_formula() {
         let sets = [0, 1, 2, 3].map(|slot| node.summary(slot));
         let found = Glossy::<Flux>::weights(&node, &receiver);
         for slot in 0..4 {
-            let away = minus(wide(sets[slot].c), wide(receiver.point.position()));
+            let away = minus(wide(sets[slot].c.to_array()), wide(receiver.point.p));
             let d2 = dot(away, away);
             let k = f64::from(receiver.exponent);
             let spread = f64::from(sets[slot].across).powi(2) * 2.0 + f64::from(sets[slot].along).powi(2);
@@ -94,21 +100,6 @@ fn the_factor_is_its_formula() {
     for seen in [within, beside, wide_of] {
         assert!(seen > 500, "{within} {beside} {wide_of}");
     }
-}
-
-/// 200 triangles of up to half a metre in a room of 10 m, in four meshes.
-fn room(random: &mut Random) -> Lights {
-    let triangle = |k: u32| {
-        let at = random.vector() * 5.0;
-        let corner = |random: &mut Random| (at + random.vector() * 0.5).to_array();
-        EmissiveTriangle {
-            p: [at.to_array(), corner(random), corner(random)],
-            radiance: [1.1 + random.signed(); 3],
-            mesh: k / 50,
-            flags: u32::from(k % 5 == 2) * EmissiveTriangle::TWO_SIDED,
-        }
-    };
-    Lights::new((0..200).map(triangle).collect()).expect("within the domain")
 }
 
 /// The least and the greatest that an importance may give.
@@ -147,30 +138,6 @@ fn weights_stay_in_their_range() {
     }
 }
 
-/// A walk that is told of a shading point alone is today's, to the bit.
-#[test]
-fn a_diffuse_receiver_is_a_shading_point() {
-    type D = Defensive<Moments, 6>;
-    let random = &mut Random(2);
-    let lights = room(random);
-    for two in [false, true] {
-        let bvh = if two {
-            Bvh::<MomentNode<8>, D, 8>::two_level(&lights, &BuildParams::default())
-        } else {
-            Bvh::<MomentNode<8>, D, 8>::single_level(&lights, &BuildParams::default())
-        };
-        for _ in 0..500 {
-            let glossy = any_surface(random, 5.0);
-            let number = (u64::from(random.below(1 << 20)) << 44) + 12_345;
-            let sampled = bvh.sample(&glossy.point, number);
-            let again = bvh.tree().sample_for(&glossy.point, number);
-            assert_eq!(sampled, again);
-            let pmf = bvh.tree().pmf_for(&glossy.point, sampled.light, sampled.instance);
-            assert_eq!(sampled.pmf.to_bits(), pmf.to_bits());
-        }
-    }
-}
-
 /// Several lights are those that one walk after the other finds, of every owner that has walks.
 #[test]
 fn several_lights_for_lobes_are_those_one_at_a_time() {
@@ -185,20 +152,22 @@ fn several_lights_for_lobes_are_those_one_at_a_time() {
     let receivers: Vec<GlossyPoint> = (0..50).map(|_| any_surface(random, 5.0)).collect();
     let numbers: Vec<Random64> = (0..50).map(|k| exact::hash(k).into()).collect();
     let mut batch = [SampledLight::NONE; 50];
-    tree.sample_batch_for(&receivers, &numbers, &mut batch);
+    tree.sample_batch(&receivers, &numbers, &mut batch);
     for ((receiver, &number), in_batch) in receivers.iter().zip(&numbers).zip(batch) {
-        let one = tree.sample_for(receiver, number);
+        let one = tree.sample(receiver, number);
         assert_eq!(in_batch, one);
-        assert_eq!(lean.sample_for(receiver, number), one);
-        assert_eq!(fixed.sample_for(receiver, number), one);
-        assert_eq!(meshes.sample_for(receiver, number), one);
+        let pmf = tree.pmf(receiver, one.light, one.instance);
+        assert_eq!(one.pmf.to_bits(), pmf.to_bits());
+        assert_eq!(lean.sample(receiver, number), one);
+        assert_eq!(fixed.sample(receiver, number), one);
+        assert_eq!(meshes.sample(receiver, number), one);
         let singly: [SampledLight; 40] =
-            core::array::from_fn(|k| tree.sample_for(receiver, number.spaced(k as u32, 40)));
-        assert_eq!(tree.sample_many_for::<_, 40>(receiver, number), singly);
-        assert_eq!(bvh.sample_many_for::<_, 40>(receiver, number), singly);
-        assert_eq!(lean.sample_many_for::<_, 40>(receiver, number), singly);
-        assert_eq!(fixed.sample_many_for::<_, 40>(receiver, number), singly);
-        assert_eq!(meshes.sample_many_for::<_, 40>(receiver, number), singly);
+            core::array::from_fn(|k| tree.sample(receiver, number.spaced(k as u32, 40)));
+        assert_eq!(tree.sample_many::<_, 40>(receiver, number), singly);
+        assert_eq!(bvh.sample_many::<_, 40>(receiver, number), singly);
+        assert_eq!(lean.sample_many::<_, 40>(receiver, number), singly);
+        assert_eq!(fixed.sample_many::<_, 40>(receiver, number), singly);
+        assert_eq!(meshes.sample_many::<_, 40>(receiver, number), singly);
     }
 }
 
@@ -210,64 +179,34 @@ fn reflected(triangle: &EmissiveTriangle, receiver: &GlossyPoint) -> f64 {
     let v = minus(center, receiver.point.p.map(f64::from));
     let (n, d2) = (receiver.point.n.map(f64::from), dot(v, v));
     let received = dot(n, v).max(0.0);
-    let along = -dot(across, v);
-    let emitted = if triangle.is_two_sided() {
-        along.abs()
-    } else {
-        along.max(0.0)
-    };
+    let emitted = kit::emitted(triangle, -dot(across, v));
     let mirror = receiver.mirror.map(f64::from);
     let view = minus(times(n, 2.0 * dot(n, mirror)), mirror);
-    let to = normalize(v);
-    let half = normalize([0, 1, 2].map(|k| to[k] + view[k]));
+    let to = times(v, 1.0 / d2.sqrt());
+    let half = [0, 1, 2].map(|k| to[k] + view[k]);
     let k = f64::from(receiver.exponent);
-    let lobe = (k + 6.0) / 8.0 * dot(n, half).max(0.0).powf(k);
+    let lobe = (k + 6.0) / 8.0 * (dot(n, half) / length(half)).max(0.0).powf(k);
     let reflectance = f64::from(receiver.diffuse) + f64::from(receiver.specular) * lobe;
     f64::from(triangle.radiance[0]) * reflectance * received * emitted / (d2 * d2)
 }
 
-/// Relative variance of one sample by `I`, which is told `P` of a receiver: the mean over the points.
+/// Mean relative variance of one sample by `I`, which is told `P` of a receiver.
 fn variance<I, P, F>(two: bool, specular: f32, log2: u32, told: F) -> f64
 where
     I: ImportanceModel<MomentNode<8>, 8, P>,
     P: Receiver,
     F: Fn(&GlossyPoint) -> P,
 {
-    let random = &mut Random(3);
-    let lights = room(random);
-    let bvh = if two {
-        Bvh::<MomentNode<8>, I, 8>::two_level(&lights, &BuildParams::default())
-    } else {
-        Bvh::<MomentNode<8>, I, 8>::single_level(&lights, &BuildParams::default())
-    };
-    let tree = bvh.tree();
-    let (mut sum, mut count) = (0.0, 0.0);
-    for _ in 0..200 {
-        let any = any_surface(random, 5.0);
+    kit::variance::<MomentNode<8>, I, P, _, 8>(two, 200, |random| {
         let receiver = GlossyPoint {
             diffuse: 0.5 * (1.0 - specular),
             specular,
             exponent: exact::pow2(log2 as i32),
-            ..any
+            ..any_surface(random, 5.0)
         };
-        let query = told(&receiver);
-        let (mut mean, mut square, mut pmfs) = (0.0, 0.0, 0.0);
-        for (light, triangle) in (0..).zip(lights.triangles()) {
-            let instance = if two { triangle.mesh } else { INVALID };
-            let pmf = f64::from(tree.pmf_for(&query, light, instance));
-            let f = reflected(triangle, &receiver);
-            assert!(pmf > 0.0, "light {light} at {receiver:?}");
-            mean += f;
-            square += f * f / pmf;
-            pmfs += pmf;
-        }
-        assert!((pmfs - 1.0).abs() < 1e-5, "{pmfs} at {receiver:?}");
-        if mean > 0.0 {
-            sum += square / (mean * mean) - 1.0;
-            count += 1.0;
-        }
-    }
-    sum / count
+        let of = move |light: &EmissiveTriangle| reflected(light, &receiver);
+        (told(&receiver), of)
+    })
 }
 
 /// Less variance than of the importance that knows nothing of the lobe where it is sharp, about as much where it is broad, the
@@ -281,9 +220,7 @@ fn the_lobe_pays() {
         for (specular, log2) in [(0.0, 4), (0.3, 4), (0.3, 8), (0.9, 6), (0.9, 10)] {
             let without = variance::<D, _, _>(two, specular, log2, |g| g.point);
             let with = variance::<G, _, _>(two, specular, log2, |g| *g);
-            std::println!(
-                "two levels {two}: s {specular}, k 2^{log2}: {without:.3}, told of the lobe {with:.3}"
-            );
+            println!("two levels {two}: s {specular}, k 2^{log2}: {without:.3}, told of the lobe {with:.3}");
             ratios.push(with / without);
         }
         assert!((ratios[0] - 1.0).abs() < 1e-3, "{ratios:?}");
@@ -292,53 +229,6 @@ fn the_lobe_pays() {
             ratios.iter().zip(most).all(|(ratio, most)| *ratio < most),
             "{ratios:?}"
         );
-    }
-}
-
-/// Samples come with their pmf to the bit, and the mean of what they say is what all lights reflect; on bounds too.
-#[test]
-fn glossy_receivers_are_unbiased() {
-    fn check<N: LightNode<W>, I: ImportanceModel<N, W, GlossyPoint>, const W: usize>(two: bool) {
-        const NUMBERS: u32 = 1 << 14;
-        let random = &mut Random(4);
-        let lights = room(random);
-        let bvh = if two {
-            Bvh::<N, I, W>::two_level(&lights, &BuildParams::default())
-        } else {
-            Bvh::<N, I, W>::single_level(&lights, &BuildParams::default())
-        };
-        let tree = bvh.tree();
-        let mut tight = 0;
-        for _ in 0..8 {
-            let receiver = any_surface(random, 5.0);
-            let (mut estimate, mut expected, mut tolerance) = (0.0, 0.0, 0.0);
-            for number in 0..NUMBERS {
-                let sampled = tree.sample_for(&receiver, (u64::from(number) << 50) + (1 << 49));
-                let pmf = tree.pmf_for(&receiver, sampled.light, sampled.instance);
-                assert_eq!(sampled.pmf.to_bits(), pmf.to_bits());
-                let f = reflected(&lights.triangles()[sampled.light as usize], &receiver);
-                estimate += f / f64::from(pmf) / f64::from(NUMBERS);
-            }
-            for (light, triangle) in (0..).zip(lights.triangles()) {
-                let f = reflected(triangle, &receiver);
-                let instance = if two { triangle.mesh } else { INVALID };
-                let pmf = tree.pmf_for(&receiver, light, instance);
-                expected += f;
-                // A light's numbers are one range, or two with a share of uniform choice.
-                tolerance += 4.0 * f / f64::from(pmf) / f64::from(NUMBERS);
-            }
-            assert!(
-                (estimate - expected).abs() <= tolerance + 1e-5 * expected,
-                "{estimate}, expected {expected} within {tolerance}: {receiver:?}"
-            );
-            tight += u32::from(tolerance < 0.3 * expected);
-        }
-        assert!(tight > 2, "{tight}");
-    }
-    for two in [false, true] {
-        check::<MomentNode<8>, Glossy<Moments>, 8>(two);
-        check::<MomentNode<8>, Defensive<Glossy<Moments>, 6>, 8>(two);
-        check::<CompactNode<4>, Glossy<Eq4>, 4>(two);
     }
 }
 
@@ -357,14 +247,9 @@ fn lobes_turn_with_instances() {
             triangle.mesh = 0;
         }
         let placed = |triangles: Vec<EmissiveTriangle>, transform| {
-            let mut bvh: Bvh<MomentNode<8>, G, 8> = Bvh::new(BuildParams::default());
+            let mut bvh: Bvh<MomentNode<8>, G, 8> = Bvh::default();
             let mesh = bvh.add_mesh(triangles).expect("within the domain");
-            let add = Edit::AddInstance {
-                mesh,
-                transform,
-                radiance: 1.0,
-            };
-            bvh.apply([add].into()).expect("an instance");
+            bvh.add_instance(mesh, transform).expect("an instance");
             bvh.refit();
             bvh
         };
@@ -374,7 +259,7 @@ fn lobes_turn_with_instances() {
             let mut receiver = any_surface(random, 5.0);
             receiver.specular = 1.0;
             receiver.diffuse = 0.0;
-            let pmf = |bvh: &Bvh<MomentNode<8>, G, 8>, light| bvh.tree().pmf_for(&receiver, light, 0);
+            let pmf = |bvh: &Bvh<MomentNode<8>, G, 8>, light| bvh.tree().pmf(&receiver, light, 0);
             for light in 0..8 {
                 let [a, b] = [pmf(&turned, light), pmf(&world, light)];
                 // Words of nodes are rounded in other places.
