@@ -274,7 +274,7 @@ pub(super) fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
                     material: if lies { primitive.material } else { NONE },
                 };
                 if !primitive.is_shown(triangle, material) {
-                    if own.is_some() {
+                    if lies {
                         out.clear.push(SurfaceTriangle {
                             p,
                             material: primitive.material,

@@ -60,12 +60,13 @@ impl Document<'_> {
             }
             if !READ.contains(&name) && !HARMLESS.contains(&name) && !name.starts_with(LOOK) {
                 let advice = "export the file without this extension";
-                return Err(self.unsupported(format!("extensionsRequired[{index}]"), name, advice));
+                let problem = format!("{name} is not supported");
+                return Err(self.malformed(format!("extensionsRequired[{index}]"), problem, advice));
             }
         }
         for name in &self.root.extensions_used {
             if !READ.contains(&name.as_str()) {
-                self.warn(format!("extension {name} is ignored"));
+                self.note("", format!("extension {name} is ignored"));
             }
         }
         Ok(())
@@ -89,7 +90,7 @@ impl Document<'_> {
                 Err(self.malformed(element, error.to_string(), "export the file again"))
             }
             Err(error) => {
-                self.warn(format!("{element}: its extension {name} is ignored: {error}"));
+                self.note(element, format!("its extension {name} is ignored: {error}"));
                 Ok(None)
             }
         }
