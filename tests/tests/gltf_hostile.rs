@@ -95,7 +95,7 @@ fn nan_positions_and_bad_animations_are_named() {
         broken(|data| {
             data.animations[0].channels[0].values.pop();
         })
-        .contains("expected 3")
+        .contains("expected 9")
     );
     assert!(
         broken(|data| data.animations[0].channels[0].node = 2).contains("translation, rotation and scale")

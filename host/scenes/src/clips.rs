@@ -200,8 +200,7 @@ mod tests {
         assert_eq!(data.warnings.len(), 1);
         assert!(data.warnings[0].starts_with("animation 1 \"walk\" moves what another does"));
         let play = |data: &mut SceneData, words: &[&str]| {
-            let words: Vec<String> = words.iter().copied().map(String::from).collect();
-            data.play(&words)
+            data.play(&words.iter().map(ToString::to_string).collect::<Vec<_>>())
         };
         // What is named moves alone.
         play(&mut data, &["walk"]).expect("there");

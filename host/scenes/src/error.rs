@@ -25,22 +25,12 @@ pub enum SceneError {
         "{0} lies outside the scene's folder, and is not read; move it there, or permit its folder with `--read-from DIR`"
     )]
     Outside(PathBuf),
-    /// A load would take more memory than it may.
+    /// A load would take more memory than it may: what takes it, and how many bytes it takes, are left, and were there.
     #[error(
-        "{place}: {what} takes {bytes} bytes, but {left} of {limit} are left for this scene; permit more with `--memory MIB`, or make the scene smaller"
+        "{0} takes {asked} bytes, but {left} of {limit} are left for this scene; permit more with `--memory MIB`, or make the scene smaller",
+        asked = .1[0], left = .1[1], limit = .1[2]
     )]
-    Memory {
-        /// The file or the element.
-        place: String,
-        /// What takes it.
-        what: &'static str,
-        /// How much was asked for, bytes.
-        bytes: u64,
-        /// How much is left, bytes.
-        left: u64,
-        /// How much there was, bytes.
-        limit: u64,
-    },
+    Memory(String, [u64; 3]),
     /// The scene has no triangle at all; what was left out when it was read follows, which may be why.
     #[error("scene `{0}` has no triangles; it needs at least one mesh of them{1}")]
     Empty(String, String),
@@ -80,6 +70,6 @@ pub(super) fn not_compiled(place: &str, what: &str, feature: &str) -> SceneError
 impl SceneError {
     /// Whether a load ends with it, also where a picture or a library could be left out.
     pub(super) fn ends_the_load(&self) -> bool {
-        matches!(self, Self::Outside(_) | Self::Memory { .. })
+        matches!(self, Self::Outside(_) | Self::Memory(..))
     }
 }

@@ -76,21 +76,16 @@ impl Load {
     ///
     /// # Errors
     /// [`SceneError::Memory`].
-    pub fn check(&self, place: &str, what: &'static str, bytes: u64) -> Result<(), SceneError> {
+    pub fn check(&self, place: &str, what: &str, bytes: u64) -> Result<(), SceneError> {
         if bytes > self.left() {
-            return Err(SceneError::Memory {
-                place: place.to_owned(),
-                what,
-                bytes,
-                left: self.left(),
-                limit: self.memory,
-            });
+            let numbers = [bytes, self.left(), self.memory];
+            return Err(SceneError::Memory(format!("{place}: {what}"), numbers));
         }
         Ok(())
     }
 
     /// The same, and takes them for the rest of the load.
-    pub fn take(&self, place: &str, what: &'static str, bytes: u64) -> Result<(), SceneError> {
+    pub fn take(&self, place: &str, what: &str, bytes: u64) -> Result<(), SceneError> {
         self.check(place, what, bytes)?;
         self.left.set(self.left() - bytes);
         Ok(())

@@ -138,7 +138,8 @@ impl Scene {
             corners: [const { Vec::new() }; 3],
             paint: self.paint_words(),
             materials: data.materials.iter().map(super::Material::surface).collect(),
-            camera: NOWHERE,
+            // Until the frame's triangles are there to look at.
+            camera: View::default(),
             background: data.background,
         };
         place_meshes(data, &pose, &mut out);
@@ -234,15 +235,6 @@ fn suns(data: &SceneData, pose: &Pose) -> Vec<DistantLight> {
 const UNPAINTED: Corner = Corner {
     uv: [[0.0; 2]; 3],
     material: NONE,
-};
-
-/// Until the frame's triangles are there to look at.
-const NOWHERE: View = View {
-    eye: [0.0; 3],
-    right: [1.0, 0.0, 0.0],
-    up: [0.0, 1.0, 0.0],
-    forward: [0.0, 0.0, -1.0],
-    yfov: 1.0,
 };
 
 /// Appends the triangles of every node, in the order node, primitive, triangle.

@@ -326,13 +326,13 @@ impl Scene {
     /// is behind it says that it is there.
     pub fn unseen_glass(&self) -> Option<String> {
         let unseen = |mesh: &Mesh| -> usize {
-            let primitives = mesh.primitives.iter().map(|primitive| {
+            let count = |primitive: &Primitive| {
                 let material = &self.data.materials[primitive.material as usize];
                 let is_unseen = material.paint.as_ref().is_some_and(Paint::is_unseen);
-                let triangles = (0..primitive.triangles.len()).filter(|_| is_unseen);
-                triangles.filter(|&t| !primitive.is_shown(t, material)).count()
-            });
-            primitives.sum()
+                let is_hidden = |&t: &usize| is_unseen && !primitive.is_shown(t, material);
+                (0..primitive.triangles.len()).filter(is_hidden).count()
+            };
+            mesh.primitives.iter().map(count).sum()
         };
         let of_meshes: Vec<usize> = self.data.meshes.iter().map(unseen).collect();
         let placed = self.data.nodes.iter().filter_map(|node| node.mesh);

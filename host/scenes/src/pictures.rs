@@ -12,6 +12,7 @@ use super::error::{SceneError, malformed, not_compiled};
 use super::files::Load;
 use super::paint::{MAX_SIDE, Picture};
 use super::radiance_hdr;
+use super::srgb::linear_from_srgb;
 
 /// What cannot be decoded.
 pub(super) fn undecoded(name: &str, problem: impl Display) -> SceneError {
@@ -87,4 +88,21 @@ pub(super) fn kept(pixels: Rc<RgbaImage>) -> Picture {
         height,
         texels: Arc::new(pixels.into_raw()),
     }
+}
+
+/// Mean of each channel of a picture, colours made linear.
+pub(super) fn mean_of(pixels: &RgbaImage, is_color: bool) -> [f32; 4] {
+    let linear: [f64; 256] = std::array::from_fn(|encoded| match is_color {
+        true => f64::from(linear_from_srgb(encoded as u8)),
+        false => encoded as f64 / 255.0,
+    });
+    let mut sum = [0.0_f64; 4];
+    for pixel in pixels.pixels() {
+        let [r, g, b, alpha] = pixel.0;
+        let alpha = f64::from(alpha) / 255.0;
+        let [r, g, b] = [r, g, b].map(|channel| linear[usize::from(channel)]);
+        sum = [sum[0] + r, sum[1] + g, sum[2] + b, sum[3] + alpha];
+    }
+    let count = (f64::from(pixels.width()) * f64::from(pixels.height())).max(1.0);
+    sum.map(|channel| (channel / count) as f32)
 }

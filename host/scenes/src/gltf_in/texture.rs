@@ -14,7 +14,7 @@ use super::super::check::bounded;
 use super::super::error::SceneError;
 use super::super::glow::Glow;
 use super::super::paint::{Texture, Wrap};
-use super::super::srgb::linear_from_srgb;
+use super::super::pictures::mean_of;
 use super::Document;
 
 /// A texture as a material names it.
@@ -208,21 +208,4 @@ impl Document<'_> {
         }
         Ok(None)
     }
-}
-
-/// Mean of each channel of a picture, colours made linear.
-fn mean_of(pixels: &RgbaImage, is_color: bool) -> [f32; 4] {
-    let linear: [f64; 256] = std::array::from_fn(|encoded| match is_color {
-        true => f64::from(linear_from_srgb(encoded as u8)),
-        false => encoded as f64 / 255.0,
-    });
-    let mut sum = [0.0_f64; 4];
-    for pixel in pixels.pixels() {
-        let [r, g, b, alpha] = pixel.0;
-        let alpha = f64::from(alpha) / 255.0;
-        let [r, g, b] = [r, g, b].map(|channel| linear[usize::from(channel)]);
-        sum = [sum[0] + r, sum[1] + g, sum[2] + b, sum[3] + alpha];
-    }
-    let count = (f64::from(pixels.width()) * f64::from(pixels.height())).max(1.0);
-    sum.map(|channel| (channel / count) as f32)
 }

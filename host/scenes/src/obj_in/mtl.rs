@@ -196,7 +196,7 @@ impl Reading<'_, '_> {
         let is_one_of = |models: &[f32]| illumination.is_some_and(|own| models.contains(&own));
         let unit = |x: f32| x.clamp(0.0, 1.0);
         let times = |color: [f32; 3], map: &Option<Map>| match map {
-            Some(map) => [0, 1, 2].map(|i| color[i] * map.mean[i] as f32),
+            Some(map) => [0, 1, 2].map(|i| color[i] * map.mean[i]),
             None => color,
         };
         // Exporters write black beside a map that says all.

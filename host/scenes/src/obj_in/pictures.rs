@@ -10,14 +10,13 @@ use super::super::error::SceneError;
 use super::super::files::Load;
 use super::super::paint::Picture;
 use super::super::pictures;
-use super::super::srgb::linear_from_srgb;
 use super::mtl::Placing;
 
 /// A picture, its mean, and where it lies.
 pub(super) struct Map {
     pub path: PathBuf,
     /// Linear.
-    pub mean: [f64; 3],
+    pub mean: [f32; 3],
     pub placing: Placing,
 }
 
@@ -27,7 +26,7 @@ type Kept = (u32, Rc<RgbaImage>);
 /// What has been decoded.
 pub(super) struct Pictures<'a> {
     pub load: &'a Load,
-    means: HashMap<PathBuf, [f64; 3]>,
+    means: HashMap<PathBuf, [f32; 3]>,
     /// By the files of colours and opacities.
     kept: HashMap<(PathBuf, Option<PathBuf>), Kept>,
 }
@@ -42,11 +41,11 @@ impl<'a> Pictures<'a> {
     }
 
     /// The mean colour of a file.
-    pub fn mean(&mut self, path: &Path) -> Result<[f64; 3], SceneError> {
+    pub fn mean(&mut self, path: &Path) -> Result<[f32; 3], SceneError> {
         if let Some(&known) = self.means.get(path) {
             return Ok(known);
         }
-        let mean = mean_of(&self.decode(path)?);
+        let mean = mean_of(self.decode(path)?);
         self.means.insert(path.to_owned(), mean);
         Ok(mean)
     }
@@ -108,18 +107,15 @@ fn is_linear(picture: &DynamicImage) -> bool {
     )
 }
 
-fn mean_of(picture: &DynamicImage) -> [f64; 3] {
+fn mean_of(picture: DynamicImage) -> [f32; 3] {
+    if !is_linear(&picture) {
+        let [r, g, b, _] = pictures::mean_of(&picture.into_rgba8(), true);
+        return [r, g, b];
+    }
     let pixels = f64::from(picture.width()) * f64::from(picture.height());
     let mut sums = [0.0; 3];
-    if is_linear(picture) {
-        for pixel in picture.to_rgb32f().pixels() {
-            sums = [0, 1, 2].map(|k| sums[k] + f64::from(pixel.0[k]));
-        }
-    } else {
-        let light: [f64; 256] = std::array::from_fn(|step| linear_from_srgb(step as u8).into());
-        for pixel in picture.to_rgb8().pixels() {
-            sums = [0, 1, 2].map(|k| sums[k] + light[usize::from(pixel.0[k])]);
-        }
+    for pixel in picture.into_rgb32f().pixels() {
+        sums = [0, 1, 2].map(|k| sums[k] + f64::from(pixel.0[k]));
     }
-    sums.map(|sum| sum / pixels)
+    sums.map(|sum| (sum / pixels) as f32)
 }
