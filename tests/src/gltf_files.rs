@@ -1,8 +1,8 @@
 //! Small glTF files and scenes for the tests of the loader.
 
 use lightbvh_host::scene::{
-    Animation, Camera, Channel, Influence, Interpolation, Material, Mesh, Node, Primitive,
-    Property, Scene, SceneData, SceneError, Skin, Transform,
+    Animation, Camera, Channel, Influence, Interpolation, Material, Mesh, Node, Primitive, Property, Scene,
+    SceneData, SceneError, Skin, Transform,
 };
 use serde_json::{Value, json};
 
@@ -144,14 +144,17 @@ pub fn embedded(bytes: &[u8]) -> String {
 #[must_use]
 pub fn busy() -> SceneData {
     let key = |x: f32| [x, 0.5 * x, 0.0, 0.0];
-    let channel =
-        |node, property: Property, interpolation, values: Vec<[f32; 4]>, times: &[f32]| Channel {
-            node,
-            property,
-            interpolation,
-            times: times.to_vec(),
-            values: values.iter().flat_map(|row| &row[..property.numbers()]).copied().collect(),
-        };
+    let channel = |node, property: Property, interpolation, values: Vec<[f32; 4]>, times: &[f32]| Channel {
+        node,
+        property,
+        interpolation,
+        times: times.to_vec(),
+        values: values
+            .iter()
+            .flat_map(|row| &row[..property.numbers()])
+            .copied()
+            .collect(),
+    };
     let node = |parent, transform, mesh| Node {
         name: String::from("n"),
         parent,

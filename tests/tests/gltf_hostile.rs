@@ -128,7 +128,10 @@ fn instances_are_counted_before_memory_is_taken() {
     };
     data.nodes.extend(std::iter::repeat_n(extra, 5_000));
     let error = Scene::new(data).expect_err("five billion triangles must be refused");
-    assert!(error.to_string().contains("triangles over all instances"), "{error}");
+    assert!(
+        error.to_string().contains("triangles over all instances"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -153,7 +156,10 @@ fn deep_chains_of_nodes_need_no_deep_stack() {
     );
     let nested = format!("{{\"asset\":{}{}}}", "[".repeat(100_000), "]".repeat(100_000));
     let error = read(nested.as_bytes()).expect_err("too deep");
-    assert!(error.to_string().contains("not a readable glTF 2.0 file"), "{error}");
+    assert!(
+        error.to_string().contains("not a readable glTF 2.0 file"),
+        "{error}"
+    );
 }
 
 /// Opens the bytes and, where they are a scene after all, makes a frame.

@@ -183,7 +183,9 @@ fn broken_files_are_named_and_never_panic() {
         let problem = Profile::read(String::new(), text.clone().into_bytes()).expect_err(&text);
         assert!(problem.contains(part), "{problem}");
     }
-    crate::random::damaged(&[sound.clone()], 20_000, |bytes| _ = Photometry::read(bytes));
+    crate::random::damaged(std::slice::from_ref(&sound), 20_000, |bytes| {
+        _ = Photometry::read(bytes)
+    });
     let tilted = text.replace("TILT=NONE", "TILT=INCLUDE\n1\n2\n0 90\n1 0.9");
     assert_eq!(Photometry::read(tilted.as_bytes()), Photometry::read(&sound));
 }
