@@ -1,8 +1,8 @@
 //! Small glTF files and scenes for the tests of the loader.
 
 use lightbvh_host::scene::{
-    Animation, Camera, Channel, Influence, Interpolation, Material, Mesh, MorphChannel, Node, Primitive,
-    Property, Scene, SceneData, SceneError, Skin, Transform,
+    Animation, Camera, Channel, Influence, Interpolation, Material, Mesh, Node, Primitive, Property, Scene,
+    SceneData, SceneError, Skin, Transform,
 };
 use serde_json::{Value, json};
 
@@ -144,12 +144,16 @@ pub fn embedded(bytes: &[u8]) -> String {
 #[must_use]
 pub fn busy() -> SceneData {
     let key = |x: f32| [x, 0.5 * x, 0.0, 0.0];
-    let channel = |node, property, interpolation, values: Vec<[f32; 4]>, times: &[f32]| Channel {
+    let channel = |node, property: Property, interpolation, values: Vec<[f32; 4]>, times: &[f32]| Channel {
         node,
         property,
         interpolation,
         times: times.to_vec(),
-        values,
+        values: values
+            .iter()
+            .flat_map(|row| &row[..property.numbers()])
+            .copied()
+            .collect(),
     };
     let node = |parent, transform, mesh| Node {
         name: String::from("n"),
@@ -318,18 +322,17 @@ pub fn bending() -> SceneData {
         property: Property::Rotation,
         interpolation: Interpolation::Step,
         times: vec![0.0, 1.0],
-        values: vec![[0.0, 0.0, 0.0, 1.0], quarter],
+        values: [[0.0, 0.0, 0.0, 1.0], quarter].concat(),
     };
-    let morph = |targets, interpolation, values: &[f32]| MorphChannel {
+    let weights = Channel {
         node: 0,
-        targets,
-        interpolation,
+        property: Property::Weights(2),
+        interpolation: Interpolation::Linear,
         times: vec![0.0, 2.0],
-        values: values.to_vec(),
+        values: vec![0.0, 0.0, 3.0, 1.0],
     };
     data.animations = vec![Animation {
-        channels: vec![turn],
-        morphs: vec![morph(2, Interpolation::Linear, &[0.0, 0.0, 3.0, 1.0])],
+        channels: vec![turn, weights],
         ..Animation::default()
     }];
     data

@@ -1,7 +1,7 @@
 //! Meshes that bend, and lights without area.
 
 use lightbvh::{BuildParams, Edit};
-use lightbvh_host::scene::{AnalyticKind, Instances, Interpolation, Scene, SceneData};
+use lightbvh_host::scene::{AnalyticKind, Instances, Interpolation, Property, Scene, SceneData};
 use lightbvh_kernels::bvh::{Node, WIDTH};
 use lightbvh_tests::gltf_files::{bending, changed, embedded, push, read, read_json, triangle};
 use serde_json::{Value, json};
@@ -36,8 +36,8 @@ fn weights_of_targets_follow_gltf() {
     let height = |scene: &Scene, frame: u32| scene.frame(frame).triangles[0].p[0][2];
     let scene = |interpolation, values: &[f32]| {
         let mut data = bending();
-        data.animations[0].morphs[0].interpolation = interpolation;
-        data.animations[0].morphs[0].values = values.to_vec();
+        data.animations[0].channels[1].interpolation = interpolation;
+        data.animations[0].channels[1].values = values.to_vec();
         Scene::new(data).expect("a sound scene")
     };
     let linear = scene(Interpolation::Linear, &[0.0, 0.0, 3.0, 1.0]);
@@ -155,12 +155,15 @@ fn what_cannot_bend_is_named() {
             "target 0 of mesh 0",
         ),
         (|data| data.nodes[0].weights[0] = f32::NAN, "a weight of node 0"),
-        (|data| data.animations[0].morphs[0].targets = 3, "value list"),
         (
-            |data| data.animations[0].morphs[0].targets = 0,
+            |data| data.animations[0].channels[1].property = Property::Weights(3),
+            "value list",
+        ),
+        (
+            |data| data.animations[0].channels[1].property = Property::Weights(0),
             "number of targets",
         ),
-        (|data| data.animations[0].morphs[0].values[2] = 1e30, "2^40"),
+        (|data| data.animations[0].channels[1].values[2] = 1e30, "2^40"),
         (|data| data.skins[0].inverse_bind[0][0][0] = 1e20, "2^40"),
     ];
     for (index, (change, expected)) in cases.into_iter().enumerate() {

@@ -80,7 +80,7 @@ fn nan_positions_and_bad_animations_are_named() {
     bytes.extend([0, 0, 1, 0, 2, 0]);
     let uri = format!("data:;base64,{}", base64(&bytes));
     let error = read_json(&changed("/buffers/0/uri", json!(uri))).expect_err("NaN must be refused");
-    assert!(matches!(error, SceneError::NotFinite { .. }), "{error}");
+    assert!(error.to_string().contains("is NaN"), "{error}");
 
     let broken = |change: fn(&mut SceneData)| {
         let mut data = busy();
@@ -95,12 +95,12 @@ fn nan_positions_and_bad_animations_are_named() {
         broken(|data| {
             data.animations[0].channels[0].values.pop();
         })
-        .contains("expected 3")
+        .contains("expected 9")
     );
     assert!(
         broken(|data| data.animations[0].channels[0].node = 2).contains("translation, rotation and scale")
     );
-    assert!(broken(|data| data.animations[1].channels[1].values[2][0] = 3e38).contains("2^40"));
+    assert!(broken(|data| data.animations[1].channels[1].values[6] = 3e38).contains("2^40"));
     assert!(broken(|data| data.meshes[1].primitives[1].radiance = Some(vec![[1.0; 3]])).contains("radiance"));
     assert!(broken(|data| data.materials[0].radiance = [3e38; 3]).contains("2^100"));
     assert!(broken(|data| data.materials[0].radiance = [1e30; 3]).contains("flux"));
@@ -128,7 +128,10 @@ fn instances_are_counted_before_memory_is_taken() {
     };
     data.nodes.extend(std::iter::repeat_n(extra, 5_000));
     let error = Scene::new(data).expect_err("five billion triangles must be refused");
-    assert!(matches!(error, SceneError::TooMany { .. }), "{error}");
+    assert!(
+        error.to_string().contains("triangles over all instances"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -152,10 +155,11 @@ fn deep_chains_of_nodes_need_no_deep_stack() {
         1
     );
     let nested = format!("{{\"asset\":{}{}}}", "[".repeat(100_000), "]".repeat(100_000));
-    assert!(matches!(
-        read(nested.as_bytes()),
-        Err(SceneError::Container { .. })
-    ));
+    let error = read(nested.as_bytes()).expect_err("too deep");
+    assert!(
+        error.to_string().contains("not a readable glTF 2.0 file"),
+        "{error}"
+    );
 }
 
 /// Opens the bytes and, where they are a scene after all, makes a frame.

@@ -75,20 +75,20 @@ pub enum AnalyticKind {
 }
 
 impl AnalyticKind {
-    /// How far the light reaches from its middle, metres; none of lights without size, which scales of their nodes do not change.
-    pub(super) fn extent(&self) -> Option<f64> {
-        let half: &[f32] = match self {
-            Self::Directional | Self::Point | Self::Spot { .. } | Self::Profile { .. } => return None,
+    /// Half the size of a light with a size, metres.
+    pub(super) fn half(&self) -> &[f32] {
+        match self {
+            Self::Directional | Self::Point | Self::Spot { .. } | Self::Profile { .. } => &[],
             Self::Sphere { radius } => std::slice::from_ref(radius),
             Self::Rectangle { half } | Self::Disc { half } => half,
             Self::Box { half } => half,
-        };
-        Some(
-            half.iter()
-                .map(|&x| f64::from(x) * f64::from(x))
-                .sum::<f64>()
-                .sqrt(),
-        )
+        }
+    }
+
+    /// How far the light reaches from its middle, metres; none of lights without size, which scales of their nodes do not change.
+    pub(super) fn extent(&self) -> Option<f64> {
+        let squares = self.half().iter().map(|&x| f64::from(x) * f64::from(x));
+        (!self.half().is_empty()).then(|| squares.sum::<f64>().sqrt())
     }
 
     /// Of profile number `index`, which is `profile`.

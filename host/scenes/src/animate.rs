@@ -4,7 +4,6 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::analytic::AnalyticLight;
-use super::deform::MorphChannel;
 use super::model::{Channel, Interpolation, Property, SceneData};
 use super::transform::{Affine, Transform, normalized, slerp};
 
@@ -27,10 +26,11 @@ impl Pose {
             let duration = f64::from(animation.duration());
             let time = if duration > 0.0 { seconds % duration } else { 0.0 };
             for channel in &animation.channels {
-                apply(channel, time, &mut locals[channel.node as usize]);
-            }
-            for channel in &animation.morphs {
-                weights.insert(channel.node as usize, weights_at(channel, time));
+                let node = channel.node as usize;
+                match channel.property {
+                    Property::Weights(_) => _ = weights.insert(node, sample(channel, time)),
+                    _ => apply(channel, time, &mut locals[node]),
+                }
             }
         }
 
@@ -90,50 +90,43 @@ impl Pose {
 
 /// Replaces the animated part of `local`.
 fn apply(channel: &Channel, time: f64, local: &mut Transform) {
-    let value = sample(channel, time).map(|x| x as f32);
+    let three = || {
+        let value = sample(channel, time);
+        [0, 1, 2].map(|k| value[k] as f32)
+    };
     if let Transform::Trs {
         translation,
         rotation,
         scale,
     } = local
     {
-        let [x, y, z, _] = value;
         match channel.property {
-            Property::Translation => *translation = [x, y, z],
-            Property::Rotation => *rotation = value,
-            Property::Scale => *scale = [x, y, z],
+            Property::Translation => *translation = three(),
+            Property::Scale => *scale = three(),
+            Property::Rotation => *rotation = turn(channel, time).map(|x| x as f32),
+            Property::Weights(_) => {}
         }
     }
 }
 
-/// The channel's value at `time`.
-fn sample(channel: &Channel, time: f64) -> [f64; 4] {
-    let rotates = channel.property == Property::Rotation;
-    let unit = |value: [f64; 4]| if rotates { normalized(value) } else { value };
-    let raw = |index: usize| channel.values[index].map(f64::from);
+/// The unit quaternion of a channel of rotations at `time`.
+fn turn(channel: &Channel, time: f64) -> [f64; 4] {
+    let key = |row: usize| normalized([0, 1, 2, 3].map(|k| f64::from(channel.values[4 * row + k])));
     match (step(&channel.times, time), channel.interpolation) {
-        (Step::At(key), Interpolation::CubicSpline) => unit(raw(3 * key + 1)),
-        (Step::At(key), _) | (Step::Between { from: key, .. }, Interpolation::Step) => unit(raw(key)),
-        (Step::Between { from, t, .. }, Interpolation::Linear) if rotates => {
-            slerp(unit(raw(from)), unit(raw(from + 1)), t)
-        }
-        (Step::Between { from, t, .. }, Interpolation::Linear) => {
-            let (a, b) = (raw(from), raw(from + 1));
-            [0, 1, 2, 3].map(|i| a[i] + (b[i] - a[i]) * t)
-        }
-        (Step::Between { from, span, t }, Interpolation::CubicSpline) => {
-            let keys = [1, 2, 3, 4].map(|i| raw(3 * from + i));
-            unit([0, 1, 2, 3].map(|i| hermite(keys.map(|key| key[i]), span, t)))
+        (Step::Between { from, t, .. }, Interpolation::Linear) => slerp(key(from), key(from + 1), t),
+        _ => {
+            let value = sample(channel, time);
+            normalized([0, 1, 2, 3].map(|k| value[k]))
         }
     }
 }
 
-/// The weights at `time`, each as a number of its own.
-fn weights_at(channel: &MorphChannel, time: f64) -> Vec<f64> {
-    let count = channel.targets as usize;
+/// The channel's numbers at `time`, each interpolated by itself.
+fn sample(channel: &Channel, time: f64) -> Vec<f64> {
+    let count = channel.property.numbers();
     let place = step(&channel.times, time);
-    let one = |target: usize| {
-        let raw = |row: usize| f64::from(channel.values[row * count + target]);
+    let one = |k: usize| {
+        let raw = |row: usize| f64::from(channel.values[row * count + k]);
         match (&place, channel.interpolation) {
             (Step::At(key), Interpolation::CubicSpline) => raw(3 * key + 1),
             (Step::At(key), _) | (Step::Between { from: key, .. }, Interpolation::Step) => raw(*key),

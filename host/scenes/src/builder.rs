@@ -112,13 +112,13 @@ impl SceneBuilder {
 
     /// Swings about `axis` like a pendulum, `amplitude` in radians, `phase` in turns.
     pub fn swing(&mut self, node: u32, axis: [f64; 3], amplitude: f64, period: u32, phase: f64) {
-        let value = |t: f64| rotation(axis, amplitude * on_circle(t + phase)[1]);
+        let value = |t: f64| rotation(axis, amplitude * on_circle(t + phase)[1]).to_vec();
         self.keys(node, Property::Rotation, period, 16, value);
     }
 
     /// Turns about `axis` by whole `turns` in a period, starting at `phase` turns.
     pub fn spin(&mut self, node: u32, axis: [f64; 3], turns: i32, period: u32, phase: f64) {
-        let value = |t: f64| rotation(axis, std::f64::consts::TAU * (f64::from(turns) * t + phase));
+        let value = |t: f64| rotation(axis, std::f64::consts::TAU * (f64::from(turns) * t + phase)).to_vec();
         self.keys(node, Property::Rotation, period, 6 * turns.unsigned_abs(), value);
     }
 
@@ -126,7 +126,7 @@ impl SceneBuilder {
     pub fn bob(&mut self, node: u32, at: [f64; 3], height: f64, period: u32, phase: f64) {
         let value = |t: f64| {
             let y = at[1] + height * on_circle(t + phase)[1];
-            [at[0] as f32, y as f32, at[2] as f32, 0.0]
+            vec![at[0] as f32, y as f32, at[2] as f32]
         };
         self.keys(node, Property::Translation, period, 12, value);
     }
@@ -138,15 +138,20 @@ impl SceneBuilder {
         property: Property,
         period: u32,
         steps: u32,
-        value: impl Fn(f64) -> [f32; 4],
+        value: impl Fn(f64) -> Vec<f32>,
     ) {
         let at = |i: u32| f64::from(i) / f64::from(steps);
         let times = (0..=steps)
             .map(|i| (at(i) * f64::from(period) / 25.0) as f32)
             .collect();
-        let values = (0..=steps).map(|i| value(at(i % steps))).collect();
-        let interpolation = Interpolation::Linear;
-        self.channel(period, node, (property, interpolation), times, values);
+        let values = (0..=steps).flat_map(|i| value(at(i % steps))).collect();
+        self.channels.entry(period).or_default().push(Channel {
+            node,
+            property,
+            interpolation: Interpolation::Linear,
+            times,
+            values,
+        });
     }
 
     /// Flies through `points` and back to the first on a smooth closed curve (Catmull-Rom tangents).
@@ -157,16 +162,16 @@ impl SceneBuilder {
         for i in 0..=count {
             let [before, here, after] = [i + count - 1, i, i + 1].map(|i| points[i % count]);
             let tangent = [0, 1, 2].map(|axis| ((after[axis] - before[axis]) / (2.0 * step)) as f32);
-            let tangent = [tangent[0], tangent[1], tangent[2], 0.0];
-            values.extend([
-                tangent,
-                [here[0] as f32, here[1] as f32, here[2] as f32, 0.0],
-                tangent,
-            ]);
+            values.extend([tangent, here.map(|x| x as f32), tangent].as_flattened());
         }
         let times = (0..=count).map(|i| (i as f64 * step) as f32).collect();
-        let (property, interpolation) = (Property::Translation, Interpolation::CubicSpline);
-        self.channel(period, node, (property, interpolation), times, values);
+        self.channels.entry(period).or_default().push(Channel {
+            node,
+            property: Property::Translation,
+            interpolation: Interpolation::CubicSpline,
+            times,
+            values,
+        });
     }
 
     /// Drives along a closed track, facing ahead with +Z, from `start` turns of the track on.
@@ -175,30 +180,18 @@ impl SceneBuilder {
         for turn in track.stops(start) {
             let ([x, z], heading) = track.at(turn);
             times.push(((turn - start) * f64::from(period) / 25.0) as f32);
-            places.push([x as f32, height as f32, z as f32, 0.0]);
-            turns.push(rotation([0.0, 1.0, 0.0], heading));
+            places.extend([x, height, z].map(|x| x as f32));
+            turns.extend(rotation([0.0, 1.0, 0.0], heading));
         }
         for (property, values) in [(Property::Translation, places), (Property::Rotation, turns)] {
-            let (times, interpolation) = (times.clone(), Interpolation::Linear);
-            self.channel(period, node, (property, interpolation), times, values);
+            self.channels.entry(period).or_default().push(Channel {
+                node,
+                property,
+                interpolation: Interpolation::Linear,
+                times: times.clone(),
+                values,
+            });
         }
-    }
-
-    fn channel(
-        &mut self,
-        period: u32,
-        node: u32,
-        (property, interpolation): (Property, Interpolation),
-        times: Vec<f32>,
-        values: Vec<[f32; 4]>,
-    ) {
-        self.channels.entry(period).or_default().push(Channel {
-            node,
-            property,
-            interpolation,
-            times,
-            values,
-        });
     }
 
     /// A camera at `eye` that looks at `target`.
@@ -227,7 +220,6 @@ impl SceneBuilder {
                 name: format!("{period} frames"),
                 place,
                 channels,
-                morphs: Vec::new(),
             });
         }
         Scene::new(self.data)

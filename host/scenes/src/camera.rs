@@ -6,7 +6,7 @@ use super::transform::{Affine, Transform, unit_or};
 use crate::vector::{cross, sub};
 
 /// Where an image is seen from.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct View {
     /// Position, metres.
     pub eye: [f32; 3],
@@ -19,9 +19,6 @@ pub struct View {
     /// Vertical field of view, radians, above 0 and below pi.
     pub yfov: f32,
 }
-
-/// Vertical field of view of the default camera: 50 degrees, a natural view on a screen.
-pub(super) const DEFAULT_YFOV: f32 = 0.872_664_6;
 
 impl Scene {
     /// Where the frames are seen from of a scene that brings no camera, once a frame has been made: eye, a place that it looks
@@ -62,17 +59,6 @@ impl Scene {
 pub(super) fn view_of_node(world: &Affine, yfov: f32) -> View {
     let forward = unit_or(world.columns[2].map(|x| -x), [0.0, 0.0, -1.0]);
     looking(world.columns[3], forward, world.columns[1], yfov)
-}
-
-/// A camera that looks at the middle of a box, from the direction `towards`, `distance` half diagonals away; at 2.37 of them the
-/// sphere around the box touches the image's upper and lower edge.
-pub(super) fn view_of_box(min: [f64; 3], max: [f64; 3], towards: [f64; 3], distance: f64) -> View {
-    let centre = [0, 1, 2].map(|i| 0.5 * (min[i] + max[i]));
-    let half = [0, 1, 2].map(|i| 0.5 * (max[i] - min[i]));
-    let radius = half.iter().map(|h| h * h).sum::<f64>().sqrt().max(1e-3);
-    let forward = unit_or(towards.map(|x| -x), [0.0, 0.0, -1.0]);
-    let eye = [0, 1, 2].map(|i| centre[i] - forward[i] * distance * radius);
-    looking(eye, forward, [0.0, 1.0, 0.0], DEFAULT_YFOV)
 }
 
 /// `forward` is a unit vector; `up` is made orthogonal to it.

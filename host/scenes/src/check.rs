@@ -1,17 +1,20 @@
 //! The checked constructor: what a scene must be before anything is built on it.
 
-mod deform;
+use std::ops::RangeInclusive;
 
 use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE};
 use lightbvh_kernels::shading::sky::MAX_SUNS;
 
-use super::analytic::AnalyticKind;
+use super::analytic::{AnalyticKind, AnalyticLight};
 use super::clips::named;
-use super::error::SceneError;
+use super::deform::is_skinned;
+use super::error::{SceneError, malformed};
 use super::flush::flush_tiny;
 use super::frame::emits;
 use super::lamps::Facets;
-use super::model::{Animation, Channel, Counts, Interpolation, Material, Primitive, Scene, SceneData};
+use super::model::{
+    Animation, Channel, Counts, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
+};
 use super::motion_bounds;
 use super::paint::{MAX_SIDE, Opacity, Paint, Picture};
 use super::transform::Transform;
@@ -22,8 +25,23 @@ pub const MAX_TRIANGLES: u64 = 1 << 26;
 /// Greatest magnitude of a texture coordinate, and of a number of a texture's transform: 2^20.
 pub(super) const MAX_TEXTURE_COORDINATE: f32 = 1_048_576.0;
 
+/// A number of a texture in ±2^20; `none` for what is no number.
+pub(super) fn bounded(x: f32, none: f32) -> f32 {
+    if x.is_nan() {
+        return none;
+    }
+    x.clamp(-MAX_TEXTURE_COORDINATE, MAX_TEXTURE_COORDINATE)
+}
+
 /// Greatest factor on how far normals bend.
 const MAX_BUMP: f32 = 1024.0;
+
+const FINITE: RangeInclusive<f32> = f32::MIN..=f32::MAX;
+const IS_FINITE: &str = "expected a finite number; repair the model and export it again";
+const COORDINATES: RangeInclusive<f32> = -MAX_COORDINATE..=MAX_COORDINATE;
+const IS_NEAR: &str = "expected a coordinate within 2^40 metres of the origin";
+const IS_SHARE: &str = "expected 0 to 1";
+const TEXTURE: RangeInclusive<f32> = -MAX_TEXTURE_COORDINATE..=MAX_TEXTURE_COORDINATE;
 
 impl Scene {
     /// Checks `data` and wraps it.
@@ -49,11 +67,8 @@ impl Scene {
         }
         for (m, mesh) in data.meshes.iter().enumerate() {
             for (p, primitive) in mesh.primitives.iter().enumerate() {
-                check.primitive(
-                    &format!("mesh {m} `{}` primitive {p}", mesh.name),
-                    primitive,
-                    data.materials.len(),
-                )?;
+                let name = format!("mesh {m} `{}` primitive {p}", mesh.name);
+                check.primitive(&name, primitive, data.materials.len())?;
             }
         }
         check.nodes(&data)?;
@@ -63,15 +78,12 @@ impl Scene {
             check.analytic(index, light, &data.nodes)?;
         }
         for (index, camera) in data.cameras.iter().enumerate() {
-            check.index(
-                || format!("node of camera {index}"),
-                camera.node,
-                data.nodes.len(),
-            )?;
-            if !(camera.yfov > 0.0 && camera.yfov < std::f32::consts::PI) {
-                let element = format!("vertical field of view of camera {index}");
-                return Err(check.out_of_range(element, camera.yfov, "radians above 0 and below pi"));
-            }
+            let node = || format!("node of camera {index}");
+            check.index(node, camera.node, data.nodes.len())?;
+            let yfov = || format!("vertical field of view of camera {index}");
+            let expected = "expected radians above 0 and below pi";
+            let below = std::f32::consts::PI.next_down();
+            check.within(yfov, &[camera.yfov], f32::MIN_POSITIVE..=below, expected)?;
         }
         check.color(|| String::from("background"), data.background)?;
         let counts = check.count(&data)?;
@@ -81,179 +93,129 @@ impl Scene {
 
     /// Shows these animations and no others, where they are sound; else all stays as it was.
     pub(super) fn show(&mut self, animations: Vec<Animation>) -> Result<(), SceneError> {
-        let mut data = std::mem::take(&mut self.data);
-        let old = std::mem::replace(&mut data.animations, animations);
-        let check = Check { scene: &data.name };
-        let found = check.animations(&data).and_then(|()| motion_bounds::check(&data));
+        let old = std::mem::replace(&mut self.data.animations, animations);
+        let check = Check {
+            scene: &self.data.name,
+        };
+        let found = check
+            .animations(&self.data)
+            .and_then(|()| motion_bounds::check(&self.data));
         if found.is_err() {
-            data.animations = old;
+            self.data.animations = old;
         }
-        self.data = data;
         found
     }
 }
 
 /// The checks, with the name that their errors carry.
-struct Check<'a> {
-    scene: &'a str,
+pub(super) struct Check<'a> {
+    pub scene: &'a str,
 }
 
 impl Check<'_> {
-    fn scene(&self) -> String {
-        self.scene.to_owned()
-    }
-
-    fn invalid(&self, problem: String) -> SceneError {
-        SceneError::Invalid {
-            scene: self.scene(),
-            problem,
-        }
-    }
-
-    fn out_of_range(&self, element: String, value: impl Into<f64>, expected: &str) -> SceneError {
-        self.invalid(format!("{element} is {}, expected {expected}", value.into()))
+    fn wrong(&self, problem: String, advice: &str) -> SceneError {
+        malformed(format!("scene `{}`", self.scene), problem, advice)
     }
 
     fn limit(&self, what: &'static str, count: usize, limit: u64) -> Result<(), SceneError> {
         if count as u64 > limit {
-            return Err(SceneError::TooMany {
-                scene: self.scene(),
-                what,
-                count: count as u64,
-                limit,
-            });
+            let problem = format!("has {count} {what}, more than the {limit} that fit");
+            return Err(self.wrong(problem, "split the scene or use fewer instances"));
         }
         Ok(())
     }
 
     fn index(&self, element: impl Fn() -> String, index: u32, count: usize) -> Result<(), SceneError> {
         if index as usize >= count {
-            let element = element();
-            return Err(self.invalid(format!(
-                "{element} is {index}, but there are only {count}; repair the model's references"
-            )));
+            let problem = format!("{} is {index}, but there are only {count}", element());
+            return Err(self.wrong(problem, "repair the model's references"));
         }
         Ok(())
     }
 
     fn length(&self, element: impl Fn() -> String, found: usize, expected: usize) -> Result<(), SceneError> {
         if found != expected {
-            let element = element();
-            return Err(self.invalid(format!(
-                "{element} has {found} entries, expected {expected}; export the scene again"
-            )));
+            let problem = format!("{} has {found} entries, expected {expected}", element());
+            return Err(self.wrong(problem, "export the scene again"));
         }
         Ok(())
+    }
+
+    /// All of `values` in `range`, in which NaN is not.
+    pub(super) fn within<T: PartialOrd + Copy + std::fmt::Display>(
+        &self,
+        element: impl Fn() -> String,
+        values: &[T],
+        range: RangeInclusive<T>,
+        expected: &str,
+    ) -> Result<(), SceneError> {
+        match values.iter().find(|value| !range.contains(value)) {
+            Some(value) => Err(self.wrong(format!("{} is {value}", element()), expected)),
+            None => Ok(()),
+        }
     }
 
     fn finite(&self, element: impl Fn() -> String, values: &[f32]) -> Result<(), SceneError> {
-        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
-            let value = f64::from(*value);
-            return Err(SceneError::NotFinite {
-                scene: self.scene(),
-                element: element(),
-                value,
-            });
-        }
-        Ok(())
+        self.within(element, values, FINITE, IS_FINITE)
     }
 
-    /// Finite and not negative.
     fn color(&self, element: impl Fn() -> String, rgb: [f32; 3]) -> Result<(), SceneError> {
-        self.finite(&element, &rgb)?;
-        if let Some(&value) = rgb.iter().find(|&&channel| channel < 0.0) {
-            return Err(self.out_of_range(element(), value, "at least 0; light cannot be negative"));
-        }
-        if let Some(&value) = rgb.iter().find(|&&channel| channel > MAX_RADIANCE) {
-            return Err(self.out_of_range(element(), value, "at most 2^100; lower the emissive strength"));
-        }
-        Ok(())
+        let expected = "expected 0 to 2^100: light cannot be negative, and brighter light needs a lower emissive strength";
+        self.within(element, &rgb, 0.0..=MAX_RADIANCE, expected)
     }
 
     fn material(&self, index: usize, material: &Material) -> Result<(), SceneError> {
         let name = |what: &str| format!("{what} of material {index} `{}`", material.name);
         self.color(|| name("radiance"), material.radiance)?;
-        let [r, g, b] = material.base_color;
-        for (what, value) in [
-            ("base colour", r),
-            ("base colour", g),
-            ("base colour", b),
-            ("metallic", material.metallic),
-            ("roughness", material.roughness),
-            ("transmission", material.transmission),
-        ] {
-            self.finite(|| name(what), &[value])?;
-            if !(0.0..=1.0).contains(&value) {
-                return Err(self.out_of_range(name(what), value, "0 to 1"));
-            }
-        }
-        Ok(())
+        self.shares(
+            &name,
+            &[
+                ("base colour", &material.base_color),
+                ("metallic", &[material.metallic]),
+                ("roughness", &[material.roughness]),
+                ("transmission", &[material.transmission]),
+            ],
+        )
+    }
+
+    fn shares(&self, name: &impl Fn(&str) -> String, all: &[(&str, &[f32])]) -> Result<(), SceneError> {
+        all.iter()
+            .try_for_each(|(what, values)| self.within(|| name(what), values, 0.0..=1.0, IS_SHARE))
     }
 
     fn picture(&self, index: usize, picture: &Picture) -> Result<(), SceneError> {
-        for size in [picture.width, picture.height] {
-            if !(1..=MAX_SIDE).contains(&size) {
-                let element = format!("a side of picture {index}");
-                return Err(self.out_of_range(element, size, "1 to 16384 texels"));
-            }
-        }
+        let sides = [picture.width, picture.height];
+        let name = || format!("a side of picture {index}");
+        self.within(name, &sides, 1..=MAX_SIDE, "expected 1 to 16384 texels")?;
         let texels = picture.width as usize * picture.height as usize;
-        self.length(
-            || format!("texel bytes of picture {index}"),
-            picture.texels.len(),
-            4 * texels,
-        )
+        let name = || format!("texel bytes of picture {index}");
+        self.length(name, picture.texels.len(), 4 * texels)
     }
 
     fn paint(&self, index: usize, paint: &Paint, pictures: usize) -> Result<(), SceneError> {
         let name = |what: &str| format!("{what} of the paint of material {index}");
         self.color(|| name("radiance"), paint.radiance)?;
-        let [r, g, b, opacity] = paint.base;
-        for (what, value) in [
-            ("base colour", r),
-            ("base colour", g),
-            ("base colour", b),
-            ("opacity", opacity),
-            ("metallic", paint.metallic),
-            ("roughness", paint.roughness),
-            ("transmission", paint.transmission),
-        ] {
-            self.finite(|| name(what), &[value])?;
-            if !(0.0..=1.0).contains(&value) {
-                return Err(self.out_of_range(name(what), value, "0 to 1"));
-            }
-        }
-        self.finite(|| name("factor of normals"), &[paint.bump])?;
-        if paint.bump.abs() > MAX_BUMP {
-            return Err(self.out_of_range(
-                name("factor of normals"),
-                paint.bump,
-                "at most 2^10 in magnitude",
-            ));
-        }
+        self.shares(
+            &name,
+            &[
+                ("base colour or opacity", &paint.base),
+                ("metallic", &[paint.metallic]),
+                ("roughness", &[paint.roughness]),
+                ("transmission", &[paint.transmission]),
+            ],
+        )?;
+        let bump = || name("factor of normals");
+        let expected = "expected at most 2^10 in magnitude";
+        self.within(bump, &[paint.bump], -MAX_BUMP..=MAX_BUMP, expected)?;
         if let Opacity::Cut(cutoff) = paint.opacity {
             self.finite(|| name("cutoff"), &[cutoff])?;
         }
         for (what, texture) in paint.textures() {
-            self.index(
-                || name(&format!("picture of the {what}")),
-                texture.picture,
-                pictures,
-            )?;
+            let picture = || name(&format!("picture of the {what}"));
+            self.index(picture, texture.picture, pictures)?;
             let element = || name(&format!("scale or offset of the {what} texture"));
-            self.finite(element, texture.transform.as_flattened())?;
-            if let Some(&value) = texture
-                .transform
-                .as_flattened()
-                .iter()
-                .find(|x| x.abs() > MAX_TEXTURE_COORDINATE)
-            {
-                return Err(self.out_of_range(
-                    element(),
-                    value,
-                    "at most 2^20 in magnitude; give its transform a smaller scale or offset",
-                ));
-            }
+            let expected = "expected at most 2^20 in magnitude; give its transform a smaller scale or offset";
+            self.within(element, texture.transform.as_flattened(), TEXTURE, expected)?;
         }
         Ok(())
     }
@@ -261,15 +223,12 @@ impl Check<'_> {
     fn primitive(&self, name: &str, primitive: &Primitive, materials: usize) -> Result<(), SceneError> {
         self.index(|| format!("material of {name}"), primitive.material, materials)?;
         for (v, position) in primitive.positions.iter().enumerate() {
-            self.finite(|| format!("position {v} of {name}"), position)?;
-            if let Some(&value) = position.iter().find(|x| x.abs() > MAX_COORDINATE) {
-                let element = format!("position {v} of {name}");
-                return Err(self.out_of_range(
-                    element,
-                    value,
-                    "a coordinate within 2^40 metres of the origin",
-                ));
-            }
+            self.within(
+                || format!("position {v} of {name}"),
+                position,
+                COORDINATES,
+                IS_NEAR,
+            )?;
         }
         let vertices = primitive.positions.len();
         for (t, triangle) in primitive.triangles.iter().enumerate() {
@@ -278,34 +237,34 @@ impl Check<'_> {
             }
         }
         if let Some(radiance) = &primitive.radiance {
-            self.length(
-                || format!("radiance list of {name}"),
-                radiance.len(),
-                primitive.triangles.len(),
-            )?;
+            let list = || format!("radiance list of {name}");
+            self.length(list, radiance.len(), primitive.triangles.len())?;
             for (t, &rgb) in radiance.iter().enumerate() {
                 self.color(|| format!("radiance of triangle {t} of {name}"), rgb)?;
             }
         }
         if let Some(coordinates) = &primitive.coordinates {
-            self.length(
-                || format!("texture coordinates of {name}"),
-                coordinates.len(),
-                vertices,
-            )?;
-            for (v, uv) in coordinates.iter().enumerate() {
-                self.finite(|| format!("texture coordinate {v} of {name}"), uv)?;
-                if let Some(&value) = uv.iter().find(|x| x.abs() > MAX_TEXTURE_COORDINATE) {
-                    let element = format!("texture coordinate {v} of {name}");
-                    return Err(self.out_of_range(
-                        element,
-                        value,
-                        "at most 2^20 in magnitude; move the coordinates nearer to 0",
-                    ));
-                }
+            let list = || format!("texture coordinates of {name}");
+            self.length(list, coordinates.len(), vertices)?;
+            let expected = "expected at most 2^20 in magnitude; move the coordinates nearer to 0";
+            self.within(list, coordinates.as_flattened(), TEXTURE, expected)?;
+        }
+        for (t, target) in primitive.targets.iter().enumerate() {
+            let element = || format!("target {t} of {name}");
+            if !target.is_empty() {
+                self.length(element, target.len(), vertices)?;
+            }
+            self.within(element, target.as_flattened(), COORDINATES, IS_NEAR)?;
+        }
+        for set in &primitive.influences {
+            self.length(|| format!("influences of {name}"), set.len(), vertices)?;
+            let element = || format!("weight of a joint of {name}");
+            for influence in set {
+                let expected = "expected a finite number, at least 0";
+                self.within(element, &influence.weights, 0.0..=f32::MAX, expected)?;
             }
         }
-        self.bends(name, primitive)
+        Ok(())
     }
 
     fn nodes(&self, data: &SceneData) -> Result<(), SceneError> {
@@ -330,6 +289,42 @@ impl Check<'_> {
                 }
                 Transform::Matrix(columns) => self.finite(|| name("matrix"), columns.as_flattened())?,
             }
+            self.finite(|| name("a weight"), &node.weights)?;
+        }
+        Ok(())
+    }
+
+    /// Skins name nodes, and have all the joints that the meshes on their nodes ask for.
+    fn skins(&self, data: &SceneData) -> Result<(), SceneError> {
+        for (s, skin) in data.skins.iter().enumerate() {
+            let binds = || format!("inverse bind matrices of skin {s}");
+            self.length(binds, skin.inverse_bind.len(), skin.joints.len())?;
+            for &joint in &skin.joints {
+                self.index(|| format!("a joint of skin {s}"), joint, data.nodes.len())?;
+            }
+            let numbers = skin.inverse_bind.as_flattened().as_flattened();
+            self.finite(|| format!("an inverse bind matrix of skin {s}"), numbers)?;
+        }
+        // The greatest joint of each mesh, found once however many nodes show it.
+        let greatest = |primitive: &Primitive| {
+            let all = primitive.influences.iter().flatten();
+            all.flat_map(|influence| influence.joints).max()
+        };
+        let of_meshes: Vec<Option<u16>> = (data.meshes.iter())
+            .map(|mesh| mesh.primitives.iter().filter_map(greatest).max())
+            .collect();
+        for (n, node) in data.nodes.iter().enumerate() {
+            let Some(skin) = node.skin else { continue };
+            let name = |what: &str| format!("{what} of node {n} `{}`", node.name);
+            self.index(|| name("skin"), skin, data.skins.len())?;
+            let Some(mesh) = node.mesh else { continue };
+            let skinned = |primitive: &Primitive| is_skinned(data, n, primitive);
+            if let Some(joint) = of_meshes[mesh as usize]
+                && data.meshes[mesh as usize].primitives.iter().any(skinned)
+            {
+                let joints = data.skins[skin as usize].joints.len();
+                self.index(|| name("a joint of the mesh"), joint.into(), joints)?;
+            }
         }
         Ok(())
     }
@@ -340,93 +335,104 @@ impl Check<'_> {
             for (c, channel) in animation.channels.iter().enumerate() {
                 self.channel(&format!("channel {c} of animation {own}"), channel, data)?;
             }
-            for (c, channel) in animation.morphs.iter().enumerate() {
-                let name = format!("channel {c} of weights of animation {own}");
-                self.morph(&name, channel, data)?;
-            }
         }
         Ok(())
     }
 
     fn channel(&self, name: &str, channel: &Channel, data: &SceneData) -> Result<(), SceneError> {
         self.index(|| format!("node of {name}"), channel.node, data.nodes.len())?;
-        let rows = self.keys(name, &channel.times, channel.interpolation)?;
-        self.length(|| format!("value list of {name}"), channel.values.len(), rows)?;
-        self.finite(|| format!("a value of {name}"), channel.values.as_flattened())?;
-        if !matches!(data.nodes[channel.node as usize].transform, Transform::Trs { .. }) {
-            let element = format!("target of {name}: node");
-            return Err(self.out_of_range(
-                element,
-                channel.node,
-                "a node with translation, rotation and scale",
-            ));
+        let (times, numbers) = (&channel.times, channel.property.numbers());
+        for (what, count) in [("keys", times.len()), ("targets", numbers)] {
+            let element = || format!("number of {what} of {name}");
+            self.within(element, &[count], 1..=usize::MAX, "expected at least 1")?;
+        }
+        self.finite(|| format!("a time of {name}"), times)?;
+        if times[0] < 0.0 || times.windows(2).any(|pair| pair[1] < pair[0]) {
+            let problem = format!("first time of {name} is {}", times[0]);
+            return Err(self.wrong(problem, "expected times from 0 up, in ascending order"));
+        }
+        let rows = match channel.interpolation {
+            Interpolation::CubicSpline => 3 * times.len(),
+            Interpolation::Step | Interpolation::Linear => times.len(),
+        };
+        let values = || format!("value list of {name}");
+        self.length(values, channel.values.len(), rows.saturating_mul(numbers))?;
+        self.finite(|| format!("a value of {name}"), &channel.values)?;
+        let is_movable = matches!(data.nodes[channel.node as usize].transform, Transform::Trs { .. });
+        if !is_movable && !matches!(channel.property, Property::Weights(_)) {
+            let problem = format!("target of {name} is node {}", channel.node);
+            return Err(self.wrong(problem, "expected a node with translation, rotation and scale"));
         }
         Ok(())
     }
 
-    /// How many rows of values the keys have.
-    fn keys(&self, name: &str, times: &[f32], interpolation: Interpolation) -> Result<usize, SceneError> {
-        if times.is_empty() {
-            return Err(self.out_of_range(format!("number of keys of {name}"), 0.0, "at least 1"));
+    fn analytic(&self, index: usize, light: &AnalyticLight, nodes: &[Node]) -> Result<(), SceneError> {
+        let of_light = format!("of light {index} `{}`", light.name);
+        self.index(|| format!("node {of_light}"), light.node, nodes.len())?;
+        let node = &nodes[light.node as usize].name;
+        let name = |what: &str| format!("{what} {of_light} on node {} `{node}`", light.node);
+        self.color(|| name("colour"), light.color)?;
+        let expected = "expected 0 to 2^100; lower it, or leave the light out";
+        let intensity = || name("intensity");
+        self.within(intensity, &[light.intensity], 0.0..=MAX_RADIANCE, expected)?;
+        if let Some(range) = light.range {
+            let expected = "expected 2^-20 to 2^40 metres, or none";
+            let near = 2.0_f32.powi(-20);
+            self.within(|| name("range"), &[range], near..=MAX_COORDINATE, expected)?;
         }
-        self.finite(|| format!("a time of {name}"), times)?;
-        if times[0] < 0.0 || times.windows(2).any(|pair| pair[1] < pair[0]) {
-            let element = format!("first time of {name}");
-            return Err(self.out_of_range(element, times[0], "times from 0 up, in ascending order"));
+        if let AnalyticKind::Spot { inner, outer } = light.kind
+            && !(inner >= 0.0 && inner <= outer && outer > 0.0 && outer <= std::f32::consts::FRAC_PI_2)
+        {
+            let problem = format!("{} is {outer}", name("outer angle"));
+            let expected = "expected radians above 0, not below the inner angle, up to pi / 2";
+            return Err(self.wrong(problem, expected));
         }
-        Ok(match interpolation {
-            Interpolation::CubicSpline => 3 * times.len(),
-            Interpolation::Step | Interpolation::Linear => times.len(),
-        })
+        let expected = "expected metres from 1e-9 to 1e9; leave the light out, or scale the scene";
+        self.within(|| name("size"), light.kind.half(), 1e-9..=1e9, expected)?;
+        let emission = light.color.map(|channel| channel * light.intensity);
+        self.color(|| name("emission"), emission)
     }
 
     /// Sizes of every frame, and whether 32-bit indices and memory can hold them.
     fn count(&self, data: &SceneData) -> Result<Counts, SceneError> {
-        let per_mesh: Vec<Counts> = data
-            .meshes
-            .iter()
-            .map(|mesh| {
-                let mut counts = Counts::default();
-                for primitive in &mesh.primitives {
-                    let material = &data.materials[primitive.material as usize];
-                    let all = 0..primitive.triangles.len();
-                    let lit = all
-                        .clone()
-                        .filter(|&t| emits(primitive.triangle_radiance(t, material.radiance)))
-                        .count();
-                    let shown = all.filter(|&t| primitive.is_shown(t, material)).count();
-                    counts.triangles += shown;
-                    counts.clear += primitive.triangles.len() - shown;
-                    counts.emissive += lit;
-                    counts.mesh_lights += usize::from(lit > 0);
-                }
-                counts
-            })
-            .collect();
-        let mut total = Counts::default();
-        for mesh in data.nodes.iter().filter_map(|node| node.mesh) {
-            let counts = per_mesh[mesh as usize];
-            total.triangles = total.triangles.saturating_add(counts.triangles);
-            total.clear = total.clear.saturating_add(counts.clear);
-            total.emissive = total.emissive.saturating_add(counts.emissive);
-            total.mesh_lights = total.mesh_lights.saturating_add(counts.mesh_lights);
-        }
+        let of_primitive = |primitive: &Primitive| {
+            let material = &data.materials[primitive.material as usize];
+            let count =
+                |is: &dyn Fn(usize) -> bool| (0..primitive.triangles.len()).filter(|&t| is(t)).count();
+            let triangles = count(&|t| primitive.is_shown(t, material));
+            let emissive = count(&|t| emits(primitive.triangle_radiance(t, material.radiance)));
+            let clear = primitive.triangles.len() - triangles;
+            [triangles, clear, emissive, usize::from(emissive > 0)]
+        };
+        let add = |a: [usize; 4], b: [usize; 4]| [0, 1, 2, 3].map(|k| a[k].saturating_add(b[k]));
+        let sums = |mesh: &Mesh| mesh.primitives.iter().map(of_primitive).fold([0; 4], add);
+        let per_mesh: Vec<[usize; 4]> = data.meshes.iter().map(sums).collect();
+        let placed = data.nodes.iter().filter_map(|node| node.mesh);
+        let total = placed.map(|mesh| per_mesh[mesh as usize]).fold([0; 4], add);
+        let [mut triangles, clear, emissive, mesh_lights] = total;
         let fine = Facets::of(data);
         for light in &data.analytic {
-            total.triangles = total.triangles.saturating_add(light.facets(fine));
-            let is_sun = light.kind == AnalyticKind::Directional;
-            total.analytic += usize::from(!is_sun);
-            total.suns += usize::from(is_sun);
+            triangles = triangles.saturating_add(light.facets(fine));
         }
-        self.limit("suns", total.suns, MAX_SUNS as u64)?;
-        let all = total.triangles.saturating_add(total.clear);
+        let is_sun = |light: &&AnalyticLight| light.kind == AnalyticKind::Directional;
+        let suns = data.analytic.iter().filter(is_sun).count();
+        self.limit("suns", suns, MAX_SUNS as u64)?;
+        let all = triangles.saturating_add(clear);
         self.limit("triangles over all instances", all, MAX_TRIANGLES)?;
         if all == 0 {
-            return Err(SceneError::Empty {
-                scene: self.scene(),
-                left_out: data.warnings.clone(),
-            });
+            let mut left_out = data.warnings.join("\n  - ");
+            if !left_out.is_empty() {
+                left_out.insert_str(0, ". What was left out:\n  - ");
+            }
+            return Err(SceneError::Empty(self.scene.to_owned(), left_out));
         }
-        Ok(total)
+        Ok(Counts {
+            triangles,
+            clear,
+            emissive,
+            mesh_lights,
+            analytic: data.analytic.len() - suns,
+            suns,
+        })
     }
 }

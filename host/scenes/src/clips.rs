@@ -1,7 +1,8 @@
 //! Clips of a file of which one is shown at a time: those that move the same things exclude each other, for a format does not
 //! say which is meant.
 
-use std::collections::BTreeSet;
+use std::collections::HashSet;
+use std::mem::{Discriminant, discriminant};
 
 use super::model::{Animation, Property, Scene, SceneData};
 
@@ -13,17 +14,10 @@ const LETTERS: usize = 80;
 const ADVICE: &str = "`render --animation NAME|NUMBER` shows one of them";
 
 impl Animation {
-    /// Nodes that it moves, with what of them: 0 to 2, and 3 for the weights of morph targets.
-    fn touches(&self) -> impl Iterator<Item = (u32, u8)> + '_ {
-        let moving = self.channels.iter().map(|channel| {
-            let property = match channel.property {
-                Property::Translation => 0,
-                Property::Rotation => 1,
-                Property::Scale => 2,
-            };
-            (channel.node, property)
-        });
-        moving.chain(self.morphs.iter().map(|channel| (channel.node, 3)))
+    /// Nodes that it moves, with what of them.
+    fn touches(&self) -> impl Iterator<Item = (u32, Discriminant<Property>)> + '_ {
+        let all = self.channels.iter();
+        all.map(|channel| (channel.node, discriminant(&channel.property)))
     }
 }
 
@@ -31,7 +25,7 @@ impl SceneData {
     /// Leaves out each animation that moves what one before it does, and says so.
     pub fn part_clips(&mut self) {
         self.warnings.retain(|warning| !warning.ends_with(ADVICE));
-        let mut touched = BTreeSet::new();
+        let mut touched = HashSet::new();
         let all = std::mem::take(&mut self.animations);
         for animation in all.into_iter().chain(std::mem::take(&mut self.clips)) {
             if animation.touches().any(|own| touched.contains(&own)) {
@@ -65,18 +59,17 @@ impl SceneData {
                     // Named again.
                     continue;
                 }
-                let expected = match (all.len(), chosen.is_empty()) {
-                    (0, true) => {
-                        String::from("a scene with animations, and it has none; leave the option out")
-                    }
-                    (0, false) => String::from("no more: all that there are are named"),
-                    _ => format!("one of {}", names_of(&all)),
-                };
                 let idle = self.idle.iter().find(|(place, name)| is_own(*place, name));
                 return Err(NoClip {
                     word: word.clone(),
                     idle: idle.map(|(place, name)| named(*place, name)),
-                    expected,
+                    expected: match (all.is_empty(), chosen.is_empty()) {
+                        (true, true) => {
+                            String::from("a scene with animations, and it has none; leave the option out")
+                        }
+                        (true, false) => String::from("no more: all that there are are named"),
+                        _ => format!("one of {}", names_of(&all)),
+                    },
                 });
             };
             chosen.push(all.remove(index));
@@ -119,21 +112,17 @@ impl Scene {
 
     /// What moves nothing of the scene and so is not written, in words.
     pub fn idle_clips(&self) -> Option<String> {
-        let all = self
-            .data()
-            .idle
-            .iter()
-            .map(|(place, name)| (*place, name.as_str()));
-        let which = names(all);
-        match self.data().idle.len() {
-            0 => None,
-            1 => Some(format!(
-                "animation {which} moves nothing of the scene, and is left out: in the file that is written those after it have other numbers"
-            )),
-            _ => Some(format!(
-                "animations {which} move nothing of the scene, and are left out: in the file that is written those after them have other numbers"
-            )),
-        }
+        let idle = &self.data().idle;
+        let all = idle.iter().map(|(place, name)| (*place, name.as_str()));
+        let (is, moves) = match idle.len() {
+            0 => return None,
+            1 => ("animation", "moves"),
+            _ => ("animations", "move"),
+        };
+        Some(format!(
+            "{is} {} {moves} nothing of the scene, left out: in the file that is written later animations have other numbers",
+            names(all)
+        ))
     }
 }
 
@@ -182,13 +171,12 @@ mod tests {
             property,
             interpolation: Interpolation::Linear,
             times: vec![0.0],
-            values: vec![[0.0; 4]],
+            values: vec![0.0; property.numbers()],
         };
         Animation {
             name: String::from(name),
             place,
             channels: nodes.iter().map(channel).collect(),
-            ..Animation::default()
         }
     }
 
@@ -212,8 +200,7 @@ mod tests {
         assert_eq!(data.warnings.len(), 1);
         assert!(data.warnings[0].starts_with("animation 1 \"walk\" moves what another does"));
         let play = |data: &mut SceneData, words: &[&str]| {
-            let words: Vec<String> = words.iter().copied().map(String::from).collect();
-            data.play(&words)
+            data.play(&words.iter().map(ToString::to_string).collect::<Vec<_>>())
         };
         // What is named moves alone.
         play(&mut data, &["walk"]).expect("there");

@@ -1,7 +1,7 @@
 //! Meshes that bend: morph targets and skins, and where their vertices are at a time.
 
 use super::animate::Pose;
-use super::model::{Interpolation, Primitive, SceneData};
+use super::model::{Primitive, SceneData};
 use super::transform::Affine;
 
 /// Four of the joints that move a vertex.
@@ -20,22 +20,6 @@ pub struct Skin {
     pub joints: Vec<u32>,
     /// For each joint, from the mesh's space to the joint's: four columns of three rows.
     pub inverse_bind: Vec<[[f32; 3]; 4]>,
-}
-
-/// Keys for the weights of a node's morph targets.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MorphChannel {
-    /// Index into [`SceneData::nodes`](super::SceneData::nodes).
-    pub node: u32,
-    /// Number of weights, above zero.
-    pub targets: u32,
-    /// How values between keys are found.
-    pub interpolation: Interpolation,
-    /// Seconds, not negative, ascending.
-    pub times: Vec<f32>,
-    /// All weights of a key, one key after the other; for [`Interpolation::CubicSpline`] all in-tangents, all values and all
-    /// out-tangents of a key.
-    pub values: Vec<f32>,
 }
 
 /// Whether the vertices of `primitive` on node `node` do not simply follow the node.

@@ -2,21 +2,21 @@
 
 use std::path::Path;
 
+use image::Rgb32FImage;
 use lightbvh::light::MAX_RADIANCE;
 use lightbvh::light::infinite::Environment;
 
-use super::error::SceneError;
+use super::error::{SceneError, malformed};
 use super::files::{Limits, Load};
-use super::shrunk::{clean, shrunk};
-use super::texels::{Texels, size_for};
-use super::{pictures, radiance_hdr};
+use super::pictures;
+use super::texels::Texels;
 
 /// The environment map of a picture by longitude and latitude, `.hdr` or `.exr`, times `scale`: radiance in W/(m² sr). Its
 /// middle column lies in direction −Z, the columns go round towards +X, its first row is above (+Y). Pixels of `.hdr` pictures
 /// are divided by their `EXPOSURE` and `COLORCORR`. What is said of the picture goes to `warnings`.
 ///
 /// # Errors
-/// [`SceneError::Invalid`] for a file that is none, or has a radiance that is none; [`SceneError::Memory`] for one that is too
+/// [`SceneError::Malformed`] for a file that is none, or has a radiance that is none; [`SceneError::Memory`] for one that is too
 /// large.
 pub fn read_environment(
     path: &Path,
@@ -24,70 +24,37 @@ pub fn read_environment(
     limits: &Limits,
     warnings: &mut Vec<String>,
 ) -> Result<Environment, SceneError> {
-    let invalid = |problem: String| SceneError::Invalid {
-        scene: path.display().to_string(),
-        problem,
-    };
-    let unread = |error: &dyn std::fmt::Display| {
-        invalid(format!(
-            "cannot be read as an environment map: {error}; name a .hdr or .exr picture by longitude and latitude"
-        ))
-    };
+    let name = path.display();
     let load = Load::new(None, limits)?;
-    let bytes = radiance_hdr::with_signature(load.read_any(path).map_err(|error| unread(&error))?);
-    let divisors = radiance_hdr::divisors(&bytes).map_err(|problem| unread(&problem))?;
-    let decoded = pictures::decode(&load, &path.display().to_string(), &bytes, Some(path));
-    let mut picture = match decoded {
-        Err(error) if error.ends_the_load() => return Err(error),
-        decoded => decoded.map_err(|error| unread(&error))?.into_rgb32f(),
+    let bytes = load.read_any(path);
+    let picture = bytes.and_then(|bytes| pictures::decode_light(&load, bytes, path));
+    let mut picture = match picture {
+        Err(error) if !error.ends_the_load() => {
+            let problem = format!("cannot be read as an environment map: {error}");
+            let advice = "name a .hdr or .exr picture by longitude and latitude";
+            return Err(malformed(name.to_string(), problem, advice));
+        }
+        picture => picture?.into_rgb32f(),
     };
-    let said = clean(&mut picture).map(|said| format!("{}: {said}", path.display()));
-    warnings.extend(said);
-    let picture = shrunk(picture);
+    warnings.extend(clean(&mut picture).map(|said| format!("{name}: {said}")));
     let (width, height) = picture.dimensions();
-    if width == 0 || height == 0 {
-        return Err(invalid(String::from(
-            "has no pixels; export the environment map again",
-        )));
-    }
-    let light = |numbers| radiance_hdr::divided(numbers, divisors);
-    let is_sound = |x: &f32| (0.0..=MAX_RADIANCE).contains(x);
     for (x, y, pixel) in picture.enumerate_pixels() {
-        let own = light(pixel.0);
-        let Some(channel) = own.iter().position(|x| !is_sound(&(x * scale))) else {
+        let Some(own) = pixel.0.iter().find(|&&own| own * scale > MAX_RADIANCE) else {
             continue;
         };
-        // Of what makes it too much, the first.
-        let at = format!("column {x}, row {y} of {width} × {height}");
-        let [number, own] = [pixel.0[channel], own[channel]];
-        return Err(invalid(if is_sound(&own) {
-            format!(
-                "its radiance of {own:e} W/(m² sr) in {at} times the factor {scale:e} of --environment-scale is more than 2^100 (1.3e30); give a smaller factor"
-            )
-        } else if is_sound(&number) {
-            format!(
-                "its pixel of {number:e} in {at}, divided by its EXPOSURE and COLORCORR, is more than 2^100 W/(m² sr) (1.3e30); repair those lines"
-            )
-        } else {
-            format!(
-                "its pixel of {number:e} in {at} is more than 2^100 W/(m² sr) (1.3e30); repair the picture"
-            )
-        }));
+        let problem = format!(
+            "its radiance of {own:e} W/(m² sr) in column {x}, row {y} of {width} × {height}, times the factor {scale:e} of --environment-scale, \
+             is more than 2^100 (1.3e30)"
+        );
+        let advice = "give a smaller factor, or repair the picture, or its EXPOSURE and COLORCORR lines";
+        return Err(malformed(name.to_string(), problem, advice));
     }
-    let size = size_for([width, height]);
-    let mut texels = Texels::new(size);
-    texels.add_longitude_latitude(
-        [width, height],
-        |x, y| light(picture.get_pixel(x, y).0).map(|own| f64::from(own * scale)),
-        of_picture,
-    );
-    let map = Environment::from_fn(size, |direction| {
-        // Every texel has a place, so nothing else is asked.
-        let own = texels.radiance(direction.map(f64::from), || [0.0; 3]);
-        own.map(|x| x as f32)
+    let texels = Texels::of([width, height], |x, y| {
+        picture.get_pixel(x, y).0.map(|own| f64::from(own * scale))
     });
-    let map = map.map_err(|error| invalid(error.to_string()))?;
-    let name = path.display();
+    let radiance = |direction: [f32; 3]| texels.radiance(direction.map(f64::from)).map(|x| x as f32);
+    let map = Environment::from_fn(texels.size, radiance);
+    let map = map.map_err(|error| malformed(name.to_string(), error.to_string(), "repair the picture"))?;
     if map.map().radiance.iter().all(|radiance| *radiance == [0.0; 3]) {
         warnings.push(format!(
             "{name}: the environment map is black, as no pixel comes to 2^-100 W/(m² sr) (7.9e-31): it lights nothing"
@@ -96,10 +63,24 @@ pub fn read_environment(
     Ok(map)
 }
 
-/// The direction of what lies in direction (x, y, z) of a picture whose first row is about +z and whose first column goes from
-/// +x to +y.
-fn of_picture([x, y, z]: [f64; 3]) -> [f64; 3] {
-    [-y, z, x]
+/// Numbers that are no light, negative, infinite or none, count as 0: filters leave negative ones, half floats make suns
+/// infinite. What is said of them.
+fn clean(picture: &mut Rgb32FImage) -> Option<String> {
+    let is_light = |x: f32| (0.0..=f32::MAX).contains(&x);
+    let mut first = None;
+    let mut count = 0_u64;
+    for (x, y, pixel) in picture.enumerate_pixels_mut() {
+        let Some(&wrong) = pixel.0.iter().find(|&&own| !is_light(own)) else {
+            continue;
+        };
+        count += 1;
+        first.get_or_insert((x, y, wrong));
+        pixel.0 = pixel.0.map(|own| if is_light(own) { own } else { 0.0 });
+    }
+    let (x, y, wrong) = first?;
+    Some(format!(
+        "{count} of its pixels have a number that is no light and counts as 0, the first in column {x}, row {y}: {wrong:e}"
+    ))
 }
 
 #[cfg(test)]
@@ -192,5 +173,22 @@ mod tests {
             assert!(found.is_ok());
             assert!(said.len() == 1 && said[0].contains("is black"), "{said:?}");
         }
+    }
+
+    #[test]
+    fn numbers_that_are_no_light_count_as_none_and_are_named() {
+        let mut picture = Rgb32FImage::from_pixel(16, 8, image::Rgb([1.0; 3]));
+        for (x, y, number) in [(7, 1, -1e-6), (5, 2, f32::NAN), (3, 7, f32::INFINITY)] {
+            picture.put_pixel(x, y, image::Rgb([2.0, number, 3.0]));
+        }
+        let said = clean(&mut picture).expect("three are none");
+        assert!(
+            said.starts_with("3 of its pixels") && said.ends_with("column 7, row 1: -1e-6"),
+            "{said}"
+        );
+        for (x, y) in [(7, 1), (5, 2), (3, 7)] {
+            assert_eq!(picture.get_pixel(x, y).0, [2.0, 0.0, 3.0]);
+        }
+        assert_eq!(clean(&mut picture), None);
     }
 }

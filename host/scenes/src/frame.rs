@@ -138,7 +138,8 @@ impl Scene {
             corners: [const { Vec::new() }; 3],
             paint: self.paint_words(),
             materials: data.materials.iter().map(super::Material::surface).collect(),
-            camera: NOWHERE,
+            // Until the frame's triangles are there to look at.
+            camera: View::default(),
             background: data.background,
         };
         place_meshes(data, &pose, &mut out);
@@ -236,15 +237,6 @@ const UNPAINTED: Corner = Corner {
     material: NONE,
 };
 
-/// Until the frame's triangles are there to look at.
-const NOWHERE: View = View {
-    eye: [0.0; 3],
-    right: [1.0, 0.0, 0.0],
-    up: [0.0, 1.0, 0.0],
-    forward: [0.0, 0.0, -1.0],
-    yfov: 1.0,
-};
-
 /// Appends the triangles of every node, in the order node, primitive, triangle.
 pub(super) fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
     for (index, node) in data.nodes.iter().enumerate() {
@@ -274,7 +266,7 @@ pub(super) fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
                     material: if lies { primitive.material } else { NONE },
                 };
                 if !primitive.is_shown(triangle, material) {
-                    if own.is_some() {
+                    if lies {
                         out.clear.push(SurfaceTriangle {
                             p,
                             material: primitive.material,

@@ -10,9 +10,10 @@ use lightbvh::light::{AnyLight, Light};
 use lightbvh_kernels::shading::ray::{FAR, Ray};
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle, any_hit, closest_hit};
 
-use super::camera::{looking, view_of_box};
+use super::camera::looking;
 use super::frame::Frame;
 use super::scene_light::SceneLight;
+use super::transform::unit_or;
 use crate::{RayBvh, View};
 
 /// Points, each with two sides, and the lights, and parts of the sky, that each asks.
@@ -28,6 +29,9 @@ const INSIDE: f64 = 0.6;
 const ABOVE: [(f64, f64); 3] = [(18.0, 1.0), (5.0, 0.92), (34.0, 0.88)];
 const AWAY: [(f64, f64); 3] = [(1.3, 0.9), (1.7, 1.0), (2.37, 0.95)];
 
+/// Vertical field of view: 50 degrees, a natural view on a screen.
+const YFOV: f32 = 0.872_664_6;
+
 /// One side of a surface; `size` is in metres.
 struct Point {
     p: DVec3,
@@ -42,7 +46,6 @@ pub(super) fn view(frame: &Frame) -> View {
     let vertices = || triangles.clone().flat_map(|own| own.p).map(wide);
     let low = vertices().reduce(DVec3::min).unwrap_or_default();
     let high = vertices().reduce(DVec3::max).unwrap_or_default();
-    let around = |a: DVec3, b: DVec3, d: DVec3, away| view_of_box(a.into(), b.into(), d.into(), away);
     let mut best = (0.0, around(low, high, DVec3::new(0.35, 0.3, 1.0), 2.37));
     let Ok(rays) = RayBvh::build(&frame.triangles) else {
         return best.1;
@@ -69,6 +72,17 @@ pub(super) fn view(frame: &Frame) -> View {
         }
     }
     best.1
+}
+
+/// A camera that looks at the middle of a box, from the direction `towards`, `distance` half diagonals away; at 2.37 of them the
+/// sphere around the box touches the image's upper and lower edge.
+fn around(min: DVec3, max: DVec3, towards: DVec3, distance: f64) -> View {
+    let centre = [0, 1, 2].map(|i| 0.5 * (min[i] + max[i]));
+    let half = [0, 1, 2].map(|i| 0.5 * (max[i] - min[i]));
+    let radius = half.iter().map(|h| h * h).sum::<f64>().sqrt().max(1e-3);
+    let forward = unit_or((-towards).into(), [0.0, 0.0, -1.0]);
+    let eye = [0, 1, 2].map(|i| centre[i] - forward[i] * distance * radius);
+    looking(eye, forward, [0.0, 1.0, 0.0], YFOV)
 }
 
 /// What there is to see: of each point the front and the back. All weights together are one.

@@ -1,19 +1,21 @@
 //! Any scene as `.glb`: the loader is exercised by the built-in scenes, and other programs can show them.
 
-mod bend;
 mod material;
-mod paint;
 
 use std::collections::HashMap;
 
 use gltf::binary::{Glb, Header};
+use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
 use serde_json::{Value, json};
 
-use self::bend::light;
-use self::material::{is_product, material};
-use super::error::SceneError;
+use self::material::{Textures, is_product, strength};
+use super::analytic::{AnalyticKind, AnalyticLight};
+use super::deform::{Influence, Skin};
+use super::error::{SceneError, malformed};
 use super::gltf_in::{BACKGROUND_EXTRA, IES, RADIANCE_ATTRIBUTE};
-use super::model::{Channel, Interpolation, Material, Primitive, Property, Scene};
+use super::model::{Animation, Interpolation, Material, Primitive, Property, Scene};
+use super::paint::Picture;
+use super::profile::Profile;
 use super::transform::Transform;
 
 /// glTF's numbers for component types.
@@ -29,26 +31,22 @@ impl Scene {
     /// background into the scene's `extras`. Pictures are PNG; where textures are turned, coordinates on them change by rounding.
     ///
     /// # Errors
-    /// [`SceneError::TooMany`] beyond the 4 GiB that the container can name.
+    /// [`SceneError::Malformed`] beyond the 4 GiB that the container can name.
     pub fn to_glb(&self) -> Result<Vec<u8>, SceneError> {
         let mut out = Writer::default();
         let root = out.root(self);
         let text = root.to_string().into_bytes();
         // Header, and a header and up to three bytes of padding for each of two chunks.
-        let length = (12 + 2 * (8 + 3) + text.len() + out.binary.len()) as u64;
-        if length > u64::from(u32::MAX) {
-            return Err(SceneError::TooMany {
-                scene: self.name().to_owned(),
-                what: "bytes as .glb",
-                count: length,
-                limit: u64::from(u32::MAX),
-            });
-        }
+        let length = 12 + 2 * (8 + 3) + text.len() + out.binary.len();
+        let Ok(length) = u32::try_from(length) else {
+            let problem = format!("is {length} bytes as .glb, more than the {} that fit", u32::MAX);
+            return Err(malformed(self.name(), problem, "split the scene"));
+        };
         let container = Glb {
             header: Header {
                 magic: *b"glTF",
                 version: 2,
-                length: length as u32,
+                length,
             },
             json: text.into(),
             bin: Some(out.binary.into()),
@@ -70,34 +68,16 @@ struct Writer {
 impl Writer {
     fn root(&mut self, scene: &Scene) -> Value {
         let data = scene.data();
-        let meshes: Vec<Value> = data
-            .meshes
-            .iter()
-            .map(|mesh| {
-                let primitives: Vec<Value> = mesh
-                    .primitives
-                    .iter()
-                    .map(|primitive| self.primitive(primitive, &data.materials))
-                    .collect();
-                json!({ "name": mesh.name, "primitives": primitives })
-            })
-            .collect();
-        let mut animations = Vec::new();
+        let mut meshes = Vec::new();
+        for mesh in &data.meshes {
+            let primitives = mesh.primitives.iter();
+            let primitives = primitives.map(|own| self.primitive(own, &data.materials));
+            meshes.push(json!({ "name": mesh.name, "primitives": primitives.collect::<Vec<_>>() }));
+        }
         // As the file had them: engines choose by number.
         let mut all: Vec<_> = data.animations.iter().chain(&data.clips).collect();
         all.sort_by_key(|animation| animation.place);
-        for animation in all {
-            let moving = animation.channels.iter().map(|channel| self.sampler(channel));
-            let mut samplers: Vec<Value> = moving.collect();
-            samplers.extend(animation.morphs.iter().map(|channel| self.morph(channel)));
-            let moving = animation.channels.iter().map(|c| (c.node, path(c.property)));
-            let bending = animation.morphs.iter().map(|c| (c.node, "weights"));
-            let channels: Vec<Value> = (0..)
-                .zip(moving.chain(bending))
-                .map(|(sampler, (node, path))| target(sampler, node, path))
-                .collect();
-            animations.push(json!({ "name": animation.name, "samplers": samplers, "channels": channels }));
-        }
+        let animations: Vec<Value> = all.into_iter().map(|own| self.animation(own)).collect();
         let cameras = data.cameras.iter().map(
             |camera| json!({ "type": "perspective", "perspective": { "yfov": camera.yfov, "znear": 0.01 } }),
         );
@@ -106,25 +86,33 @@ impl Writer {
             .collect();
         let skins: Vec<Value> = data.skins.iter().map(|skin| self.skin(skin)).collect();
         let images: Vec<Value> = data.pictures.iter().map(|own| self.picture(own)).collect();
-        let mut textures = paint::Textures::default();
-        let painted = |own: &Material| {
-            let mut written = material(own);
-            if let Some(paint) = &own.paint {
-                textures.paint(paint, &mut written);
-            }
-            written
-        };
-        let materials: Vec<Value> = data.materials.iter().map(painted).collect();
+        let mut textures = Textures::default();
+        let materials: Vec<Value> = data.materials.iter().map(|own| textures.material(own)).collect();
         let profiles: Vec<Value> = data.profiles.iter().map(|own| self.profile(own)).collect();
+        let lights: Vec<Value> = data.analytic.iter().filter_map(light).collect();
+        let mut used = vec!["KHR_materials_emissive_strength", "KHR_materials_transmission"];
+        let mut extensions = json!({});
+        for (name, lights) in [("KHR_lights_punctual", lights), (IES, profiles)] {
+            if !lights.is_empty() {
+                extensions[name] = json!({ "lights": lights });
+                used.push(name);
+            }
+        }
+        if textures.has_transforms {
+            used.push("KHR_texture_transform");
+        }
         let mut root = json!({
             "asset": { "version": "2.0", "generator": "lightbvh" },
-            "extensionsUsed": ["KHR_materials_emissive_strength", "KHR_materials_transmission"],
+            "extensionsUsed": used,
+            "extensions": extensions,
             "scene": 0,
             "scenes": [{ "name": data.name, "nodes": roots, "extras": { BACKGROUND_EXTRA: data.background } }],
             "nodes": nodes(scene),
             "meshes": meshes,
             "materials": materials,
             "images": images,
+            "textures": textures.textures,
+            "samplers": textures.samplers,
             "animations": animations,
             "skins": skins,
             "cameras": cameras.collect::<Vec<_>>(),
@@ -132,86 +120,95 @@ impl Writer {
             "bufferViews": self.views,
             "buffers": [{ "byteLength": self.binary.len() }],
         });
-        textures.finish(&mut root);
-        let lights: Vec<Value> = data.analytic.iter().filter_map(light).collect();
-        if !lights.is_empty() {
-            root["extensions"] = json!({ "KHR_lights_punctual": { "lights": lights } });
-            root["extensionsUsed"]
-                .as_array_mut()
-                .into_iter()
-                .for_each(|used| used.push("KHR_lights_punctual".into()));
-        }
-        if !profiles.is_empty() {
-            root["extensions"][IES] = json!({ "lights": profiles });
-            root["extensionsUsed"]
-                .as_array_mut()
-                .into_iter()
-                .for_each(|used| used.push(IES.into()));
-        }
         // glTF wants lists that are there to have entries.
         if let Value::Object(members) = &mut root {
-            members.retain(|_, value| value.as_array().is_none_or(|list| !list.is_empty()));
+            members.retain(|_, value| *value != json!([]) && *value != json!({}));
         }
         root
     }
 
     fn primitive(&mut self, primitive: &Primitive, materials: &[Material]) -> Value {
         let own = materials[primitive.material as usize].radiance;
-        let radiance = match &primitive.radiance {
-            Some(of_triangles) => Some(of_triangles.clone()),
-            None => (!is_product(own)).then(|| vec![own; primitive.triangles.len()]),
-        };
-        // Radiance per triangle needs three vertices of its own for each.
-        let order = radiance
-            .is_some()
-            .then(|| primitive.triangles.as_flattened().to_vec());
-        let (positions, triangles) = match &order {
-            None => (primitive.positions.clone(), primitive.triangles.clone()),
-            Some(order) => {
-                let positions = order
-                    .iter()
-                    .map(|&vertex| primitive.positions[vertex as usize])
-                    .collect();
-                let triangles = (0..primitive.triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]);
-                (positions, triangles.collect())
-            }
-        };
-        if triangles.is_empty() {
+        let triangles = primitive.triangles.len();
+        if triangles == 0 {
             // Empty accessors are not allowed; a primitive of points is skipped when it is read back.
-            let point = self.floats(&[[0.0_f32; 3]], "VEC3");
+            let point = self.floats(&[0.0; 3], "VEC3");
             return json!({ "attributes": { "POSITION": point }, "material": primitive.material, "mode": 0 });
         }
-        let position = self.floats(&positions, "VEC3");
-        if let Some(accessor) = self.accessors.last_mut() {
-            let fold = |pick: fn(f32, f32) -> f32, start: f32| {
-                positions
-                    .iter()
-                    .fold([start; 3], |m, p| [0, 1, 2].map(|i| pick(m[i], p[i])))
-            };
-            accessor["min"] = json!(fold(f32::min, f32::INFINITY));
-            accessor["max"] = json!(fold(f32::max, f32::NEG_INFINITY));
-        }
+        let radiance = match &primitive.radiance {
+            Some(of_triangles) => Some(of_triangles.clone()),
+            None => (!is_product(own)).then(|| vec![own; triangles]),
+        };
+        // Radiance per triangle needs three vertices of its own for each.
+        let corners = primitive.triangles.as_flattened();
+        let (order, indices): (Vec<usize>, Vec<u32>) = match radiance {
+            None => ((0..primitive.positions.len()).collect(), corners.to_vec()),
+            Some(_) => {
+                let order = corners.iter().map(|&vertex| vertex as usize);
+                (order.collect(), (0..3 * triangles as u32).collect())
+            }
+        };
+        let positions: Vec<[f32; 3]> = order.iter().map(|&v| primitive.positions[v]).collect();
+        let position = self.floats(positions.as_flattened(), "VEC3");
+        let fold = |pick: fn(f32, f32) -> f32, start: f32| {
+            let all = positions.iter();
+            all.fold([start; 3], |m, p| [0, 1, 2].map(|i| pick(m[i], p[i])))
+        };
+        self.accessors[position]["min"] = json!(fold(f32::min, f32::INFINITY));
+        self.accessors[position]["max"] = json!(fold(f32::max, f32::NEG_INFINITY));
         let mut attributes = json!({ "POSITION": position });
         if let Some(radiance) = &radiance {
             let of_vertices: Vec<[f32; 3]> = radiance.iter().flat_map(|&rgb| [rgb; 3]).collect();
-            attributes[format!("_{RADIANCE_ATTRIBUTE}")] = json!(self.floats(&of_vertices, "VEC3"));
+            attributes[format!("_{RADIANCE_ATTRIBUTE}")] =
+                json!(self.floats(of_vertices.as_flattened(), "VEC3"));
         }
         if let Some(coordinates) = &primitive.coordinates {
-            let own: Vec<[f32; 2]> = match &order {
-                None => coordinates.clone(),
-                Some(order) => order.iter().map(|&vertex| coordinates[vertex as usize]).collect(),
-            };
-            attributes["TEXCOORD_0"] = json!(self.floats(&own, "VEC2"));
+            let own: Vec<[f32; 2]> = order.iter().map(|&vertex| coordinates[vertex]).collect();
+            attributes["TEXCOORD_0"] = json!(self.floats(own.as_flattened(), "VEC2"));
         }
-        let words: Vec<[u8; 4]> = triangles
-            .as_flattened()
-            .iter()
-            .map(|vertex| vertex.to_le_bytes())
-            .collect();
-        let indices = self.accessor(words.as_flattened(), words.len(), UNSIGNED_INT, "SCALAR");
+        for (set, influences) in primitive.influences.iter().enumerate() {
+            let all: Vec<Influence> = order.iter().map(|&vertex| influences[vertex]).collect();
+            let joints = all.iter().flat_map(|influence| influence.joints);
+            let joints: Vec<u8> = joints.flat_map(u16::to_le_bytes).collect();
+            let weights: Vec<[f32; 4]> = all.iter().map(|influence| influence.weights).collect();
+            attributes[format!("JOINTS_{set}")] =
+                json!(self.accessor(&joints, all.len(), UNSIGNED_SHORT, "VEC4"));
+            attributes[format!("WEIGHTS_{set}")] = json!(self.floats(weights.as_flattened(), "VEC4"));
+        }
+        let words: Vec<u8> = indices.iter().flat_map(|vertex| vertex.to_le_bytes()).collect();
+        let indices = self.accessor(&words, indices.len(), UNSIGNED_INT, "SCALAR");
         let mut out = json!({ "attributes": attributes, "indices": indices, "material": primitive.material });
-        self.bends(&mut out, primitive, order.as_deref());
+        if !primitive.targets.is_empty() {
+            let targets = primitive.targets.iter().map(|target| {
+                let moved = |&vertex: &usize| target.get(vertex).copied().unwrap_or_default();
+                let moved: Vec<[f32; 3]> = order.iter().map(moved).collect();
+                json!({ "POSITION": self.floats(moved.as_flattened(), "VEC3") })
+            });
+            out["targets"] = targets.collect();
+        }
         out
+    }
+
+    fn animation(&mut self, animation: &Animation) -> Value {
+        let (mut samplers, mut channels) = (Vec::new(), Vec::new());
+        for channel in &animation.channels {
+            let (path, shape) = match channel.property {
+                Property::Translation => ("translation", "VEC3"),
+                Property::Rotation => ("rotation", "VEC4"),
+                Property::Scale => ("scale", "VEC3"),
+                Property::Weights(_) => ("weights", "SCALAR"),
+            };
+            let interpolation = match channel.interpolation {
+                Interpolation::Step => "STEP",
+                Interpolation::Linear => "LINEAR",
+                Interpolation::CubicSpline => "CUBICSPLINE",
+            };
+            let (input, output) = (self.input(&channel.times), self.floats(&channel.values, shape));
+            let target = json!({ "node": channel.node, "path": path });
+            channels.push(json!({ "sampler": samplers.len(), "target": target }));
+            samplers.push(json!({ "input": input, "output": output, "interpolation": interpolation }));
+        }
+        json!({ "name": animation.name, "samplers": samplers, "channels": channels })
     }
 
     /// The accessor of a list of times.
@@ -220,42 +217,68 @@ impl Writer {
         if let Some(&input) = self.times.get(&bits) {
             return input;
         }
-        let list: Vec<[f32; 1]> = times.iter().map(|&time| [time]).collect();
-        let input = self.floats(&list, "SCALAR");
+        let input = self.floats(times, "SCALAR");
         self.accessors[input]["min"] = json!([times.first()]);
         self.accessors[input]["max"] = json!([times.last()]);
         self.times.insert(bits, input);
         input
     }
 
-    fn sampler(&mut self, channel: &Channel) -> Value {
-        let input = self.input(&channel.times);
-        let output = if channel.property == Property::Rotation {
-            self.floats(&channel.values, "VEC4")
-        } else {
-            let values: Vec<[f32; 3]> = channel.values.iter().map(|&[x, y, z, _]| [x, y, z]).collect();
-            self.floats(&values, "VEC3")
-        };
-        json!({ "input": input, "output": output, "interpolation": interpolation(channel.interpolation) })
+    fn skin(&mut self, skin: &Skin) -> Value {
+        let matrices: Vec<f32> = skin.inverse_bind.iter().flat_map(matrix).collect();
+        if matrices.is_empty() {
+            // Empty accessors are not allowed.
+            return json!({ "joints": skin.joints });
+        }
+        json!({ "joints": skin.joints, "inverseBindMatrices": self.floats(&matrices, "MAT4") })
     }
 
-    fn floats<const N: usize>(&mut self, values: &[[f32; N]], shape: &str) -> usize {
-        let bytes: Vec<[u8; 4]> = values
-            .as_flattened()
-            .iter()
-            .map(|value| value.to_le_bytes())
-            .collect();
-        self.accessor(bytes.as_flattened(), values.len(), FLOAT, shape)
+    /// A picture as PNG.
+    fn picture(&mut self, picture: &Picture) -> Value {
+        let mut bytes = Vec::new();
+        PngEncoder::new(&mut bytes)
+            .write_image(
+                &picture.texels,
+                picture.width,
+                picture.height,
+                ExtendedColorType::Rgba8,
+            )
+            .expect("writing a whole picture to memory does not fail");
+        json!({ "bufferView": self.view(&bytes), "mimeType": "image/png" })
+    }
+
+    /// A photometric file.
+    fn profile(&mut self, profile: &Profile) -> Value {
+        let view = self.view(&profile.file);
+        json!({ "name": profile.name, "bufferView": view, "mimeType": "application/x-ies-lm-63" })
+    }
+
+    fn floats(&mut self, values: &[f32], shape: &str) -> usize {
+        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        let each = match shape {
+            "SCALAR" => 1,
+            "VEC2" => 2,
+            "VEC3" => 3,
+            "VEC4" => 4,
+            _ => 16,
+        };
+        self.accessor(&bytes, values.len() / each, FLOAT, shape)
     }
 
     fn accessor(&mut self, bytes: &[u8], count: usize, component: u32, shape: &str) -> usize {
-        let view = json!({ "buffer": 0, "byteOffset": self.binary.len(), "byteLength": bytes.len() });
-        self.binary.extend(bytes);
-        self.views.push(view);
-        let view = self.views.len() - 1;
+        let view = self.view(bytes);
         self.accessors
             .push(json!({ "bufferView": view, "componentType": component, "count": count, "type": shape }));
         self.accessors.len() - 1
+    }
+
+    /// A view of these bytes, which begins at a multiple of four.
+    fn view(&mut self, bytes: &[u8]) -> usize {
+        let view = json!({ "buffer": 0, "byteOffset": self.binary.len(), "byteLength": bytes.len() });
+        self.binary.extend(bytes);
+        self.binary.resize(self.binary.len().next_multiple_of(4), 0);
+        self.views.push(view);
+        self.views.len() - 1
     }
 }
 
@@ -277,9 +300,7 @@ fn nodes(scene: &Scene) -> Vec<Value> {
             } => {
                 json!({ "translation": translation, "rotation": rotation, "scale": scale })
             }
-            Transform::Matrix([a, b, c, d]) => json!({ "matrix": [
-                a[0], a[1], a[2], 0.0, b[0], b[1], b[2], 0.0, c[0], c[1], c[2], 0.0, d[0], d[1], d[2], 1.0,
-            ] }),
+            Transform::Matrix(columns) => json!({ "matrix": matrix(&columns) }),
         };
         value["name"] = json!(node.name);
         if let Some(mesh) = node.mesh {
@@ -300,10 +321,13 @@ fn nodes(scene: &Scene) -> Vec<Value> {
     let punctual = punctual
         .enumerate()
         .map(|(index, light)| (light, json!({ "KHR_lights_punctual": { "light": index } })));
-    let measured = data
-        .analytic
-        .iter()
-        .filter_map(|own| Some((own, bend::profile_light(own)?)));
+    let measured = data.analytic.iter().filter_map(|own| match own.kind {
+        AnalyticKind::Profile { profile, .. } => {
+            let named = json!({ "light": profile, "multiplier": own.intensity, "color": own.color });
+            Some((own, json!({ IES: named })))
+        }
+        _ => None,
+    });
     for (light, named) in punctual.chain(measured) {
         // A node has one light; a further one of the same node stands on a node of its own.
         let on = light.node as usize;
@@ -324,22 +348,33 @@ fn nodes(scene: &Scene) -> Vec<Value> {
     out
 }
 
-fn target(sampler: usize, node: u32, path: &str) -> Value {
-    json!({ "sampler": sampler, "target": { "node": node, "path": path } })
+/// Four columns of three rows as a matrix of four rows.
+fn matrix([a, b, c, d]: &[[f32; 3]; 4]) -> [f32; 16] {
+    [
+        a[0], a[1], a[2], 0.0, b[0], b[1], b[2], 0.0, c[0], c[1], c[2], 0.0, d[0], d[1], d[2], 1.0,
+    ]
 }
 
-fn path(property: Property) -> &'static str {
-    match property {
-        Property::Translation => "translation",
-        Property::Rotation => "rotation",
-        Property::Scale => "scale",
+/// A light by formula; `None` for kinds that `KHR_lights_punctual` has no word for.
+fn light(light: &AnalyticLight) -> Option<Value> {
+    // Colours of glTF are at most 1; a power of two changes no product.
+    let strength = strength(light.color);
+    let mut out = json!({
+        "name": light.name,
+        "color": light.color.map(|channel| channel / strength),
+        "intensity": light.intensity * strength,
+    });
+    if let Some(range) = light.range {
+        out["range"] = range.into();
     }
-}
-
-fn interpolation(interpolation: Interpolation) -> &'static str {
-    match interpolation {
-        Interpolation::Step => "STEP",
-        Interpolation::Linear => "LINEAR",
-        Interpolation::CubicSpline => "CUBICSPLINE",
-    }
+    out["type"] = match light.kind {
+        AnalyticKind::Directional => "directional".into(),
+        AnalyticKind::Point => "point".into(),
+        AnalyticKind::Spot { inner, outer } => {
+            out["spot"] = json!({ "innerConeAngle": inner, "outerConeAngle": outer });
+            "spot".into()
+        }
+        _ => return None,
+    };
+    Some(out)
 }

@@ -27,15 +27,13 @@ pub(super) struct Glows(Rc<Shared>);
 #[derive(Debug)]
 struct Shared {
     left: Cell<u64>,
-    /// Of each picture, by where it is kept: where it is not black.
-    sums: RefCell<HashMap<*const RgbaImage, Rc<Sums>>>,
+    /// Of each picture, by its number: where it is not black.
+    sums: RefCell<HashMap<usize, Rc<Sums>>>,
     means: RefCell<HashMap<Key, [f32; 3]>>,
-    /// The pictures, so that no other takes the place of one.
-    kept: RefCell<HashMap<*const RgbaImage, Rc<RgbaImage>>>,
 }
 
 /// A picture, how it goes on, whether the nearest texel shows, and three coordinates on it.
-type Key = (*const RgbaImage, [u8; 3], [u32; 6]);
+type Key = (usize, [u8; 3], [[u32; 2]; 3]);
 
 impl Default for Glows {
     fn default() -> Self {
@@ -43,7 +41,6 @@ impl Default for Glows {
             left: Cell::new(MAX_LOOKUPS_OF_ALL),
             sums: RefCell::default(),
             means: RefCell::default(),
-            kept: RefCell::default(),
         }))
     }
 }
@@ -51,6 +48,7 @@ impl Default for Glows {
 /// A picture of colours with its wrapping, in linear RGB, and where it lies on a surface.
 #[derive(Debug)]
 pub(super) struct Glow {
+    picture: usize,
     pixels: Rc<RgbaImage>,
     wrap: [Wrap; 2],
     is_nearest: bool,
@@ -61,19 +59,16 @@ pub(super) struct Glow {
 }
 
 impl Glow {
-    /// One of the pictures of a scene, which are kept as long as `glows` and what is made with it.
+    /// One of the pictures of a scene, with its number.
     pub fn new(
-        pixels: Rc<RgbaImage>,
+        (picture, pixels): (usize, Rc<RgbaImage>),
         wrap: [Wrap; 2],
         is_nearest: bool,
         transform: [[f32; 2]; 3],
         glows: &Glows,
     ) -> Self {
-        let mut kept = glows.0.kept.borrow_mut();
-        kept.entry(Rc::as_ptr(&pixels))
-            .or_insert_with(|| Rc::clone(&pixels));
-        drop(kept);
         Self {
+            picture,
             pixels,
             wrap,
             is_nearest,
@@ -83,27 +78,31 @@ impl Glow {
         }
     }
 
-    /// How finely each of so many triangles may be cut.
-    pub fn max_steps(triangles: usize) -> u32 {
-        (f64::from(MAX_LOOKUPS) / triangles.max(1) as f64)
-            .sqrt()
-            .min(MAX_STEPS) as u32
+    /// `factor` times the mean over each triangle, whose vertices have these coordinates.
+    pub fn radiance(
+        &self,
+        triangles: &[[u32; 3]],
+        coordinates: &[[f32; 2]],
+        factor: [f32; 3],
+    ) -> Vec<[f32; 3]> {
+        let each = f64::from(MAX_LOOKUPS) / triangles.len().max(1) as f64;
+        let steps = each.sqrt().min(MAX_STEPS) as u32;
+        let own = |triangle: &[u32; 3]| {
+            let mean = self.mean_over(triangle.map(|vertex| coordinates[vertex as usize]), steps);
+            [0, 1, 2].map(|k| mean[k] * factor[k])
+        };
+        triangles.iter().map(own).collect()
     }
 
     /// Mean over the triangle with these texture coordinates.
-    pub fn mean_over(&self, corners: [[f32; 2]; 3], max_steps: u32) -> [f32; 3] {
+    fn mean_over(&self, corners: [[f32; 2]; 3], max_steps: u32) -> [f32; 3] {
         let [x, y, origin] = self.transform;
         let moved = match self.transform == IN_PLACE {
             true => corners,
             false => corners.map(|[u, v]| [0, 1].map(|k| x[k] * u + y[k] * v + origin[k])),
         };
-        let [a, b, c] = moved.map(|corner| corner.map(f32::to_bits));
         let how = [self.wrap[0] as u8, self.wrap[1] as u8, u8::from(self.is_nearest)];
-        let key = (
-            Rc::as_ptr(&self.pixels),
-            how,
-            [a[0], a[1], b[0], b[1], c[0], c[1]],
-        );
+        let key = (self.picture, how, moved.map(|corner| corner.map(f32::to_bits)));
         if let Some(&mean) = self.shared.means.borrow().get(&key) {
             return mean;
         }
@@ -171,7 +170,7 @@ impl Glow {
     fn glows_within(&self, corners: [[f32; 2]; 3]) -> bool {
         let sums = {
             let mut known = self.shared.sums.borrow_mut();
-            let own = known.entry(Rc::as_ptr(&self.pixels));
+            let own = known.entry(self.picture);
             Rc::clone(own.or_insert_with(|| Rc::new(Sums::of(&self.pixels))))
         };
         let size = [self.pixels.width(), self.pixels.height()];

@@ -31,11 +31,8 @@ mod files;
 mod flush;
 mod frame;
 mod framing;
-#[cfg(feature = "gltf")]
 mod glb_out;
-#[cfg(any(feature = "gltf", feature = "obj"))]
 mod glow;
-#[cfg(feature = "gltf")]
 mod gltf_in;
 mod ies_in;
 mod instances;
@@ -44,7 +41,6 @@ mod lit_by;
 mod load;
 mod model;
 mod motion_bounds;
-#[cfg(feature = "obj")]
 mod notes;
 #[cfg(feature = "obj")]
 mod obj_in;
@@ -60,7 +56,6 @@ mod random;
 mod ray_bvh;
 mod scene_light;
 mod shapes;
-mod shrunk;
 mod skin_words;
 mod sky;
 mod srgb;
@@ -79,13 +74,11 @@ pub use analytic::{AnalyticKind, AnalyticLight};
 pub use camera::View;
 pub use check::MAX_TRIANGLES;
 pub use clips::NoClip;
-pub use deform::{Influence, MorphChannel, Skin};
+pub use deform::{Influence, Skin};
 pub use environment::read_environment;
 pub use error::SceneError;
 pub use files::Limits;
 pub use frame::{FRAMES_PER_SECOND, Frame, MeshRange};
-#[cfg(feature = "gltf")]
-pub use gltf_in::Asset;
 pub use ies_in::Photometry;
 pub use instances::Instances;
 pub use load::{BUILT_IN, STAGE};

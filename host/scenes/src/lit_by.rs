@@ -40,12 +40,10 @@ impl Scene {
             (suns, "sun", "suns"),
             (map, "environment map", "environment maps"),
         ];
-        let parts: Vec<String> = named
-            .into_iter()
-            .filter(|&(count, ..)| count > 0)
-            .map(|(count, one, several)| format!("{count} {}", if count == 1 { one } else { several }))
-            .collect();
-        parts.join(", ")
+        let parts = named.into_iter().filter(|&(count, ..)| count > 0);
+        let parts =
+            parts.map(|(count, one, several)| format!("{count} {}", if count == 1 { one } else { several }));
+        parts.collect::<Vec<_>>().join(", ")
     }
 
     /// Emissive triangles of every frame.
@@ -68,11 +66,6 @@ impl Scene {
         self.counts.suns
     }
 
-    /// Whether trees are over lights of any kind: some are of other kinds than triangles, or no triangle emits.
-    pub fn needs_any_light(&self) -> bool {
-        self.counts.analytic > 0 || (self.counts.emissive == 0 && self.has_other_lights())
-    }
-
     /// Whether it has other light than that of emissive triangles: lights by formula, suns, an environment map.
     pub fn has_other_lights(&self) -> bool {
         self.counts.analytic + self.counts.suns > 0 || self.data().environment.is_some()
@@ -91,11 +84,8 @@ impl Scene {
     pub fn require_lights(&self) -> Result<(), SceneError> {
         let scene = self.name().to_owned();
         match (self.counts.emissive, self.has_other_lights()) {
-            (0, false) => Err(SceneError::NoEmissive { scene }),
-            (0, true) => Err(SceneError::OtherLights {
-                scene,
-                lights: self.other_lights(),
-            }),
+            (0, false) => Err(SceneError::NoEmissive(scene)),
+            (0, true) => Err(SceneError::OtherLights(scene, self.other_lights())),
             _ => Ok(()),
         }
     }

@@ -7,7 +7,7 @@ use lightbvh::EmissiveTriangle;
 use lightbvh_kernels::shading::trace::SurfaceTriangle;
 
 use super::error::SceneError;
-#[cfg(not(all(feature = "gltf", feature = "obj", feature = "ply")))]
+#[cfg(not(all(feature = "obj", feature = "ply")))]
 use super::error::not_compiled;
 use super::files::{Limits, Load};
 use super::model::{Scene, SceneData};
@@ -50,10 +50,8 @@ impl Scene {
         };
         // A bare word is more likely a misspelt name than a file without an extension.
         if !["obj", "ply", "gltf", "glb"].into_iter().any(ends_in) && !path.is_file() {
-            return Err(SceneError::UnknownScene {
-                name,
-                built_in: format!("{}, {STAGE}", BUILT_IN.join(", ")),
-            });
+            let built_in = format!("{}, {STAGE}", BUILT_IN.join(", "));
+            return Err(SceneError::UnknownScene(name, built_in));
         }
         let load = Load::new(path.parent(), limits)?;
         let bytes = load.read_any(path)?;
@@ -69,10 +67,7 @@ impl Scene {
             #[cfg(not(feature = "ply"))]
             return Err(not_compiled(&name, "PLY", "ply"));
         }
-        #[cfg(feature = "gltf")]
-        return Self::read_gltf(&name, &bytes, &load);
-        #[cfg(not(feature = "gltf"))]
-        return Err(not_compiled(&name, "glTF", "gltf"));
+        Self::read_gltf(&name, &bytes, &load)
     }
 
     /// Checks what a loader made, and that there is memory for its frames.

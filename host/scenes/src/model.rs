@@ -8,7 +8,7 @@ use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 use crate::View;
 
 use super::analytic::AnalyticLight;
-use super::deform::{Influence, MorphChannel, Skin};
+use super::deform::{Influence, Skin};
 use super::frame::emits;
 use super::paint::{Paint, Picture};
 use super::profile::Profile;
@@ -175,18 +175,17 @@ pub struct Animation {
     pub name: String,
     /// Its place in the file, from 0.
     pub place: u32,
-    /// What moves.
+    /// What moves and bends.
     pub channels: Vec<Channel>,
-    /// What bends.
-    pub morphs: Vec<MorphChannel>,
 }
 
 impl Animation {
     /// Time of the last key of any channel, in seconds; the animation starts again there.
     pub fn duration(&self) -> f32 {
-        let moving = self.channels.iter().map(|channel| &channel.times);
-        let bending = self.morphs.iter().map(|channel| &channel.times);
-        let ends = moving.chain(bending).filter_map(|times| times.last().copied());
+        let ends = self
+            .channels
+            .iter()
+            .filter_map(|channel| channel.times.last().copied());
         ends.fold(0.0, f32::max)
     }
 }
@@ -194,7 +193,7 @@ impl Animation {
 /// Keys for one property of one node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// Index into [`SceneData::nodes`]; the node's transform must be [`Transform::Trs`].
+    /// Index into [`SceneData::nodes`]; the node's transform must be [`Transform::Trs`] unless the property is its weights.
     pub node: u32,
     /// What the values replace.
     pub property: Property,
@@ -202,12 +201,12 @@ pub struct Channel {
     pub interpolation: Interpolation,
     /// Seconds, not negative, ascending.
     pub times: Vec<f32>,
-    /// One per key, or in-tangent, value, out-tangent per key for [`Interpolation::CubicSpline`]. The fourth
-    /// component counts for rotations only.
-    pub values: Vec<[f32; 4]>,
+    /// A row of the property's numbers for each key; for [`Interpolation::CubicSpline`] rows of in-tangents, values and
+    /// out-tangents for each key.
+    pub values: Vec<f32>,
 }
 
-/// The animated part of a transform.
+/// What a channel replaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Property {
     /// Metres.
@@ -216,6 +215,19 @@ pub enum Property {
     Rotation,
     /// Factors.
     Scale,
+    /// The weights of so many morph targets, above zero.
+    Weights(u32),
+}
+
+impl Property {
+    /// Numbers in a row of values.
+    pub fn numbers(self) -> usize {
+        match self {
+            Self::Translation | Self::Scale => 3,
+            Self::Rotation => 4,
+            Self::Weights(targets) => targets as usize,
+        }
+    }
 }
 
 /// glTF 2.0, appendix C.
@@ -314,13 +326,13 @@ impl Scene {
     /// is behind it says that it is there.
     pub fn unseen_glass(&self) -> Option<String> {
         let unseen = |mesh: &Mesh| -> usize {
-            let primitives = mesh.primitives.iter().map(|primitive| {
+            let count = |primitive: &Primitive| {
                 let material = &self.data.materials[primitive.material as usize];
                 let is_unseen = material.paint.as_ref().is_some_and(Paint::is_unseen);
-                let triangles = (0..primitive.triangles.len()).filter(|_| is_unseen);
-                triangles.filter(|&t| !primitive.is_shown(t, material)).count()
-            });
-            primitives.sum()
+                let is_hidden = |&t: &usize| is_unseen && !primitive.is_shown(t, material);
+                (0..primitive.triangles.len()).filter(is_hidden).count()
+            };
+            mesh.primitives.iter().map(count).sum()
         };
         let of_meshes: Vec<usize> = self.data.meshes.iter().map(unseen).collect();
         let placed = self.data.nodes.iter().filter_map(|node| node.mesh);

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use lightbvh::light::MAX_COORDINATE;
 
+use super::check::Check;
 use super::deform::{Skin, affine, deforms, is_skinned};
 use super::error::SceneError;
 use super::model::{Interpolation, Mesh, Primitive, Property, SceneData};
@@ -17,10 +18,8 @@ const MAX_FLUX: f64 = (1_u128 << 100) as f64;
 ///
 /// `data` must have passed all other checks.
 pub(super) fn check(data: &SceneData) -> Result<(), SceneError> {
-    let out_of_range = |element: String, value: f64, expected: &str| SceneError::Invalid {
-        scene: data.name.clone(),
-        problem: format!("{element} is {value}, expected {expected}"),
-    };
+    let check = Check { scene: &data.name };
+    let farthest = f64::from(MAX_COORDINATE);
     let motion = Motion::of(data);
     let extent: Vec<f64> = data.meshes.iter().map(mesh_extent).collect();
     let flux: Vec<f64> = data.meshes.iter().map(|mesh| mesh_flux(data, mesh)).collect();
@@ -53,22 +52,14 @@ pub(super) fn check(data: &SceneData) -> Result<(), SceneError> {
             total_flux += 2.0 * within * within * radiance_sum(data, primitive);
         }
         // NaN, from infinity times zero, is refused too.
-        if reach.is_nan() || reach > f64::from(MAX_COORDINATE) {
-            let element = format!("farthest point that node {n} `{}` can reach", node.name);
-            return Err(out_of_range(
-                element,
-                reach,
-                "within 2^40 metres of the origin in every frame",
-            ));
-        }
+        let element = || format!("farthest point that node {n} `{}` can reach", node.name);
+        let expected = "expected one within 2^40 metres of the origin in every frame";
+        check.within(element, &[reach], 0.0..=farthest, expected)?;
         // A light BVH takes no such transform, however small what it places.
-        if mesh.is_some() && stretch > f64::from(MAX_COORDINATE) {
-            let element = format!("bound of the scale of node {n} `{}`", node.name);
-            return Err(out_of_range(
-                element,
-                stretch,
-                "at most 2^40; scale the mesh instead",
-            ));
+        if mesh.is_some() {
+            let element = || format!("bound of the scale of node {n} `{}`", node.name);
+            let expected = "expected at most 2^40; scale the mesh instead";
+            check.within(element, &[stretch], 0.0..=farthest, expected)?;
         }
     }
     for (index, light) in data.analytic.iter().enumerate() {
@@ -76,38 +67,28 @@ pub(super) fn check(data: &SceneData) -> Result<(), SceneError> {
             continue;
         };
         let (offset, stretch) = bounds[light.node as usize];
-        let farthest = [stretch, offset + stretch * extent];
-        if let Some(&value) = farthest
-            .iter()
-            .find(|x| x.is_nan() || **x > f64::from(MAX_COORDINATE))
-        {
-            let node = &data.nodes[light.node as usize].name;
-            let element = format!(
-                "bound of the size of light {index} `{}` on node {} `{node}`",
-                light.name, light.node
-            );
-            return Err(out_of_range(
-                element,
-                value,
-                "at most 2^40 metres, its scale at most 2^40; lower the node's scale",
-            ));
-        }
-    }
-    if total_flux.is_nan() || total_flux > MAX_FLUX {
-        let element = String::from("bound of the total flux in watts");
-        return Err(out_of_range(
+        let (name, node) = (&light.name, &data.nodes[light.node as usize].name);
+        let element = || {
+            let on = light.node;
+            format!("bound of the size of light {index} `{name}` on node {on} `{node}`")
+        };
+        let expected = "expected at most 2^40 metres, its scale at most 2^40; lower the node's scale";
+        check.within(
             element,
-            total_flux,
-            "at most 2^100; lower the emissive strength or the scale",
-        ));
+            &[stretch, offset + stretch * extent],
+            0.0..=farthest,
+            expected,
+        )?;
     }
-    Ok(())
+    let element = || String::from("bound of the total flux in watts");
+    let expected = "expected at most 2^100; lower the emissive strength or the scale";
+    check.within(element, &[total_flux], 0.0..=MAX_FLUX, expected)
 }
 
 /// Largest distance of a vertex from the mesh's origin.
 fn mesh_extent(mesh: &Mesh) -> f64 {
     let points = mesh.primitives.iter().flat_map(|primitive| &primitive.positions);
-    points.map(length).fold(0.0, f64::max)
+    points.map(|p| length(p)).fold(0.0, f64::max)
 }
 
 /// Upper bound of the flux of one unscaled instance: pi times area times radiance, both sides, all channels.
@@ -127,7 +108,7 @@ fn mesh_flux(data: &SceneData, mesh: &Mesh) -> f64 {
 
 /// Largest distance of a vertex from the mesh's origin, each target as far as `weight` says.
 fn morphed_extent(primitive: &Primitive, weight: impl Fn(usize) -> f64) -> f64 {
-    let mut far: Vec<f64> = primitive.positions.iter().map(length).collect();
+    let mut far: Vec<f64> = primitive.positions.iter().map(|p| length(p)).collect();
     for (t, target) in primitive.targets.iter().enumerate() {
         let weight = weight(t);
         for (far, moved) in far.iter_mut().zip(target) {
@@ -180,30 +161,27 @@ impl Motion {
                 Transform::Matrix(_) => affine.stretch(),
             });
         }
-        for channel in data.animations.iter().flat_map(|animation| &animation.channels) {
-            let bound = match channel.property {
-                Property::Translation => &mut offset[channel.node as usize],
-                Property::Scale => &mut stretch[channel.node as usize],
-                Property::Rotation => continue,
-            };
-            let peak = channel
-                .values
-                .iter()
-                .map(|&[x, y, z, _]| length(&[x, y, z]))
-                .fold(0.0, f64::max);
-            let factor = spline_factor(channel.interpolation, &channel.times);
-            *bound = bound.max(factor * peak);
-        }
         let mut weights: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
-        for channel in data.animations.iter().flat_map(|animation| &animation.morphs) {
-            let peaks = weights.entry(channel.node as usize).or_default();
-            peaks.resize(peaks.len().max(channel.targets as usize), 0.0);
-            for row in channel.values.chunks_exact(channel.targets as usize) {
-                for (peak, &weight) in peaks.iter_mut().zip(row) {
-                    *peak = peak
-                        .max(spline_factor(channel.interpolation, &channel.times) * f64::from(weight).abs());
+        for channel in data.animations.iter().flat_map(|animation| &animation.channels) {
+            let node = channel.node as usize;
+            let factor = spline_factor(channel.interpolation, &channel.times);
+            let rows = channel.values.chunks_exact(channel.property.numbers());
+            let bound = match channel.property {
+                Property::Translation => &mut offset[node],
+                Property::Scale => &mut stretch[node],
+                Property::Rotation => continue,
+                Property::Weights(targets) => {
+                    let peaks = weights.entry(node).or_default();
+                    peaks.resize(peaks.len().max(targets as usize), 0.0);
+                    for row in rows {
+                        for (peak, &weight) in peaks.iter_mut().zip(row) {
+                            *peak = peak.max(factor * f64::from(weight).abs());
+                        }
+                    }
+                    continue;
                 }
-            }
+            };
+            *bound = bound.max(factor * rows.map(length).fold(0.0, f64::max));
         }
         Self {
             offset,
@@ -226,19 +204,17 @@ impl Motion {
 fn spline_factor(interpolation: Interpolation, times: &[f32]) -> f64 {
     match interpolation {
         // Hermite weights: the values' lie in [0, 1], the tangents' within 4/27 of the span; see `animate`.
-        Interpolation::CubicSpline => 2.0 + 0.3 * longest_span(times),
+        Interpolation::CubicSpline => {
+            let spans = times
+                .windows(2)
+                .map(|pair| f64::from(pair[1]) - f64::from(pair[0]));
+            2.0 + 0.3 * spans.fold(0.0, f64::max)
+        }
         Interpolation::Step | Interpolation::Linear => 1.0,
     }
 }
 
-fn longest_span(times: &[f32]) -> f64 {
-    times
-        .windows(2)
-        .map(|pair| f64::from(pair[1]) - f64::from(pair[0]))
-        .fold(0.0, f64::max)
-}
-
-fn length(v: &[f32; 3]) -> f64 {
+fn length(v: &[f32]) -> f64 {
     v.iter().map(|&x| f64::from(x) * f64::from(x)).sum::<f64>().sqrt()
 }
 

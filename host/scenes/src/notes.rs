@@ -1,59 +1,69 @@
-//! What a loader leaves out, said once for each kind.
+//! What a loader leaves out or replaces, said once for each kind.
 
-use std::collections::HashMap;
-use std::rc::Rc;
-
-/// Kinds kept; the rest is counted.
+/// Kinds kept, and places named of each; the rest is counted.
 const MAX_KINDS: usize = 50;
-
-/// A line of a file.
-#[derive(Clone, Debug)]
-pub(super) struct Place {
-    pub file: Rc<str>,
-    /// Counted from 1.
-    pub line: u32,
-}
+const MAX_PLACES: usize = 3;
 
 /// Warnings of one file, and of what it includes.
 #[derive(Debug, Default)]
 pub(super) struct Notes {
-    kinds: Vec<(String, Place, u64)>,
-    by_kind: HashMap<String, usize>,
+    kinds: Vec<Kind>,
     more: u64,
 }
 
+#[derive(Debug)]
+struct Kind {
+    what: String,
+    /// The first ones.
+    places: Vec<String>,
+    last: String,
+    count: usize,
+}
+
 impl Notes {
-    /// Something was left out, or replaced: `kind` says what, the same words wherever it is the same.
-    pub fn add(&mut self, place: &Place, kind: impl Into<String>) {
-        let kind = kind.into();
-        if let Some(&index) = self.by_kind.get(&kind) {
-            self.kinds[index].2 += 1;
-        } else if self.kinds.len() < MAX_KINDS {
-            self.by_kind.insert(kind.clone(), self.kinds.len());
-            self.kinds.push((kind, place.clone(), 1));
-        } else {
+    /// Something at `place`, which may be empty, is left out or replaced: `what` has the same words for the same kind.
+    pub fn add(&mut self, place: impl Into<String>, what: impl Into<String>) {
+        let (place, what) = (place.into(), what.into());
+        let next = self.kinds.len();
+        let known = self.kinds.iter().position(|kind| kind.what == what);
+        if known.is_none() && next == MAX_KINDS {
             self.more += 1;
+            return;
         }
+        if known.is_none() {
+            self.kinds.push(Kind {
+                what,
+                places: Vec::new(),
+                last: String::new(),
+                count: 0,
+            });
+        }
+        let kind = &mut self.kinds[known.unwrap_or(next)];
+        // Several textures of an element say the same.
+        if kind.last == place {
+            return;
+        }
+        kind.count += 1;
+        if kind.places.len() < MAX_PLACES {
+            kind.places.push(place.clone());
+        }
+        kind.last = place;
     }
 
-    /// One sentence for each kind.
+    /// A line for each kind: `materials[0], materials[3], materials[4] and 7 more: ...`.
     pub fn into_warnings(self) -> Vec<String> {
-        let more = self.more;
-        let sentence = |(kind, place, count): (String, Place, u64)| {
-            let Place { file, line } = place;
-            let at = match line {
-                0 => file.to_string(),
-                line => format!("{file}, line {line}"),
-            };
-            match count {
-                1 => format!("{kind} ({at})"),
-                count => format!("{kind} ({count} times, first in {at})"),
+        let line = |kind: Kind| {
+            let places = kind.places.join(", ");
+            match kind.count.saturating_sub(MAX_PLACES) {
+                _ if places.is_empty() => kind.what,
+                0 => format!("{places}: {}", kind.what),
+                more => format!("{places} and {more} more: {}", kind.what),
             }
         };
-        let mut out: Vec<String> = self.kinds.into_iter().map(sentence).collect();
-        if more > 0 {
-            out.push(format!("and {more} more"));
+        let mut lines: Vec<String> = self.kinds.into_iter().map(line).collect();
+        if self.more > 0 {
+            lines.push(format!("and {} more", self.more));
         }
-        out
+        lines
     }
 }

@@ -1,5 +1,6 @@
 //! Pictures in files, decoded within the memory of a load.
 
+use std::fmt::Display;
 use std::io::Cursor;
 use std::path::Path;
 use std::rc::Rc;
@@ -7,16 +8,16 @@ use std::sync::Arc;
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, RgbaImage};
 
-use super::error::{SceneError, not_compiled};
+use super::error::{SceneError, malformed, not_compiled};
 use super::files::Load;
 use super::paint::{MAX_SIDE, Picture};
+use super::radiance_hdr;
+use super::srgb::linear_from_srgb;
 
 /// What cannot be decoded.
-pub(super) fn undecoded(name: &str, problem: impl ToString) -> SceneError {
-    SceneError::Picture {
-        name: name.to_owned(),
-        problem: problem.to_string(),
-    }
+pub(super) fn undecoded(name: &str, problem: impl Display) -> SceneError {
+    let advice = "use PNG, JPEG, WebP, TGA, HDR, EXR or KTX 2 of at most 16384 pixels a side";
+    malformed(name, format!("cannot be decoded: {problem}"), advice)
 }
 
 /// Decodes a picture; `path` says its format where its first bytes do not. Its size is read from its header before memory is
@@ -39,13 +40,13 @@ pub(super) fn decode(
         Some(ImageFormat::Tga) => "obj",
         _ => "",
     };
-    if let Some(format) = reader
+    let format = reader
         .format()
-        .filter(|own| !own.reading_enabled() && !feature.is_empty())
-    {
+        .filter(|own| !own.reading_enabled() && !feature.is_empty());
+    if let Some(format) = format {
         return Err(not_compiled(
             name,
-            format!("the picture format {format:?}"),
+            &format!("the picture format {format:?}"),
             feature,
         ));
     }
@@ -65,6 +66,19 @@ pub(super) fn decode(
         .map_err(|error| undecoded(name, error))
 }
 
+/// Decodes a file, which may hold light (.hdr, .exr).
+pub(super) fn decode_light(load: &Load, bytes: Vec<u8>, path: &Path) -> Result<DynamicImage, SceneError> {
+    let name = path.display().to_string();
+    let bytes = radiance_hdr::with_signature(bytes);
+    let mut picture = decode(load, &name, &bytes, Some(path))?;
+    if let DynamicImage::ImageRgb32F(pixels) = &mut picture {
+        let divisors = radiance_hdr::divisors(&bytes).map_err(|problem| undecoded(&name, problem))?;
+        let divided = |pixel: [f32; 3]| [0, 1, 2].map(|k| pixel[k] / divisors[k]);
+        pixels.pixels_mut().for_each(|pixel| pixel.0 = divided(pixel.0));
+    }
+    Ok(picture)
+}
+
 /// Pixels as a scene keeps them.
 pub(super) fn kept(pixels: Rc<RgbaImage>) -> Picture {
     let (width, height) = pixels.dimensions();
@@ -74,4 +88,21 @@ pub(super) fn kept(pixels: Rc<RgbaImage>) -> Picture {
         height,
         texels: Arc::new(pixels.into_raw()),
     }
+}
+
+/// Mean of each channel of a picture, colours made linear.
+pub(super) fn mean_of(pixels: &RgbaImage, is_color: bool) -> [f32; 4] {
+    let linear: [f64; 256] = std::array::from_fn(|encoded| match is_color {
+        true => f64::from(linear_from_srgb(encoded as u8)),
+        false => encoded as f64 / 255.0,
+    });
+    let mut sum = [0.0_f64; 4];
+    for pixel in pixels.pixels() {
+        let [r, g, b, alpha] = pixel.0;
+        let alpha = f64::from(alpha) / 255.0;
+        let [r, g, b] = [r, g, b].map(|channel| linear[usize::from(channel)]);
+        sum = [sum[0] + r, sum[1] + g, sum[2] + b, sum[3] + alpha];
+    }
+    let count = (f64::from(pixels.width()) * f64::from(pixels.height())).max(1.0);
+    sum.map(|channel| (channel / count) as f32)
 }

@@ -4,14 +4,13 @@
 //! surface that an environment map or suns can light. This is no use of the crate `ply-rs-bw`, which reserves memory for the
 //! length that each list announces: a text of 120 bytes makes it panic.
 
-use super::error::SceneError;
+use super::error::{SceneError, malformed};
 use super::files::{Limits, Load, without_mark};
 use super::model::{Material, Mesh, Node, Primitive, Scene, SceneData};
 use super::polygon::Cutter;
 
-/// Longest header, and most elements and properties.
+/// Longest header.
 const MAX_HEADER: usize = 1 << 20;
-const MAX_PROPERTIES: usize = 1024;
 
 const TRUNCATED: &str = "the file is truncated; copy it again";
 const EXPORT: &str = "export the file again as PLY 1.0";
@@ -23,41 +22,21 @@ enum Format {
     BigEndian,
 }
 
-#[derive(Clone, Copy, Debug)]
-enum Number {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
+/// `i` for integers, `u` for those without a sign, `f` for fractions; and bytes.
+type Number = (char, usize);
 
-impl Number {
-    fn named(name: &str) -> Result<Self, String> {
-        Ok(match name {
-            "char" | "int8" => Self::I8,
-            "uchar" | "uint8" => Self::U8,
-            "short" | "int16" => Self::I16,
-            "ushort" | "uint16" => Self::U16,
-            "int" | "int32" => Self::I32,
-            "uint" | "uint32" => Self::U32,
-            "float" | "float32" => Self::F32,
-            "double" | "float64" => Self::F64,
-            _ => return Err(format!("type `{name}` is not known")),
-        })
-    }
-
-    fn bytes(self) -> u64 {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::F64 => 8,
-        }
-    }
+fn number(name: &str) -> Result<Number, String> {
+    Ok(match name {
+        "char" | "int8" => ('i', 1),
+        "uchar" | "uint8" => ('u', 1),
+        "short" | "int16" => ('i', 2),
+        "ushort" | "uint16" => ('u', 2),
+        "int" | "int32" => ('i', 4),
+        "uint" | "uint32" => ('u', 4),
+        "float" | "float32" => ('f', 4),
+        "double" | "float64" => ('f', 8),
+        _ => return Err(format!("type `{name}` is not known")),
+    })
 }
 
 struct Property {
@@ -80,37 +59,29 @@ struct Numbers<'a> {
 }
 
 impl Numbers<'_> {
-    fn next(&mut self, number: Number) -> Option<f64> {
+    fn next(&mut self, (kind, bytes): Number) -> Option<f64> {
         if self.format == Format::Text {
             let rest = self.rest.trim_ascii_start();
-            let end = rest
-                .iter()
-                .position(u8::is_ascii_whitespace)
-                .unwrap_or(rest.len());
-            let (word, rest) = rest.split_at(end);
+            let end = rest.iter().position(u8::is_ascii_whitespace);
+            let (word, rest) = rest.split_at(end.unwrap_or(rest.len()));
             self.rest = rest;
             return std::str::from_utf8(word).ok()?.parse().ok();
         }
-        Some(match number {
-            Number::I8 => i8::from_le_bytes(self.bytes()?).into(),
-            Number::U8 => u8::from_le_bytes(self.bytes()?).into(),
-            Number::I16 => i16::from_le_bytes(self.bytes()?).into(),
-            Number::U16 => u16::from_le_bytes(self.bytes()?).into(),
-            Number::I32 => i32::from_le_bytes(self.bytes()?).into(),
-            Number::U32 => u32::from_le_bytes(self.bytes()?).into(),
-            Number::F32 => f32::from_le_bytes(self.bytes()?).into(),
-            Number::F64 => f64::from_le_bytes(self.bytes()?),
-        })
-    }
-
-    fn bytes<const N: usize>(&mut self) -> Option<[u8; N]> {
-        let (&bytes, rest) = self.rest.split_first_chunk()?;
+        let (own, rest) = self.rest.split_at_checked(bytes)?;
         self.rest = rest;
-        let mut bytes: [u8; N] = bytes;
+        let mut word = [0; 8];
+        word[..bytes].copy_from_slice(own);
         if self.format == Format::BigEndian {
-            bytes.reverse();
+            word[..bytes].reverse();
         }
-        Some(bytes)
+        let word = u64::from_le_bytes(word);
+        let unused = 64 - 8 * bytes;
+        Some(match (kind, bytes) {
+            ('f', 4) => f32::from_bits(word as u32).into(),
+            ('f', _) => f64::from_bits(word),
+            ('i', _) => ((word << unused) as i64 >> unused) as f64,
+            _ => word as f64,
+        })
     }
 
     /// A number that counts, or names a vertex.
@@ -154,27 +125,17 @@ impl Scene {
     }
 }
 
-fn malformed(path: &str, element: String, problem: impl Into<String>, advice: &'static str) -> SceneError {
-    SceneError::Malformed {
-        path: path.to_owned(),
-        element,
-        problem: problem.into(),
-        advice,
-    }
-}
-
 fn header<'a>(path: &str, bytes: &'a [u8]) -> Result<(Vec<Element>, Numbers<'a>), SceneError> {
-    let mut rest = bytes;
-    let mut format = None;
-    let mut elements: Vec<Element> = Vec::new();
-    let mut properties = 0;
-    for line in 1.. {
-        let broken = |problem: String| malformed(path, format!("line {line} of the header"), problem, EXPORT);
+    let (mut format, mut elements) = (None, Vec::<Element>::new());
+    let (mut rest, mut line) = (bytes, 0);
+    loop {
+        line += 1;
+        let broken =
+            |problem: String| malformed(format!("{path}: line {line} of the header"), problem, EXPORT);
         let end = rest.iter().take(MAX_HEADER).position(|&byte| byte == b'\n');
         let Some(end) = end.filter(|_| bytes.len() - rest.len() <= MAX_HEADER) else {
-            return Err(broken(format!(
-                "the file, or the first {MAX_HEADER} bytes, end before `end_header`"
-            )));
+            let problem = format!("the file, or the first {MAX_HEADER} bytes, end before `end_header`");
+            return Err(broken(problem));
         };
         let text = String::from_utf8_lossy(&rest[..end]);
         rest = &rest[end + 1..];
@@ -193,32 +154,23 @@ fn header<'a>(path: &str, bytes: &'a [u8]) -> Result<(Vec<Element>, Numbers<'a>)
             }
             ["format", _, version] => return Err(broken(format!("version `{version}` is not known"))),
             ["element", name, count] => {
-                let count = count
-                    .parse()
-                    .map_err(|_| broken(format!("`{count}` is no number of elements")))?;
+                let no_count = |_| broken(format!("`{count}` is no number of elements"));
                 elements.push(Element {
                     name: name.to_owned(),
-                    count,
+                    count: count.parse().map_err(no_count)?,
                     properties: Vec::new(),
                 });
-                properties += 1;
             }
             ["property", ref list @ .., item, name] if list.is_empty() || list[0] == "list" => {
-                let number = Number::named(item).map_err(broken)?;
-                let length = list
-                    .get(1)
-                    .map(|length| Number::named(length))
-                    .transpose()
-                    .map_err(broken)?;
-                let element = elements.last_mut();
-                let element = element
-                    .ok_or_else(|| broken(String::from("a property comes before the first element")))?;
-                element.properties.push(Property {
+                let length = list.get(1).map(|length| number(length)).transpose();
+                let property = Property {
                     name: name.to_owned(),
-                    number,
-                    length,
-                });
-                properties += 1;
+                    number: number(item).map_err(broken)?,
+                    length: length.map_err(broken)?,
+                };
+                let element = elements.last_mut();
+                let first = || broken(String::from("a property comes before the first element"));
+                element.ok_or_else(first)?.properties.push(property);
             }
             ["end_header"] => {
                 let format = format.ok_or_else(|| broken(String::from("no format is named before it")))?;
@@ -227,11 +179,7 @@ fn header<'a>(path: &str, bytes: &'a [u8]) -> Result<(Vec<Element>, Numbers<'a>)
             // Comments, and what else applications note.
             _ => {}
         }
-        if properties > MAX_PROPERTIES {
-            return Err(broken(format!("it has more than {MAX_PROPERTIES} properties")));
-        }
     }
-    unreachable!("a file has an end")
 }
 
 fn body(
@@ -244,57 +192,48 @@ fn body(
     // Corners of all polygons, and where each ends: vertices may come after them.
     let (mut corners, mut ends) = (Vec::new(), Vec::new());
     for element in elements.iter().filter(|element| !element.properties.is_empty()) {
+        let (name, all) = (&element.name, &element.properties);
         let of = |what: &Property| match numbers.format {
             Format::Text => 2,
-            _ => what.length.unwrap_or(what.number).bytes(),
+            _ => what.length.unwrap_or(what.number).1 as u64,
         };
-        let least: u64 = element.properties.iter().map(of).sum();
-        let left = numbers.rest.len();
+        let least: u64 = all.iter().map(of).sum();
+        let (count, left) = (element.count, numbers.rest.len());
         // The last number of a text needs nothing after it.
-        if element.count.saturating_mul(least) > left as u64 + 1 {
-            let problem = format!(
-                "{} of at least {least} bytes are announced, but only {left} bytes are left",
-                element.count
-            );
-            return Err(malformed(
-                path,
-                format!("element {}", element.name),
-                problem,
-                TRUNCATED,
-            ));
+        if count.saturating_mul(least) > left as u64 + 1 {
+            let problem =
+                format!("{count} of at least {least} bytes are announced, but only {left} bytes are left");
+            return Err(malformed(format!("{path}: element {name}"), problem, TRUNCATED));
         }
         let scalar = |name: &str| {
-            element
-                .properties
-                .iter()
+            all.iter()
                 .position(|own| own.name == name && own.length.is_none())
         };
-        let place = match (element.name.as_str(), ["x", "y", "z"].map(scalar)) {
+        let place = match (name.as_str(), ["x", "y", "z"].map(scalar)) {
             ("vertex", [Some(x), Some(y), Some(z)]) => Some([x, y, z]),
             ("vertex", _) => {
-                let what = String::from("element vertex");
+                let advice = "export the file with positions";
                 return Err(malformed(
-                    path,
-                    what,
+                    format!("{path}: element vertex"),
                     "it has no x, y and z",
-                    "export the file with positions",
+                    advice,
                 ));
             }
             _ => None,
         };
-        let mut row = vec![0.0_f32; element.properties.len()];
-        for index in 0..element.count {
+        let mut row = vec![0.0_f32; all.len()];
+        for index in 0..count {
             let ends_here = || {
                 let problem = "it has a number that is none, or the file ends in it";
-                malformed(path, format!("{} {index}", element.name), problem, TRUNCATED)
+                malformed(format!("{path}: {name} {index}"), problem, TRUNCATED)
             };
-            for (property, value) in element.properties.iter().zip(&mut row) {
+            for (property, value) in all.iter().zip(&mut row) {
                 let Some(length) = property.length else {
                     *value = numbers.next(property.number).ok_or_else(ends_here)? as f32;
                     continue;
                 };
-                let is_polygon = element.name == "face"
-                    && matches!(property.name.as_str(), "vertex_indices" | "vertex_index");
+                let is_polygon =
+                    name == "face" && matches!(property.name.as_str(), "vertex_indices" | "vertex_index");
                 for _ in 0..numbers.whole(length).ok_or_else(ends_here)? {
                     if is_polygon {
                         corners.push(numbers.whole(property.number).ok_or_else(ends_here)?);
@@ -311,32 +250,17 @@ fn body(
     }
     let (mut triangles, mut begin, mut cutter) = (Vec::new(), 0, Cutter::default());
     for (face, end) in ends.into_iter().enumerate() {
-        let own = &corners[begin..end];
+        let (own, face) = (&corners[begin..end], || format!("{path}: face {face}"));
         begin = end;
         let places = own.iter().map(|&vertex| positions.get(vertex as usize).copied());
         let places: Vec<[f32; 3]> = places.collect::<Option<_>>().ok_or_else(|| {
-            let problem = format!(
-                "has vertices {:?}, but there are only {}",
-                &own[..own.len().min(8)],
-                positions.len()
-            );
-            malformed(
-                path,
-                format!("face {face}"),
-                problem,
-                "the file is damaged; export it again",
-            )
+            let (some, count) = (&own[..own.len().min(8)], positions.len());
+            let problem = format!("has vertices {some:?}, but there are only {count}");
+            malformed(face(), problem, "the file is damaged; export it again")
         })?;
         cutter
             .cut(&places, |triangle| triangles.push(triangle.map(|k| own[k])))
-            .map_err(|problem| {
-                malformed(
-                    path,
-                    format!("face {face}"),
-                    problem,
-                    "export the file with triangles",
-                )
-            })?;
+            .map_err(|problem| malformed(face(), problem, "export the file with triangles"))?;
         load.take(path, "the list of triangles", size_of_val(own) as u64 * 3)?;
     }
     Ok(Primitive {
@@ -347,4 +271,114 @@ fn body(
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "ply\nformat ascii 1.0\ncomment two triangles\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+                        element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+
+    /// The same in binary, with normals, a list of the vertices and an element in between.
+    fn binary(is_little: bool) -> Vec<u8> {
+        let order = if is_little { "little" } else { "big" };
+        let mut out = format!(
+            "ply\nformat binary_{order}_endian 1.0\nelement vertex 4\nproperty double x\nproperty float y\nproperty short z\nproperty list uchar ushort \
+             extra\nproperty float nx\nproperty float ny\nproperty float nz\nelement edge 1\nproperty int a\nelement face 1\nproperty uchar flag\n\
+             property list ushort uint vertex_index\nend_header\n"
+        )
+        .into_bytes();
+        let mut put = |bytes: &[u8]| {
+            if is_little {
+                out.extend(bytes);
+            } else {
+                out.extend(bytes.iter().rev());
+            }
+        };
+        for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+            put(&f64::to_le_bytes(x));
+            put(&(y as f32).to_le_bytes());
+            put(&0_i16.to_le_bytes());
+            put(&[2]);
+            put(&7_u16.to_le_bytes());
+            put(&7_u16.to_le_bytes());
+            for n in [0.0_f32, 0.0, -1.0] {
+                put(&n.to_le_bytes());
+            }
+        }
+        put(&5_i32.to_le_bytes());
+        put(&[1]);
+        put(&4_u16.to_le_bytes());
+        for vertex in 0..4_u32 {
+            put(&vertex.to_le_bytes());
+        }
+        out
+    }
+
+    fn read(name: &str, bytes: &[u8]) -> Result<Primitive, SceneError> {
+        let scene = Scene::read_ply_slice(name, bytes)?;
+        Ok(scene.data().meshes[0].primitives[0].clone())
+    }
+
+    #[test]
+    fn text_and_binary_hold_the_same_in_any_order() {
+        let text = read("t", TEXT.as_bytes()).expect("valid");
+        assert_eq!(
+            text.positions,
+            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]
+        );
+        assert_eq!(text.triangles, [[0, 1, 2], [0, 2, 3]]);
+        let face = "element face 1\nproperty list uchar int vertex_indices\n";
+        let first = TEXT
+            .replace(face, "")
+            .replace("element vertex", &format!("{face}element vertex"));
+        let first = first
+            .replace("4 0 1 2 3\n", "")
+            .replace("end_header\n", "end_header\n4 0 1 2 3\n");
+        for bytes in [binary(true), binary(false), first.into_bytes()] {
+            let binary = read("b", &bytes).expect("valid");
+            assert_eq!(binary.positions, text.positions);
+            assert_eq!(binary.triangles, text.triangles);
+        }
+    }
+
+    #[test]
+    fn what_is_announced_must_be_there() {
+        let cases = [
+            (
+                TEXT.replace("vertex 4", "vertex 4000000000"),
+                "4000000000 of at least 6 bytes",
+            ),
+            (
+                TEXT.replace("4 0 1 2 3", "4 0 1 2 9"),
+                "has vertices [0, 1, 2, 9], but there are only 4",
+            ),
+            (TEXT.replace("4 0 1 2 3", "9 0 1 2 3"), "face 0"),
+            (TEXT.replace("1 1 0", "1 one 0"), "vertex 2"),
+            (TEXT.replace("end_header", "end"), "end before `end_header`"),
+            (TEXT.replace("float x", "float w"), "no x, y and z"),
+            (TEXT.replace("float x", "half x"), "type `half` is not known"),
+            (TEXT.replace("ascii", "utf"), "format `utf` is not known"),
+            (
+                TEXT.replace("ascii 1.0", "ascii 2.0"),
+                "line 2 of the header: version `2.0`",
+            ),
+            (
+                String::from("version https://git-lfs.github.com/spec/v1\n"),
+                "git lfs pull",
+            ),
+        ];
+        for (text, expected) in cases {
+            let error = read("t.ply", text.as_bytes()).expect_err(expected).to_string();
+            assert!(error.contains("t.ply: ") && error.contains(expected), "{error}");
+        }
+    }
+
+    #[test]
+    fn damage_is_an_error_or_a_mesh() {
+        let files = [TEXT.as_bytes().to_vec(), binary(true), binary(false)];
+        crate::random::damaged(&files, 3000, |bytes| {
+            if let Ok(scene) = Scene::read_ply_slice("damaged", bytes) {
+                assert!(scene.triangle_count() > 0);
+            }
+        });
+    }
+}

@@ -8,7 +8,8 @@ use lightbvh_kernels::shading::picture::{self, PictureWords};
 use lightbvh_kernels::shading::skin::{HEADER_WORDS, SRGB_WORDS};
 
 use super::ies_in::Photometry;
-use super::paint::Picture;
+use super::paint::{IN_PLACE, Picture, Texture, Wrap};
+use super::skin_words;
 use super::srgb::linear_from_srgb;
 
 /// Sides of the picture: the least of which two texels fit between the angles of the table, or the greatest.
@@ -94,37 +95,38 @@ fn local_at(place: [f32; 2]) -> [f32; 3] {
     [x, z, y]
 }
 
+/// Places spread over the octahedron: the texel that each lies in, and its direction.
+fn places(side: u32) -> impl Iterator<Item = (u32, [f32; 3])> {
+    let fine = side * WITHIN;
+    let place = move |k: u32| (2 * k + 1) as f32 / fine as f32 - 1.0;
+    let all = (0..fine).flat_map(move |row| (0..fine).map(move |column| [column, row]));
+    all.map(move |[column, row]| {
+        let texel = (row / WITHIN) * side + column / WITHIN;
+        (texel, local_at([place(column), place(row)]))
+    })
+}
+
 /// The mean of the table over each texel.
 fn means(table: &Photometry, side: u32) -> Vec<f64> {
-    let fine = side * WITHIN;
-    let place = |k: u32| (2 * k + 1) as f32 / fine as f32 - 1.0;
     let mut sums = vec![0.0; (side * side) as usize];
-    for row in 0..fine {
-        for column in 0..fine {
-            let local = local_at([place(column), place(row)]);
-            let texel = (row / WITHIN) * side + column / WITHIN;
-            sums[texel as usize] += table.candela(local.map(f64::from));
-        }
+    for (texel, local) in places(side) {
+        sums[texel as usize] += table.candela(local.map(f64::from));
     }
     sums.iter().map(|sum| sum / f64::from(WITHIN * WITHIN)).collect()
 }
 
 /// Integrals over all directions of `value`, and of it times the cosine to the axis.
 fn over_directions(side: u32, value: impl Fn([f32; 3]) -> f64) -> [f64; 2] {
-    let fine = side * WITHIN;
-    let place = |k: u32| (2 * k + 1) as f32 / fine as f32 - 1.0;
-    let cell = 4.0 / (f64::from(fine) * f64::from(fine));
+    let fine = f64::from(side * WITHIN);
+    let cell = 4.0 / (fine * fine);
     let mut sums = [0.0; 2];
-    for row in 0..fine {
-        for column in 0..fine {
-            let local = local_at([place(column), place(row)]);
-            // The octahedron |x| + |y| + |z| = 1 is 1/sum away in that direction; a part of the square is seen under the cube
-            // of that less.
-            let sum: f64 = local.iter().map(|x| f64::from(x.abs())).sum();
-            let own = cell * sum * sum * sum * value(local);
-            sums[0] += own;
-            sums[1] += own * f64::from(local[2]);
-        }
+    for (_, local) in places(side) {
+        // The octahedron |x| + |y| + |z| = 1 is 1/sum away in that direction; a part of the square is seen under the cube
+        // of that less.
+        let sum: f64 = local.iter().map(|x| f64::from(x.abs())).sum();
+        let own = cell * sum * sum * sum * value(local);
+        sums[0] += own;
+        sums[1] += own * f64::from(local[2]);
     }
     sums
 }
@@ -150,15 +152,14 @@ fn cos_outer(picture: &Picture) -> f32 {
 
 /// The words of a picture of encoded colours that covers all directions, whose texels begin at word `texels`.
 pub(super) fn picture_words(picture: &Picture, texels: u32) -> PictureWords {
-    PictureWords {
-        width: picture.width,
-        height: picture.height,
-        flags: PictureWords::SRGB
-            | (PictureWords::CLAMP << PictureWords::WRAP_COLUMNS)
-            | (PictureWords::CLAMP << PictureWords::WRAP_ROWS),
-        transform: [1.0, 0.0, 0.0, 1.0, 0.0, 0.0],
-        texels,
-    }
+    let texture = Texture {
+        picture: 0,
+        is_color: true,
+        is_nearest: false,
+        wrap: [Wrap::Clamp; 2],
+        transform: IN_PLACE,
+    };
+    skin_words::picture_words(&texture, picture, texels)
 }
 
 /// The texels of a picture, a word each.

@@ -1,6 +1,5 @@
 //! The ray BVH: built by `obvhs`, laid out for the kernels' walk.
 
-mod copies;
 mod ploc;
 
 use glam::Vec3A;
@@ -133,7 +132,7 @@ fn snap_triangle(index: usize, triangle: &SurfaceTriangle) -> Result<SurfaceTria
 /// PLOC with some reinsertion; one thread, so always the same tree. Where PLOC finds triangles too hard, reinsertion would take
 /// as long, and gain nothing.
 fn build(triangles: &[SurfaceTriangle]) -> Bvh2 {
-    let mut corners: Vec<Triangle> = triangles
+    let corners: Vec<Triangle> = triangles
         .iter()
         .map(|t| Triangle {
             v0: Vec3A::from(t.p[0]),
@@ -141,7 +140,6 @@ fn build(triangles: &[SurfaceTriangle]) -> Bvh2 {
             v2: Vec3A::from(t.p[2]),
         })
         .collect();
-    copies::spread(&mut corners);
     let built = ploc::build(&corners);
     let is_hard = built.is_hard();
     let mut bvh = built.bvh;

@@ -136,7 +136,7 @@ fn paint_words(paint: &Paint, put: &mut impl FnMut(Option<Texture>) -> u32) -> P
     }
 }
 
-fn picture_words(texture: &Texture, picture: &Picture, texels: u32) -> PictureWords {
+pub(super) fn picture_words(texture: &Texture, picture: &Picture, texels: u32) -> PictureWords {
     let wrap = |wrap| match wrap {
         Wrap::Repeat => PictureWords::REPEAT,
         Wrap::Clamp => PictureWords::CLAMP,
@@ -231,6 +231,7 @@ mod tests {
         }
     }
 
+    /// Black and white are half as bright together, not half as great a byte; opacities are numbers.
     #[test]
     fn halves_are_means_of_four() {
         let half = halved(&picture(4, 2), false);
@@ -238,29 +239,17 @@ mod tests {
         // Red of texels 0, 1, 4 and 5: 0, 4, 16, 20.
         assert_eq!(half.texels[..8], [10, 11, 12, 13, 18, 19, 20, 21]);
         let odd = halved(&picture(3, 1), false);
-        assert_eq!(
-            (odd.width, odd.height, odd.texels[4]),
-            (2, 1, 8),
-            "the last one counts twice"
-        );
-    }
-
-    /// Black and white are half as bright together, not half as great a byte; opacities are numbers.
-    #[test]
-    fn halves_of_colors_are_as_bright() {
-        let squares = Picture {
-            width: 2,
-            height: 2,
-            texels: Arc::new([[0; 4], [255; 4], [255; 4], [0; 4]].concat()),
-        };
-        let half = halved(&squares, true);
-        assert_eq!(*half.texels, [188, 188, 188, 128], "0.5 linear is 187.5 encoded");
-        let even = Picture {
-            width: 2,
-            height: 1,
-            texels: Arc::new((0..2).flat_map(|_| [7, 130, 255, 9]).collect()),
-        };
-        assert_eq!(*halved(&even, true).texels, [7, 130, 255, 9]);
+        let last = (odd.width, odd.height, odd.texels[4]);
+        assert_eq!(last, (2, 1, 8), "the last one counts twice");
+        for (rows, expected) in [
+            // 0.5 linear is 187.5 encoded.
+            ([[[0; 4], [255; 4]], [[255; 4], [0; 4]]], [188, 188, 188, 128]),
+            ([[[7, 130, 255, 9]; 2]; 2], [7, 130, 255, 9]),
+        ] {
+            let mut squares = picture(2, 2);
+            squares.texels = Arc::new(rows.as_flattened().as_flattened().to_vec());
+            assert_eq!(*halved(&squares, true).texels, expected);
+        }
     }
 
     #[test]
@@ -268,10 +257,7 @@ mod tests {
         let side = 4096;
         let pictures = [picture(side, side / 2), picture(8, 8), picture(side / 2, side)];
         let fits = fitted(&pictures, &[false; 3]);
-        assert_eq!(
-            [fits[0].width, fits[1].width, fits[2].width],
-            [side / 2, 8, side / 4],
-            "2^24 and 64 are too many"
-        );
+        let widths = [fits[0].width, fits[1].width, fits[2].width];
+        assert_eq!(widths, [side / 2, 8, side / 4], "2^24 and 64 are too many");
     }
 }

@@ -49,8 +49,13 @@ fn light(
     turn: [f32; 4],
     kind: AnalyticKind,
     color: [f32; 3],
-) -> u32 {
+) {
     let node = b.node(name, None, at, turn, None);
+    on(b, name, node, kind, color);
+}
+
+/// A light by formula on a node.
+fn on(b: &mut SceneBuilder, name: &str, node: u32, kind: AnalyticKind, color: [f32; 3]) {
     b.analytic(AnalyticLight {
         name: name.to_owned(),
         node,
@@ -59,7 +64,6 @@ fn light(
         intensity: 1.0,
         range: None,
     });
-    node
 }
 
 /// Boards, walls, curtains, steps and a ball on a pedestal.
@@ -136,17 +140,11 @@ fn spots(b: &mut SceneBuilder) {
             let z = if row == 0 { 0.5 } else { -2.3 };
             let hanger = b.node("hanger", None, [x, 5.45, z], rotation(ALONG_X, DOWN), None);
             let spot = b.node("spot", Some(hanger), [0.0; 3], STILL, None);
-            b.analytic(AnalyticLight {
-                name: String::from("spot"),
-                node: spot,
-                kind: AnalyticKind::Spot {
-                    inner: 0.12,
-                    outer: 0.26,
-                },
-                color: colors[(k + 2 * row) as usize % 4],
-                intensity: 1.0,
-                range: None,
-            });
+            let kind = AnalyticKind::Spot {
+                inner: 0.12,
+                outer: 0.26,
+            };
+            on(b, "spot", spot, kind, colors[(k + 2 * row) as usize % 4]);
             let axis = if k % 2 == 0 { ALONG_X } else { [0.0, 1.0, 0.0] };
             b.swing(spot, axis, 0.45, 60 + 10 * (k as u32 % 3), f64::from(k) / 8.0);
         }
@@ -182,16 +180,9 @@ fn lanterns(b: &mut SceneBuilder) {
         let drop = 1.1 + 0.35 * f64::from(k % 3);
         let hook = b.node("hook", None, [x, 5.5, -4.0], STILL, None);
         let lantern = b.node("lantern", Some(hook), [0.0, -drop, 0.0], STILL, None);
-        b.analytic(AnalyticLight {
-            name: String::from("lantern"),
-            node: lantern,
-            kind: AnalyticKind::Sphere {
-                radius: 0.16 + 0.03 * (k % 2) as f32,
-            },
-            color: [7.5, 4.6 - 0.2 * k as f32, 1.6 + 0.3 * k as f32],
-            intensity: 1.0,
-            range: None,
-        });
+        let radius = 0.16 + 0.03 * (k % 2) as f32;
+        let color = [7.5, 4.6 - 0.2 * k as f32, 1.6 + 0.3 * k as f32];
+        on(b, "lantern", lantern, AnalyticKind::Sphere { radius }, color);
         b.swing(hook, ALONG_Z, 0.12, 50, f64::from(k) / 10.0);
     }
 }

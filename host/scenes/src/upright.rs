@@ -22,36 +22,30 @@ impl Scene {
 
 #[cfg(test)]
 mod tests {
-    use super::super::model::{Mesh, Node, Primitive, SceneData};
-    use super::super::{Material, Scene, Transform};
+    use super::super::builder::SceneBuilder;
+    use super::super::shapes::Shape;
+    use crate::Scene;
 
     #[test]
     fn what_was_up_is_up() {
-        let scene = Scene::new(SceneData {
-            name: String::from("test"),
-            nodes: vec![Node {
-                mesh: Some(0),
-                transform: Transform::at([0.0, 0.0, 10.0]),
-                ..Node::default()
-            }],
-            meshes: vec![Mesh {
-                name: String::new(),
-                primitives: vec![Primitive {
-                    // Its front towards +Z.
-                    positions: vec![[0.0, 0.0, 1.0], [3.0, 0.0, 1.0], [0.0, 2.0, 1.0]],
-                    triangles: vec![[0, 1, 2]],
-                    ..Primitive::default()
-                }],
-            }],
-            materials: vec![Material::default()],
-            ..SceneData::default()
-        });
-        let turned = scene.and_then(Scene::from_z_up).expect("a sound scene").frame(0);
+        let mut b = SceneBuilder::new("test", [0.0; 3]);
+        let grey = b.matte("grey", [0.5; 3], 1.0);
+        // Its front towards +Z.
+        let mut flat = Shape::new();
+        flat.quad([[0.0, 0.0, 1.0], [3.0, 0.0, 1.0], [3.0, 2.0, 1.0], [0.0, 2.0, 1.0]]);
+        let mesh = b.mesh("flat", &[(&flat, grey)]);
+        b.put("flat", None, [0.0, 0.0, 10.0], mesh);
+        let turned = b
+            .finish()
+            .and_then(Scene::from_z_up)
+            .expect("a sound scene")
+            .frame(0);
+        let first = turned.triangles[0].p;
+        assert_eq!(first, [[0.0, 11.0, 0.0], [3.0, 11.0, 0.0], [3.0, 11.0, -2.0]]);
         assert_eq!(
-            turned.triangles[0].p,
-            [[0.0, 11.0, 0.0], [3.0, 11.0, 0.0], [0.0, 11.0, -2.0]]
+            crate::vector::normal(first),
+            [0.0, 6.0, 0.0],
+            "the front is above"
         );
-        let n = crate::vector::normal(turned.triangles[0].p);
-        assert_eq!(n, [0.0, 6.0, 0.0], "the front is above");
     }
 }

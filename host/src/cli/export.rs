@@ -29,10 +29,7 @@ pub(super) fn run(args: &Args) -> Result<Outcome, HostError> {
             problem: String::from("is not what is written: expected a file that ends in .glb, binary glTF"),
         });
     }
-    let unwritten = |source| SceneError::Write {
-        path: args.output.clone(),
-        source,
-    };
+    let unwritten = |source| SceneError::Write(args.output.clone(), source);
     target::check(&args.output).map_err(unwritten)?;
     let scene = args.reading.open(&args.scene)?;
     for warning in scene.warnings() {

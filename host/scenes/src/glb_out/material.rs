@@ -1,8 +1,9 @@
-//! Materials, their emission as a factor in [0, 1] and a strength.
+//! Materials, their emission as a factor in [0, 1] and a strength, and the textures that are painted on them.
 
 use serde_json::{Value, json};
 
 use crate::Material;
+use crate::paint::{IN_PLACE, Opacity, Paint, Texture, Wrap};
 
 /// The least power of two, from 1 on, that is not below any channel: the strength with which factors lie in [0, 1].
 pub(super) fn strength(radiance: [f32; 3]) -> f32 {
@@ -23,22 +24,102 @@ pub(super) fn is_product(radiance: [f32; 3]) -> bool {
         .all(|&channel| channel / strength * strength == channel)
 }
 
-/// Emission as a factor in [0, 1] and a strength.
-pub(super) fn material(material: &Material) -> Value {
-    let strength = strength(material.radiance);
-    let mut extensions = json!({ "KHR_materials_emissive_strength": { "emissiveStrength": strength } });
-    if material.transmission > 0.0 {
-        extensions["KHR_materials_transmission"] = json!({ "transmissionFactor": material.transmission });
+/// Textures and samplers as a file lists them.
+#[derive(Default)]
+pub(super) struct Textures {
+    pub textures: Vec<Value>,
+    pub samplers: Vec<Value>,
+    pub has_transforms: bool,
+}
+
+impl Textures {
+    /// A material with what is painted on it.
+    pub(super) fn material(&mut self, material: &Material) -> Value {
+        let [r, g, b] = material.base_color;
+        let plain = Paint {
+            base: [r, g, b, 1.0],
+            metallic: material.metallic,
+            roughness: material.roughness,
+            radiance: material.radiance,
+            transmission: material.transmission,
+            ..Paint::PLAIN
+        };
+        let paint = material.paint.as_ref().unwrap_or(&plain);
+        let strength = strength(paint.radiance);
+        let mut out = json!({
+            "name": material.name,
+            "doubleSided": material.double_sided,
+            "emissiveFactor": paint.radiance.map(|channel| channel / strength),
+            "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": strength } },
+            "pbrMetallicRoughness": {
+                "baseColorFactor": paint.base,
+                "metallicFactor": paint.metallic,
+                "roughnessFactor": paint.roughness,
+            },
+        });
+        if paint.transmission > 0.0 {
+            out["extensions"]["KHR_materials_transmission"] =
+                json!({ "transmissionFactor": paint.transmission });
+        }
+        let reflectance = &mut out["pbrMetallicRoughness"];
+        if let Some(texture) = &paint.base_texture {
+            reflectance["baseColorTexture"] = self.info(texture);
+        }
+        if let Some(texture) = &paint.rough_texture {
+            reflectance["metallicRoughnessTexture"] = self.info(texture);
+        }
+        if let Some(texture) = &paint.bump_texture {
+            out["normalTexture"] = self.info(texture);
+            out["normalTexture"]["scale"] = json!(paint.bump);
+        }
+        if let Some(texture) = &paint.glow_texture {
+            out["emissiveTexture"] = self.info(texture);
+        }
+        match paint.opacity {
+            Opacity::Opaque => {}
+            Opacity::Cut(cutoff) => {
+                out["alphaMode"] = json!("MASK");
+                out["alphaCutoff"] = json!(cutoff);
+            }
+            Opacity::Blended => out["alphaMode"] = json!("BLEND"),
+        }
+        out
     }
-    json!({
-        "name": material.name,
-        "doubleSided": material.double_sided,
-        "emissiveFactor": material.radiance.map(|channel| channel / strength),
-        "extensions": extensions,
-        "pbrMetallicRoughness": {
-            "baseColorFactor": [material.base_color[0], material.base_color[1], material.base_color[2], 1.0],
-            "metallicFactor": material.metallic,
-            "roughnessFactor": material.roughness,
-        },
+
+    /// What names a texture.
+    fn info(&mut self, texture: &Texture) -> Value {
+        let wrap = |wrap| match wrap {
+            Wrap::Repeat => 10_497,
+            Wrap::Clamp => 33_071,
+            Wrap::Mirror => 33_648,
+        };
+        let sampler = json!({
+            "wrapS": wrap(texture.wrap[0]),
+            "wrapT": wrap(texture.wrap[1]),
+            "magFilter": if texture.is_nearest { 9728 } else { 9729 },
+        });
+        let sampler = listed(&mut self.samplers, sampler);
+        let own = json!({ "source": texture.picture, "sampler": sampler });
+        let mut info = json!({ "index": listed(&mut self.textures, own) });
+        if texture.transform != IN_PLACE {
+            self.has_transforms = true;
+            let [x, y, offset] = texture.transform.map(|column| column.map(f64::from));
+            info["extensions"]["KHR_texture_transform"] = json!({
+                "offset": offset,
+                "rotation": f64::atan2(-x[1], x[0]),
+                // Where the map turns over, one of the two is negative.
+                "scale": [x[0].hypot(x[1]), y[0].hypot(y[1]).copysign(x[0] * y[1] - x[1] * y[0])],
+            });
+        }
+        info
+    }
+}
+
+/// The number of an entry of a list, which is added where it is not there.
+fn listed(list: &mut Vec<Value>, own: Value) -> usize {
+    let known = list.iter().position(|other| *other == own);
+    known.unwrap_or_else(|| {
+        list.push(own);
+        list.len() - 1
     })
 }

@@ -5,21 +5,24 @@ use gltf::json::validation::Checked;
 use gltf::json::{self, Index, buffer};
 
 use super::super::error::SceneError;
-use super::Document;
-use super::attributes::Normalized;
+use super::{DAMAGED, Document};
+
+/// What the elements of an accessor are.
+#[derive(Clone, Copy)]
+struct Shape {
+    components: usize,
+    component: ComponentType,
+    normalized: bool,
+}
 
 /// Where the elements of an accessor lie.
 struct Layout<'a> {
     /// From the first element on; empty for an accessor of zeros.
     bytes: &'a [u8],
     stride: usize,
-    components: usize,
-    component: ComponentType,
-    normalized: bool,
+    shape: Shape,
     count: usize,
 }
-
-const ADVICE: &str = "the file is damaged; export it again";
 
 impl Document<'_> {
     /// Elements of `N` numbers each, integers converted as glTF says.
@@ -28,35 +31,41 @@ impl Document<'_> {
         index: Index<Accessor>,
         element: &str,
     ) -> Result<Vec<[f32; N]>, SceneError> {
-        let accessor = self.get(&self.root.accessors, index, "accessor", element)?;
-        let name = format!("accessors[{}] (used by {element})", index.value());
-        let layout = self.layout(accessor, &name)?;
-        if layout.components != N {
-            let problem = format!("has {} numbers per element, expected {N}", layout.components);
-            return Err(self.malformed(name, problem, ADVICE));
-        }
-        let mut values: Vec<[f32; N]> = (0..layout.count).map(|i| layout.element(i)).collect();
-        if let Some(sparse) = &accessor.sparse {
-            self.substitute(&mut values, sparse, &layout, |of, i| of.element(i), &name)?;
-        }
-        Ok(values)
+        let read = |of: &Layout<'_>, i| std::array::from_fn(|component| of.float(i, component));
+        self.elements(index, element, read, |shape| match shape.components {
+            own if own == N => Ok(()),
+            own => Err(format!("has {own} numbers per element, expected {N}")),
+        })
     }
 
     /// Vertex indices: one unsigned integer per element.
     pub(super) fn indices(&self, index: Index<Accessor>, element: &str) -> Result<Vec<u32>, SceneError> {
+        use ComponentType::{U8, U16, U32};
+        self.elements(
+            index,
+            element,
+            |of, i| of.unsigned(i),
+            |shape| match (shape.components, shape.component) {
+                (1, U8 | U16 | U32) => Ok(()),
+                _ => Err(String::from("is not a list of unsigned integers")),
+            },
+        )
+    }
+
+    fn elements<T>(
+        &self,
+        index: Index<Accessor>,
+        element: &str,
+        read: fn(&Layout<'_>, usize) -> T,
+        check: impl Fn(Shape) -> Result<(), String>,
+    ) -> Result<Vec<T>, SceneError> {
         let accessor = self.get(&self.root.accessors, index, "accessor", element)?;
         let name = format!("accessors[{}] (used by {element})", index.value());
         let layout = self.layout(accessor, &name)?;
-        let unsigned = matches!(
-            layout.component,
-            ComponentType::U8 | ComponentType::U16 | ComponentType::U32
-        );
-        if layout.components != 1 || !unsigned {
-            return Err(self.malformed(name, "is not a list of unsigned integers", ADVICE));
-        }
-        let mut values: Vec<u32> = (0..layout.count).map(|i| layout.unsigned(i)).collect();
+        check(layout.shape).map_err(|problem| self.malformed(&name, problem, DAMAGED))?;
+        let mut values: Vec<T> = (0..layout.count).map(|i| read(&layout, i)).collect();
         if let Some(sparse) = &accessor.sparse {
-            self.substitute(&mut values, sparse, &layout, |of, i| of.unsigned(i), &name)?;
+            self.substitute(&mut values, sparse, layout.shape, read, &name)?;
         }
         Ok(values)
     }
@@ -66,33 +75,31 @@ impl Document<'_> {
         let (Checked::Valid(GenericComponentType(component)), Checked::Valid(shape)) =
             (accessor.component_type, accessor.type_)
         else {
-            return Err(self.malformed(name, "has an unknown component type or element type", ADVICE));
+            return Err(self.malformed(name, "has an unknown component type or element type", DAMAGED));
         };
-        let components = shape.multiplicity();
+        let shape = Shape {
+            components: shape.multiplicity(),
+            component,
+            normalized: accessor.normalized,
+        };
         let view = match accessor.buffer_view {
             Some(view) => self.view(view, name)?,
             None => (&[][..], None),
         };
         let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
-        let layout = self.place(
-            name,
-            view,
-            offset,
-            accessor.count.0,
-            (component, components, accessor.normalized),
-        )?;
+        let count = accessor.count.0;
+        let layout = self.place(name, view, offset, count, shape)?;
 
         // An accessor without a view holds zeros: of a small file there are few.
         let all_bytes: u64 = self.buffers.iter().map(|buffer| buffer.len() as u64).sum();
-        if accessor.buffer_view.is_none() && accessor.count.0 > all_bytes {
+        if accessor.buffer_view.is_none() && count > all_bytes {
             let problem = format!(
-                "is {} zeros without a bufferView, more than the {all_bytes} bytes of all buffers",
-                accessor.count.0
+                "is {count} zeros without a bufferView, more than the {all_bytes} bytes of all buffers"
             );
             return Err(self.malformed(name, problem, "give it a bufferView, or fewer elements"));
         }
         // Every number takes four bytes; many primitives may share one accessor.
-        let bytes = accessor.count.0.saturating_mul(4 * components as u64);
+        let bytes = count.saturating_mul(4 * shape.components as u64);
         self.load.take(name, "the list of elements", bytes)?;
         Ok(layout)
     }
@@ -104,13 +111,13 @@ impl Document<'_> {
         (bytes, stride): (&'b [u8], Option<usize>),
         offset: u64,
         count: u64,
-        (component, components, normalized): (ComponentType, usize, bool),
+        shape: Shape,
     ) -> Result<Layout<'b>, SceneError> {
-        let size = component.size() * components;
+        let size = shape.component.size() * shape.components;
         let stride = stride.unwrap_or(size);
         if stride < size {
             let problem = format!("has elements of {size} bytes at a stride of {stride}");
-            return Err(self.malformed(name, problem, ADVICE));
+            return Err(self.malformed(name, problem, DAMAGED));
         }
         let end = count.checked_sub(1).map_or(Some(offset), |last| {
             last.checked_mul(stride as u64)?
@@ -120,19 +127,14 @@ impl Document<'_> {
         let inside = end.is_some_and(|end| end <= bytes.len() as u64);
         // Zeros of a sparse accessor need no bytes; their count is bounded by the caller.
         if !inside && !bytes.is_empty() {
-            let problem = format!(
-                "claims {count} elements from byte {offset}, beyond its {} bytes",
-                bytes.len()
-            );
-            return Err(self.malformed(name, problem, ADVICE));
+            let length = bytes.len();
+            let problem = format!("claims {count} elements from byte {offset}, beyond its {length} bytes");
+            return Err(self.malformed(name, problem, DAMAGED));
         }
-        let bytes = if inside { &bytes[offset as usize..] } else { &[] };
         Ok(Layout {
-            bytes,
+            bytes: if inside { &bytes[offset as usize..] } else { &[] },
             stride,
-            components,
-            component,
-            normalized,
+            shape,
             count: count as usize,
         })
     }
@@ -161,15 +163,13 @@ impl Document<'_> {
         name: &str,
     ) -> Result<&[u8], SceneError> {
         self.get(&self.root.buffers, index, "buffer", name)?;
-        let buffer = &self.buffers[index.value()];
+        let (buffer, index) = (&self.buffers[index.value()], index.value());
         let end = start.checked_add(length);
         let Some(end) = end.filter(|&end| end <= buffer.len() as u64 && length > 0) else {
-            let problem = format!(
-                "claims {length} bytes from byte {start} of buffer {}, which has {}",
-                index.value(),
-                buffer.len()
-            );
-            return Err(self.malformed(name, problem, ADVICE));
+            let has = buffer.len();
+            let problem =
+                format!("claims {length} bytes from byte {start} of buffer {index}, which has {has}");
+            return Err(self.malformed(name, problem, DAMAGED));
         };
         Ok(&buffer[start as usize..end as usize])
     }
@@ -179,30 +179,32 @@ impl Document<'_> {
         &self,
         values: &mut [T],
         sparse: &json::accessor::sparse::Sparse,
-        of: &Layout<'_>,
+        shape: Shape,
         read: fn(&Layout<'_>, usize) -> T,
         name: &str,
     ) -> Result<(), SceneError> {
         let Checked::Valid(IndexComponentType(component)) = sparse.indices.component_type else {
-            return Err(self.malformed(name, "has sparse indices of an unknown type", ADVICE));
+            return Err(self.malformed(name, "has sparse indices of an unknown type", DAMAGED));
         };
-        let count = sparse.count.0;
-        if count > values.len() as u64 {
-            let problem = format!("substitutes {count} of {} elements", values.len());
-            return Err(self.malformed(name, problem, ADVICE));
+        let (count, total) = (sparse.count.0, values.len());
+        if count > total as u64 {
+            let problem = format!("substitutes {count} of {total} elements");
+            return Err(self.malformed(name, problem, DAMAGED));
         }
+        let one = Shape {
+            components: 1,
+            component,
+            normalized: false,
+        };
         let view = self.view(sparse.indices.buffer_view, name)?;
-        let offset = sparse.indices.byte_offset.0;
-        let at = self.place(name, view, offset, count, (component, 1, false))?;
+        let at = self.place(name, view, sparse.indices.byte_offset.0, count, one)?;
         let view = self.view(sparse.values.buffer_view, name)?;
-        let shape = (of.component, of.components, of.normalized);
         let new = self.place(name, view, sparse.values.byte_offset.0, count, shape)?;
         for i in 0..at.count {
             let target = at.unsigned(i) as usize;
-            let total = values.len();
             let Some(value) = values.get_mut(target) else {
                 let problem = format!("substitutes element {target} of {total}");
-                return Err(self.malformed(name, problem, ADVICE));
+                return Err(self.malformed(name, problem, DAMAGED));
             };
             *value = read(&new, i);
         }
@@ -211,14 +213,9 @@ impl Document<'_> {
 }
 
 impl Layout<'_> {
-    /// Element `index`; zeros where there are no bytes.
-    fn element<const N: usize>(&self, index: usize) -> [f32; N] {
-        std::array::from_fn(|component| self.float(index, component))
-    }
-
     /// Four little-endian bytes, missing ones zero.
     fn word(&self, index: usize, component: usize) -> [u8; 4] {
-        let size = self.component.size();
+        let size = self.shape.component.size();
         let at = index * self.stride + component * size;
         let mut word = [0; 4];
         if let Some(bytes) = self.bytes.get(at..at + size) {
@@ -233,7 +230,7 @@ impl Layout<'_> {
 
     fn float(&self, index: usize, component: usize) -> f32 {
         let word = self.word(index, component);
-        let value = match self.component {
+        let value = match self.shape.component {
             ComponentType::F32 => return f32::from_le_bytes(word),
             ComponentType::I8 => f32::from(word[0] as i8),
             ComponentType::U8 => f32::from(word[0]),
@@ -241,10 +238,22 @@ impl Layout<'_> {
             ComponentType::U16 => f32::from(u16::from_le_bytes([word[0], word[1]])),
             ComponentType::U32 => u32::from_le_bytes(word) as f32,
         };
-        if self.normalized {
-            self.component.normalized(value)
-        } else {
-            value
+        match self.shape.normalized {
+            true => normalized(self.shape.component, value),
+            false => value,
         }
     }
+}
+
+/// What a normalized integer stands for, in [0, 1] or [-1, 1] (glTF 2.0, sections 3.6.2.2 and 3.11).
+pub(super) fn normalized(component: ComponentType, value: f32) -> f32 {
+    let largest = match component {
+        ComponentType::F32 => return value,
+        ComponentType::I8 => 127.0,
+        ComponentType::U8 => 255.0,
+        ComponentType::I16 => 32767.0,
+        ComponentType::U16 => 65535.0,
+        ComponentType::U32 => 4_294_967_295.0,
+    };
+    (value / largest).max(-1.0)
 }

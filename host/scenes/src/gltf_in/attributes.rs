@@ -7,6 +7,7 @@ use gltf::json::{self, Index};
 
 use super::super::error::SceneError;
 use super::Document;
+use super::accessor::normalized;
 use super::draco::Unpacked;
 
 /// The attributes of one primitive.
@@ -62,29 +63,9 @@ impl<'d, 'a> Attributes<'d, 'a> {
             && let Checked::Valid(GenericComponentType(component)) = accessor.component_type
         {
             for value in values.as_flattened_mut() {
-                *value = component.normalized(*value);
+                *value = normalized(component, *value);
             }
         }
         Ok(Some(values))
-    }
-}
-
-/// What an integer of a component type stands for.
-pub(super) trait Normalized {
-    /// glTF 2.0, sections 3.6.2.2 and 3.11: normalized integers map to [0, 1] or [-1, 1].
-    fn normalized(self, value: f32) -> f32;
-}
-
-impl Normalized for json::accessor::ComponentType {
-    fn normalized(self, value: f32) -> f32 {
-        let largest = match self {
-            Self::F32 => return value,
-            Self::I8 => 127.0,
-            Self::U8 => 255.0,
-            Self::I16 => 32767.0,
-            Self::U16 => 65535.0,
-            Self::U32 => 4_294_967_295.0,
-        };
-        (value / largest).max(-1.0)
     }
 }

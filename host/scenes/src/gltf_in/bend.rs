@@ -6,10 +6,9 @@ use gltf::json::mesh::Semantic;
 use super::super::deform::{Influence, Skin};
 use super::super::error::SceneError;
 use super::super::model::SceneData;
-use super::Document;
+use super::super::transform::Affine;
 use super::attributes::Attributes;
-
-const ADVICE: &str = "the file is damaged; export it again";
+use super::{DAMAGED, Document};
 
 /// Sets of four joints for a vertex that are read, at most.
 const MAX_SETS: u32 = 8;
@@ -25,12 +24,10 @@ pub(super) fn targets(
     for (t, target) in primitive.targets.iter().flatten().enumerate() {
         let element = format!("{element}.targets[{t}]");
         targets.push(match target.positions {
-            Some(index) => of_vertices(
-                document.floats::<3>(index, &element)?,
-                vertices,
-                document,
-                &element,
-            )?,
+            Some(index) => {
+                let moved = document.floats::<3>(index, &element)?;
+                of_vertices(moved, vertices, document, &element)?
+            }
             None => Vec::new(),
         });
     }
@@ -54,27 +51,20 @@ pub(super) fn influences(
             break;
         };
         let Some(weights) = attributes.floats::<4>(Semantic::Weights(set))? else {
-            return Err(document.malformed(
-                element,
-                format!("has JOINTS_{set} without WEIGHTS_{set}"),
-                ADVICE,
-            ));
+            let problem = format!("has JOINTS_{set} without WEIGHTS_{set}");
+            return Err(document.malformed(element, problem, DAMAGED));
         };
         let joints = of_vertices(joints, vertices, document, element)?;
         let weights = of_vertices(weights, vertices, document, element)?;
         let whole = |x: &f32| (0.0..=65535.0).contains(x) && x.fract() == 0.0;
         if let Some(joint) = joints.as_flattened().iter().find(|x| !whole(x)) {
-            return Err(document.malformed(element, format!("has {joint} as a joint"), ADVICE));
+            return Err(document.malformed(element, format!("has {joint} as a joint"), DAMAGED));
         }
-        let pairs = joints.iter().zip(weights);
-        sets.push(
-            pairs
-                .map(|(joints, weights)| Influence {
-                    joints: joints.map(|joint| joint as u16),
-                    weights,
-                })
-                .collect(),
-        );
+        let pairs = joints.iter().zip(weights).map(|(joints, weights)| Influence {
+            joints: joints.map(|joint| joint as u16),
+            weights,
+        });
+        sets.push(pairs.collect());
     }
     Ok(sets)
 }
@@ -89,7 +79,7 @@ fn of_vertices<T>(
         return Ok(values);
     }
     let problem = format!("has {} entries for {vertices} vertices", values.len());
-    Err(document.malformed(element, problem, ADVICE))
+    Err(document.malformed(element, problem, DAMAGED))
 }
 
 /// All skins; `place` is where each of the file's nodes went. Nodes whose skin has joints outside of the scene lose it, with a
@@ -110,14 +100,15 @@ pub(super) fn skins(
         let whole = joints.len() == skin.joints.len() && !joints.is_empty();
         let inverse_bind = match skin.inverse_bind_matrices {
             Some(index) => bind_matrices(document, index, skin.joints.len(), &element)?,
-            None => vec![IDENTITY; joints.len()],
+            None => vec![Affine::IDENTITY.columns.map(|column| column.map(|x| x as f32)); joints.len()],
         };
         if whole {
             data.skins.push(Skin { joints, inverse_bind });
         } else {
-            document.warn(format!(
-                "{element} is ignored, as its joints are not all in the scene"
-            ));
+            document.note(
+                "",
+                format!("{element} is ignored, as its joints are not all in the scene"),
+            );
             lost.push(s as u32);
             data.skins.push(Skin::default());
         }
@@ -128,8 +119,6 @@ pub(super) fn skins(
     Ok(())
 }
 
-const IDENTITY: [[f32; 3]; 4] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
-
 fn bind_matrices(
     document: &Document<'_>,
     index: json::Index<json::Accessor>,
@@ -139,9 +128,12 @@ fn bind_matrices(
     let matrices = document.floats::<16>(index, element)?;
     if matrices.len() < joints {
         let problem = format!("has {} inverse bind matrices for {joints} joints", matrices.len());
-        return Err(document.malformed(element, problem, ADVICE));
+        return Err(document.malformed(element, problem, DAMAGED));
     }
-    // The last row of an affine matrix is (0, 0, 0, 1).
-    let affine = |m: &[f32; 16]| [0, 4, 8, 12].map(|column| [m[column], m[column + 1], m[column + 2]]);
-    Ok(matrices.iter().take(joints).map(affine).collect())
+    Ok(matrices.iter().take(joints).map(columns).collect())
+}
+
+/// The columns of an affine matrix, whose last row is (0, 0, 0, 1) (glTF 2.0, section 3.5.3).
+pub(super) fn columns(m: &[f32; 16]) -> [[f32; 3]; 4] {
+    [0, 4, 8, 12].map(|column| [m[column], m[column + 1], m[column + 2]])
 }

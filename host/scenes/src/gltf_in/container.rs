@@ -1,15 +1,16 @@
 //! Files, the GLB container, and the bytes of buffers.
 
 use std::borrow::Cow;
-use std::path::PathBuf;
+use std::fmt::Display;
 
-use gltf::json;
+use gltf::json::{self, Index};
+use percent_encoding::percent_decode_str;
 use serde_json::Value;
 
 use base64::Engine;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
-use super::super::error::SceneError;
+use super::super::error::{SceneError, malformed};
 use super::super::files::POINTER;
 use super::Document;
 
@@ -19,11 +20,9 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
-pub(super) fn broken(path: &str, problem: impl Into<String>) -> SceneError {
-    SceneError::Container {
-        path: path.to_owned(),
-        problem: problem.into(),
-    }
+fn broken(path: &str, problem: impl Display) -> SceneError {
+    let problem = format!("is not a readable glTF 2.0 file: {problem}");
+    malformed(path, problem, "export it again as .glb or .gltf")
 }
 
 /// The JSON part and, for `.glb`, the binary part (glTF 2.0, section 4.4).
@@ -39,10 +38,8 @@ pub(super) fn split<'a>(path: &str, bytes: &'a [u8]) -> Result<(&'a [u8], Option
     }
     let available = bytes.len();
     let bytes = bytes.get(..length as usize).ok_or_else(|| {
-        broken(
-            path,
-            format!("its header claims {length} bytes, the file has {available}"),
-        )
+        let problem = format!("its header claims {length} bytes, the file has {available}");
+        broken(path, problem)
     })?;
     let (kind, text, rest) = chunk(bytes, 12).ok_or_else(|| broken(path, "its first chunk is cut off"))?;
     if kind != *b"JSON" {
@@ -71,10 +68,7 @@ fn chunk(bytes: &[u8], at: usize) -> Option<([u8; 4], &[u8], usize)> {
 /// them, which the model does not know.
 pub(super) fn parse(path: &str, text: &[u8]) -> Result<(json::Root, usize), SceneError> {
     if text.starts_with(POINTER) {
-        return Err(broken(
-            path,
-            String::from("it is a pointer of Git LFS; run `git lfs pull`"),
-        ));
+        return Err(broken(path, "it is a pointer of Git LFS; run `git lfs pull`"));
     }
     let problem = match json::deserialize::from_slice(text) {
         Ok(root) => return Ok((root, 0)),
@@ -84,7 +78,7 @@ pub(super) fn parse(path: &str, text: &[u8]) -> Result<(json::Root, usize), Scen
         return Err(problem);
     };
     if let Some("1.0" | "1") = value.pointer("/asset/version").and_then(Value::as_str) {
-        return Err(broken(path, String::from("it is glTF 1.0")));
+        return Err(broken(path, "it is glTF 1.0"));
     }
     let (mut left_out, mut mended) = (0, false);
     let scenes = value.get_mut("scenes").and_then(Value::as_array_mut);
@@ -136,11 +130,8 @@ pub(super) fn buffers<'a>(
         let found = bytes.len() as u64;
         if claimed > found {
             let problem = format!("claims {claimed} bytes, but only {found} are there");
-            return Err(document.malformed(
-                element,
-                problem,
-                "the file or its .bin is truncated; copy it again",
-            ));
+            let advice = "the file or its .bin is truncated; copy it again";
+            return Err(document.malformed(element, problem, advice));
         }
         let claimed = claimed as usize;
         buffers.push(match bytes {
@@ -158,19 +149,21 @@ pub(super) fn buffers<'a>(
 pub(super) fn fetch(document: &Document<'_>, uri: &str, element: &str) -> Result<Vec<u8>, SceneError> {
     if let Some(data) = uri.strip_prefix("data:") {
         let Some((_, encoded)) = data.split_once(";base64,") else {
-            let advice = "embed it as base64";
-            return Err(document.unsupported(element, "a data URI that is not base64", advice));
+            let problem = "a data URI that is not base64 is not supported";
+            return Err(document.malformed(element, problem, "embed it as base64"));
         };
         return BASE64.decode(encoded).map_err(|error| {
             document.malformed(element, format!("bad base64: {error}"), "export the file again")
         });
     }
-    let (Some(relative), Some(folder)) = (decoded_path(uri), document.load.folder()) else {
+    let decoded = percent_decode_str(uri).decode_utf8().ok();
+    let relative = decoded.filter(|path| !path.is_empty() && !uri.contains("://"));
+    let (Some(relative), Some(folder)) = (relative, document.load.folder()) else {
         let shown: String = uri.chars().take(80).collect();
         let advice = "use a path relative to the file, or embed the data";
-        return Err(document.unsupported(element, format!("the URI `{shown}`"), advice));
+        return Err(document.malformed(element, format!("the URI `{shown}` is not supported"), advice));
     };
-    let bytes = document.load.read(&folder.join(relative))?;
+    let bytes = document.load.read(&folder.join(&*relative))?;
     if bytes.starts_with(POINTER) {
         let problem = format!("`{uri}` is a pointer of Git LFS");
         return Err(document.malformed(element, problem, "run `git lfs pull`"));
@@ -178,24 +171,19 @@ pub(super) fn fetch(document: &Document<'_>, uri: &str, element: &str) -> Result
     Ok(bytes)
 }
 
-/// A percent-decoded path; `None` for other schemes.
-fn decoded_path(uri: &str) -> Option<PathBuf> {
-    let bytes = uri.as_bytes();
-    let mut decoded = Vec::with_capacity(bytes.len());
-    let mut at = 0;
-    while at < bytes.len() {
-        let escaped = (bytes[at] == b'%').then(|| uri.get(at + 1..at + 3)).flatten();
-        match escaped.and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
-            Some(byte) => {
-                decoded.push(byte);
-                at += 3;
-            }
-            None => {
-                decoded.push(bytes[at]);
-                at += 1;
-            }
+/// What a `uri`, or else a view holds.
+pub(super) fn uri_or_view(
+    document: &Document<'_>,
+    uri: Option<&str>,
+    view: Option<Index<json::buffer::View>>,
+    element: &str,
+) -> Result<Vec<u8>, SceneError> {
+    match (uri, view) {
+        (Some(uri), _) => fetch(document, uri, element),
+        (None, Some(view)) => document.view(view, element).map(|(bytes, _)| bytes.to_vec()),
+        (None, None) => {
+            let problem = "it has neither a uri nor a bufferView";
+            Err(document.malformed(element, problem, "export the file again"))
         }
     }
-    let path = String::from_utf8(decoded).ok().filter(|path| !path.is_empty())?;
-    (!uri.contains("://")).then(|| PathBuf::from(path))
 }

@@ -4,9 +4,7 @@
 
 use std::collections::HashMap;
 
-#[cfg(feature = "draco")]
-use draco_core::{DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
-use gltf::json::{self, Index};
+use gltf::json;
 use serde::Deserialize;
 
 use super::super::error::SceneError;
@@ -24,10 +22,11 @@ struct Compressed {
 }
 
 /// A decoded stream.
-#[cfg(feature = "draco")]
 pub(super) struct Unpacked {
-    mesh: Mesh,
-    attributes: HashMap<String, u32>,
+    /// Vertex indices, three for each triangle.
+    pub indices: Vec<u32>,
+    /// By glTF's names: numbers for each vertex, and all of them; or the number of an attribute that is not there.
+    attributes: HashMap<String, Result<(usize, Vec<f32>), u32>>,
 }
 
 impl Document<'_> {
@@ -47,7 +46,7 @@ impl Document<'_> {
             Err(error) if self.requires(NAME) => Err(error),
             // The file brings the same data as they are, or accessors will say that it does not.
             Err(error) => {
-                self.warn(format!("its plain data are taken, as {error}"));
+                self.note("", format!("its plain data are taken, as {error}"));
                 Ok(None)
             }
         }
@@ -55,70 +54,50 @@ impl Document<'_> {
 
     #[cfg(not(feature = "draco"))]
     fn unpack_draco(&self, _: Compressed, element: &str) -> Result<Unpacked, SceneError> {
-        Err(super::super::error::not_compiled(
-            self.path,
-            format!("{element} ({NAME})"),
-            "draco",
-        ))
+        let what = format!("{element} ({NAME})");
+        Err(super::super::error::not_compiled(self.path, &what, "draco"))
     }
 
     #[cfg(feature = "draco")]
     fn unpack_draco(&self, compressed: Compressed, element: &str) -> Result<Unpacked, SceneError> {
-        let view = Index::new(compressed.buffer_view);
-        let (bytes, _) = self.view(view, element)?;
+        use draco_core::{DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
+        let (bytes, _) = self.view(json::Index::new(compressed.buffer_view), element)?;
         let limits = DecodeLimits::default().with_max_decoded_bytes(self.load.left());
         let mut mesh = Mesh::new();
         MeshDecoder::new()
             .decode(&mut DecoderBuffer::new(bytes).with_limits(limits), &mut mesh)
             .map_err(|error| {
                 let problem = format!("its Draco stream cannot be decoded: {error}");
-                let advice = "unpack the file, for example with `gltf-transform copy`, or export it again";
-                self.malformed(element, problem, advice)
+                self.malformed(element, problem, super::UNPACK)
             })?;
-        let attributes = (0..mesh.num_attributes()).map(|k| u64::from(mesh.attribute(k).num_components()));
-        let bytes = 4 * (3 * mesh.num_faces() as u64 + attributes.sum::<u64>() * mesh.num_points() as u64);
+        // A file may give one attribute many names.
+        let named = compressed.attributes.values();
+        let attributes = named.filter_map(|&number| mesh.attribute_by_unique_id(number));
+        let components: u64 = attributes.map(|own| u64::from(own.num_components())).sum();
+        let bytes = 4 * (3 * mesh.num_faces() as u64 + components * mesh.num_points() as u64);
         self.load.take(element, "what a Draco stream holds", bytes)?;
+        let values = |(name, number)| {
+            let attribute = mesh.attribute_by_unique_id(number).ok_or(number);
+            let values = attribute.map(|attribute| {
+                let count = usize::from(attribute.num_components());
+                (count, attribute.read_f32s(mesh.num_points(), count))
+            });
+            (name, values)
+        };
         Ok(Unpacked {
-            mesh,
-            attributes: compressed.attributes,
+            indices: mesh.faces().iter().flatten().map(|point| point.0).collect(),
+            attributes: compressed.attributes.into_iter().map(values).collect(),
         })
     }
 }
 
-/// There is none.
-#[cfg(not(feature = "draco"))]
-pub(super) enum Unpacked {}
-
-#[cfg(not(feature = "draco"))]
 impl Unpacked {
-    pub(super) fn indices(&self) -> Vec<u32> {
-        match *self {}
-    }
-
-    pub(super) fn floats<const N: usize>(&self, _: &str) -> Option<Result<Vec<[f32; N]>, String>> {
-        match *self {}
-    }
-}
-
-#[cfg(feature = "draco")]
-impl Unpacked {
-    /// Vertex indices, three for each triangle.
-    pub(super) fn indices(&self) -> Vec<u32> {
-        let corners = self.mesh.faces().iter().flatten();
-        corners.map(|point| point.0).collect()
-    }
-
     /// The values of an attribute, one for each vertex; `None` where the stream has no such attribute.
     pub(super) fn floats<const N: usize>(&self, name: &str) -> Option<Result<Vec<[f32; N]>, String>> {
-        let number = *self.attributes.get(name)?;
-        let Some(attribute) = self.mesh.attribute_by_unique_id(number) else {
-            return Some(Err(format!("attribute {number} is not in the stream")));
-        };
-        let found = usize::from(attribute.num_components());
-        if found != N {
-            return Some(Err(format!("has {found} numbers for each vertex, expected {N}")));
-        }
-        let values = attribute.read_f32s(self.mesh.num_points(), N);
-        Some(Ok(values.as_chunks::<N>().0.to_vec()))
+        Some(match self.attributes.get(name)? {
+            Ok((found, values)) if *found == N => Ok(values.as_chunks::<N>().0.to_vec()),
+            Ok((found, _)) => Err(format!("has {found} numbers for each vertex, expected {N}")),
+            Err(number) => Err(format!("attribute {number} is not in the stream")),
+        })
     }
 }

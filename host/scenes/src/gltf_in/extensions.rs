@@ -33,18 +33,13 @@ pub(super) const HARMLESS: [&str; 4] = [
     "EXT_mesh_features",
 ];
 
-/// Extensions that this program was compiled without, and the features that read them.
-const NOT_COMPILED: &[(&str, &str)] = &[
-    #[cfg(not(feature = "meshopt"))]
-    ("EXT_meshopt_compression", "meshopt"),
-    #[cfg(not(feature = "meshopt"))]
-    ("KHR_meshopt_compression", "meshopt"),
-    #[cfg(not(feature = "draco"))]
-    ("KHR_draco_mesh_compression", "draco"),
-    #[cfg(not(feature = "ktx2"))]
-    ("KHR_texture_basisu", "ktx2"),
-    #[cfg(not(feature = "webp"))]
-    ("EXT_texture_webp", "webp"),
+/// Extensions that this program may be compiled without: the features that read them, and whether it was compiled with those.
+const OPTIONAL: [(&str, &str, bool); 5] = [
+    ("EXT_meshopt_compression", "meshopt", cfg!(feature = "meshopt")),
+    ("KHR_meshopt_compression", "meshopt", cfg!(feature = "meshopt")),
+    ("KHR_draco_mesh_compression", "draco", cfg!(feature = "draco")),
+    ("KHR_texture_basisu", "ktx2", cfg!(feature = "ktx2")),
+    ("EXT_texture_webp", "webp", cfg!(feature = "webp")),
 ];
 
 /// What refines surfaces; without it they look plainer.
@@ -55,17 +50,18 @@ impl Document<'_> {
     pub(super) fn check_extensions(&self) -> Result<(), SceneError> {
         for (index, name) in self.root.extensions_required.iter().enumerate() {
             let name = name.as_str();
-            if let Some((_, feature)) = NOT_COMPILED.iter().find(|(of, _)| *of == name) {
+            if let Some((_, feature, _)) = OPTIONAL.iter().find(|(of, _, is_in)| *of == name && !is_in) {
                 return Err(not_compiled(self.path, name, feature));
             }
             if !READ.contains(&name) && !HARMLESS.contains(&name) && !name.starts_with(LOOK) {
                 let advice = "export the file without this extension";
-                return Err(self.unsupported(format!("extensionsRequired[{index}]"), name, advice));
+                let problem = format!("{name} is not supported");
+                return Err(self.malformed(format!("extensionsRequired[{index}]"), problem, advice));
             }
         }
         for name in &self.root.extensions_used {
             if !READ.contains(&name.as_str()) {
-                self.warn(format!("extension {name} is ignored"));
+                self.note("", format!("extension {name} is ignored"));
             }
         }
         Ok(())
@@ -89,7 +85,7 @@ impl Document<'_> {
                 Err(self.malformed(element, error.to_string(), "export the file again"))
             }
             Err(error) => {
-                self.warn(format!("{element}: its extension {name} is ignored: {error}"));
+                self.note(element, format!("its extension {name} is ignored: {error}"));
                 Ok(None)
             }
         }

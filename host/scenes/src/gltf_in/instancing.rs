@@ -29,14 +29,11 @@ pub(super) fn places(
     let Some(Instancing { attributes }) = found else {
         return Ok(None);
     };
-    let stands_once = ["KHR_lights_punctual", super::IES]
-        .iter()
-        .any(|name| others.contains_key(*name))
-        || node.camera.is_some();
-    if stands_once {
-        document.warn(format!(
-            "{element}: EXT_mesh_gpu_instancing repeats its mesh alone; its light or camera stands once, at the node"
-        ));
+    let is_lit = ["KHR_lights_punctual", super::IES].map(|name| others.contains_key(name));
+    if is_lit.contains(&true) || node.camera.is_some() {
+        let what =
+            "EXT_mesh_gpu_instancing repeats its mesh alone; its light or camera stands once, at the node";
+        document.note(element, what);
     }
     let element = format!("{element}.extensions.EXT_mesh_gpu_instancing");
     let index = |name: &str| attributes.get(name).map(|&index| json::Index::new(index));
@@ -58,11 +55,8 @@ pub(super) fn places(
         return Ok(None);
     };
     if counts.iter().flatten().any(|&other| other != count) {
-        return Err(document.malformed(
-            element,
-            "its attributes have different numbers of instances",
-            "give each as many",
-        ));
+        let problem = "its attributes have different numbers of instances";
+        return Err(document.malformed(element, problem, "give each as many"));
     }
     let bytes = (size_of::<Node>() + element.len()) as u64 * count as u64;
     document.load.take(&element, "the list of instances", bytes)?;
@@ -76,69 +70,42 @@ pub(super) fn places(
 
 #[cfg(test)]
 mod tests {
-    use crate::{Scene, SceneError};
+    use serde_json::{Value, json};
 
-    fn base64(bytes: &[u8]) -> String {
-        const SIGNS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-        let mut text = String::new();
-        for three in bytes.chunks(3) {
-            let word = (0..3).fold(0_u32, |word, k| {
-                word << 8 | u32::from(three.get(k).copied().unwrap_or(0))
-            });
-            for k in 0..4 {
-                let sign = SIGNS[(word >> (18 - 6 * k)) as usize & 63];
-                text.push(if k > three.len() { '=' } else { char::from(sign) });
-            }
-        }
-        text
-    }
+    use super::super::tests::{data_uri, painted, read, refused};
 
-    /// A lamp of one triangle, at a node that has it three times; `counts` are those of translations and rotations.
-    fn read(counts: [usize; 2]) -> Result<Scene, SceneError> {
-        Scene::read_gltf_slice("instances.gltf", text(counts).as_bytes(), None)
-    }
-
-    fn text(counts: [usize; 2]) -> String {
-        let triangle = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+    /// A lamp at a node that has it three times; `counts` are those of translations and rotations.
+    fn lamps(counts: [usize; 2]) -> Value {
         let places = [1.0_f32, 0.0, 0.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0];
         let half = std::f32::consts::FRAC_1_SQRT_2;
         let turns = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, half, half, 0.0, 0.0, 1.0, 0.0_f32];
-        let numbers: Vec<f32> = [&triangle[..], &places, &turns].concat();
-        let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
-        format!(
-            r#"{{"asset": {{"version": "2.0"}}, "extensionsUsed": ["EXT_mesh_gpu_instancing"],
-            "extensionsRequired": ["EXT_mesh_gpu_instancing"],
-            "buffers": [{{"byteLength": {}, "uri": "data:application/octet-stream;base64,{}"}}],
-            "bufferViews": [{{"buffer": 0, "byteLength": {}}}],
-            "accessors": [
-                {{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}},
-                {{"bufferView": 0, "byteOffset": 36, "componentType": 5126, "count": {}, "type": "VEC3"}},
-                {{"bufferView": 0, "byteOffset": 72, "componentType": 5126, "count": {}, "type": "VEC4"}}],
-            "materials": [{{"emissiveFactor": [1, 1, 1]}}],
-            "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}, "material": 0}}]}}],
-            "nodes": [{{"mesh": 0, "translation": [0, 5, 0],
-                "extensions": {{"EXT_mesh_gpu_instancing": {{"attributes": {{"TRANSLATION": 1, "ROTATION": 2, "_ID": 0}}}}}}}}],
-            "scenes": [{{"nodes": [0]}}]}}"#,
-            bytes.len(),
-            base64(&bytes),
-            bytes.len(),
-            counts[0],
-            counts[1]
-        )
+        let bytes: Vec<u8> = [&places[..], &turns]
+            .concat()
+            .iter()
+            .flat_map(|x| x.to_le_bytes())
+            .collect();
+        let mut root = painted([[0.0; 2]; 3]);
+        let mut push = |list: &str, value| root[list].as_array_mut().expect("a list").push(value);
+        push("buffers", json!({ "byteLength": 84, "uri": data_uri(&bytes) }));
+        push("bufferViews", json!({ "buffer": 1, "byteLength": 84 }));
+        let accessor = |offset, count, shape| json!({ "bufferView": 2, "byteOffset": offset, "componentType": 5126, "count": count, "type": shape });
+        push("accessors", accessor(0, counts[0], "VEC3"));
+        push("accessors", accessor(36, counts[1], "VEC4"));
+        root["materials"][0] = json!({ "emissiveFactor": [1, 1, 1] });
+        let attributes = json!({ "TRANSLATION": 2, "ROTATION": 3, "_ID": 0 });
+        root["nodes"][0] = json!({ "mesh": 0, "translation": [0, 5, 0],
+            "extensions": { "EXT_mesh_gpu_instancing": { "attributes": attributes } } });
+        root["extensionsRequired"] = json!(["EXT_mesh_gpu_instancing"]);
+        root
     }
 
     /// The extension is of the mesh.
     #[test]
     fn a_light_of_a_node_with_instances_is_named() {
-        let lit = text([3, 3]).replace(
-            r#""_ID": 0}}"#,
-            r#""_ID": 0}}, "KHR_lights_punctual": {"light": 0}"#,
-        );
-        let lit = lit.replace(
-            r#""extensionsUsed""#,
-            r#""extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}, "extensionsUsed""#,
-        );
-        let scene = Scene::read_gltf_slice("instances.gltf", lit.as_bytes(), None).expect("valid");
+        let mut root = lamps([3, 3]);
+        root["extensions"] = json!({ "KHR_lights_punctual": { "lights": [{ "type": "point" }] } });
+        root["nodes"][0]["extensions"]["KHR_lights_punctual"] = json!({ "light": 0 });
+        let scene = read(&root);
         assert_eq!((scene.data().analytic.len(), scene.emissive_count()), (1, 3));
         let warnings = scene.warnings();
         assert!(
@@ -149,7 +116,7 @@ mod tests {
 
     #[test]
     fn each_instance_is_a_mesh_light_of_its_own() {
-        let scene = read([3, 3]).expect("valid");
+        let scene = read(&lamps([3, 3]));
         assert_eq!(scene.warnings(), &[] as &[String]);
         let frame = scene.frame(0);
         assert_eq!(frame.mesh_lights.len(), 3);
@@ -159,7 +126,7 @@ mod tests {
             let is_there = light.p[1].iter().zip(expected).all(|(x, y)| (x - y).abs() < 1e-6);
             assert!(is_there, "{:?}", light.p);
         }
-        let error = read([3, 2]).expect_err("two rotations").to_string();
+        let error = refused(&lamps([3, 2]), None);
         assert!(error.contains("different numbers"), "{error}");
     }
 }

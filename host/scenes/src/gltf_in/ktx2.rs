@@ -24,26 +24,20 @@ const MAX_LEVELS: u32 = 15;
 /// What is used of the header.
 pub(super) struct Header {
     format: u32,
-    pub width: u32,
-    pub height: u32,
+    width: u32,
+    height: u32,
     scheme: u32,
     /// Place and length of the largest level, and its length once it is unpacked.
     base: [usize; 3],
 }
 
-/// How the bytes of a texel stand for red, green, blue and alpha: the channel's place, 4 for 0, 5 for 255.
-struct Layout {
-    bytes: usize,
-    channels: [usize; 4],
-}
-
 impl Header {
     /// Reads and checks the header of one flat picture.
     pub(super) fn read(file: &[u8]) -> Result<Self, String> {
-        let short = || String::from("its KTX 2 header is cut off");
         let word = |at: usize| -> Result<u32, String> {
             let bytes = file.get(at..at + 4).and_then(|bytes| bytes.try_into().ok());
-            bytes.map(u32::from_le_bytes).ok_or_else(short)
+            let word = bytes.map(u32::from_le_bytes);
+            word.ok_or_else(|| String::from("its KTX 2 header is cut off"))
         };
         let long = |at: usize| Ok::<u64, String>(u64::from(word(at)?) | u64::from(word(at + 4)?) << 32);
         let (width, height) = (word(20)?, word(24)?);
@@ -54,9 +48,8 @@ impl Header {
             return Err(String::from("it is no flat picture"));
         }
         let inside = |place: u64, length: u64| {
-            place
-                .checked_add(length)
-                .is_some_and(|end| end <= file.len() as u64)
+            let end = place.checked_add(length);
+            end.is_some_and(|end| end <= file.len() as u64)
         };
         // Descriptor and key-value data have 32-bit places, the global data of the compression 64-bit ones.
         let mut sound = inside(word(48)?.into(), word(52)?.into())
@@ -87,15 +80,24 @@ impl Header {
 
     /// Decodes the largest level.
     pub(super) fn decode(&self, name: &str, file: &[u8]) -> Result<RgbaImage, SceneError> {
-        let texels = match layout(self.format) {
-            Some(layout) => layout.texels(&self.level(name, file)?),
+        let format = self.format;
+        let texels = match layout(format) {
+            Some((bytes, channels)) => {
+                let of = |texel: &[u8], channel| match channel {
+                    4 => 0,
+                    5 => 255,
+                    channel => texel[channel],
+                };
+                let level = self.level(name, file)?;
+                let texels = level.chunks_exact(bytes);
+                texels
+                    .flat_map(|texel| channels.map(|channel| of(texel, channel)))
+                    .collect()
+            }
             // VK_FORMAT_UNDEFINED, and UASTC as ASTC: what Basis Universal makes.
-            None if self.format == 0 => basis(name, file)?,
+            None if format == 0 => basis(name, file)?,
             None => {
-                let problem = format!(
-                    "its format, number {} of Vulkan, is for devices only",
-                    self.format
-                );
+                let problem = format!("its format, number {format} of Vulkan, is for devices only");
                 return Err(undecoded(name, problem));
             }
         };
@@ -118,31 +120,18 @@ impl Header {
     }
 }
 
-impl Layout {
-    fn texels(&self, level: &[u8]) -> Vec<u8> {
-        let texel = |bytes: &[u8]| {
-            self.channels.map(|channel| match channel {
-                4 => 0,
-                5 => 255,
-                channel => bytes[channel],
-            })
-        };
-        level.chunks_exact(self.bytes).flat_map(texel).collect()
+/// Bytes of a texel of eight bits a channel, and the places of red, green, blue and alpha in it, 4 for 0, 5 for 255: `VkFormat`
+/// in the Vulkan specification, linear or sRGB, which the texture's use decides.
+fn layout(format: u32) -> Option<(usize, [usize; 4])> {
+    match format {
+        9 | 15 => Some((1, [0, 4, 4, 5])),
+        16 | 22 => Some((2, [0, 1, 4, 5])),
+        23 | 29 => Some((3, [0, 1, 2, 5])),
+        30 | 36 => Some((3, [2, 1, 0, 5])),
+        37 | 43 => Some((4, [0, 1, 2, 3])),
+        44 | 50 => Some((4, [2, 1, 0, 3])),
+        _ => None,
     }
-}
-
-/// Of eight bits a channel, linear or sRGB, which the texture's use decides: `VkFormat` in the Vulkan specification.
-fn layout(format: u32) -> Option<Layout> {
-    let (bytes, channels) = match format {
-        9 | 15 => (1, [0, 4, 4, 5]),
-        16 | 22 => (2, [0, 1, 4, 5]),
-        23 | 29 => (3, [0, 1, 2, 5]),
-        30 | 36 => (3, [2, 1, 0, 5]),
-        37 | 43 => (4, [0, 1, 2, 3]),
-        44 | 50 => (4, [2, 1, 0, 3]),
-        _ => return None,
-    };
-    Some(Layout { bytes, channels })
 }
 
 /// At most so many bytes of a Zstandard stream.
@@ -151,10 +140,8 @@ fn zstandard(name: &str, stored: &[u8], unpacked: u64) -> Result<Vec<u8>, SceneE
     use std::io::Read;
     let mut bytes = Vec::new();
     let stream = ruzstd::StreamingDecoder::new(stored).map_err(|error| undecoded(name, error))?;
-    let mut stream = stream.take(unpacked);
-    stream
-        .read_to_end(&mut bytes)
-        .map_err(|error| undecoded(name, error))?;
+    let read = stream.take(unpacked).read_to_end(&mut bytes);
+    read.map_err(|error| undecoded(name, error))?;
     Ok(bytes)
 }
 

@@ -1,4 +1,6 @@
-//! Materials: the factors that the reference renderer uses, and which texture a surface glows by.
+//! Materials: the factors that the reference renderer uses, what is painted on them, and which texture a surface glows by.
+
+use std::rc::Rc;
 
 use gltf::json;
 use gltf::json::material::AlphaMode;
@@ -8,19 +10,20 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 
 use super::super::error::SceneError;
+use super::super::glow::Glow;
 use super::super::model::Material;
 use super::super::paint::{Opacity, Paint};
-use super::{Document, paint};
+use super::Document;
+use super::texture::Placed;
 
 /// A material, and the texture that its radiance is multiplied by, triangle by triangle.
-#[derive(Default)]
-pub(super) struct Look<'a> {
+#[derive(Clone, Default)]
+pub(super) struct Look {
     pub material: Material,
-    pub glow: Option<&'a Info>,
+    /// With its set of coordinates.
+    pub glow: Option<(Rc<Glow>, u32)>,
     /// By which set of coordinates what is painted on it lies.
     pub set: u32,
-    /// Whether it emits the colour that it shows.
-    pub is_unlit: bool,
 }
 
 /// `KHR_materials_transmission`.
@@ -52,21 +55,14 @@ fn one() -> f32 {
 }
 
 /// All materials.
-pub(super) fn read<'a>(document: &Document<'a>) -> Result<Vec<Look<'a>>, SceneError> {
-    let root: &'a json::Root = document.root;
-    root.materials
-        .iter()
-        .enumerate()
-        .map(|(index, material)| look(document, index, material))
+pub(super) fn read(document: &Document<'_>) -> Result<Vec<Look>, SceneError> {
+    let materials = document.root.materials.iter().enumerate();
+    materials
+        .map(|(index, material)| look(document, &format!("materials[{index}]"), material))
         .collect()
 }
 
-fn look<'a>(
-    document: &Document<'a>,
-    index: usize,
-    material: &'a json::Material,
-) -> Result<Look<'a>, SceneError> {
-    let element = format!("materials[{index}]");
+fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Result<Look, SceneError> {
     let none = Map::new();
     let extensions = material.extensions.as_ref();
     let others = extensions.map_or(&none, |extensions| &extensions.others);
@@ -82,14 +78,15 @@ fn look<'a>(
         roughness: pbr.roughness_factor.0,
         ..Material::default()
     };
-    let mut glow = material.emissive_texture.as_ref();
     let (mut factor, mut texture) = (pbr.base_color_factor.0, pbr.base_color_texture.as_ref());
     let glossiness: Option<Glossiness> =
-        document.extension(others, "KHR_materials_pbrSpecularGlossiness", &element)?;
+        document.extension(others, "KHR_materials_pbrSpecularGlossiness", element)?;
+    let mut rough = pbr.metallic_roughness_texture.as_ref();
     if let Some(glossiness) = &glossiness {
         (factor, texture) = (glossiness.diffuse_factor, glossiness.diffuse_texture.as_ref());
         (out.metallic, out.roughness) = (0.0, 1.0 - glossiness.glossiness_factor);
-    } else if pbr.metallic_roughness_texture.is_some() {
+        rough = None;
+    } else if rough.is_some() {
         // A textured metallic factor of 1 (the default) says nothing about the surface; most of such surfaces are not
         // metal. This is what stands for the texture where it is not shown.
         out.metallic = 0.0;
@@ -105,10 +102,9 @@ fn look<'a>(
     // A texture that cannot be had counts as white.
     let mut mean = [1.0; 4];
     if let Some(info) = texture {
-        mean = document.mean_color(info.index, &element)?.unwrap_or(mean);
+        mean = document.mean(info, element, true)?.unwrap_or(mean);
     }
     let [r, g, b, opacity] = [0, 1, 2, 3].map(|i| factor[i] * mean[i]);
-    let unlit = others.contains_key("KHR_materials_unlit");
     match material.alpha_mode {
         Valid(AlphaMode::Opaque) => {}
         Valid(AlphaMode::Blend) => {
@@ -116,65 +112,92 @@ fn look<'a>(
             out.transmission = if opacity > 1.0 { 0.0 } else { 1.0 - opacity };
         }
         Valid(AlphaMode::Mask) => out.masked = true,
-        Invalid => document.warn(format!(
-            "{element}: its alphaMode is none of OPAQUE, MASK and BLEND, and is taken as OPAQUE"
-        )),
+        Invalid => document.note(
+            element,
+            "its alphaMode is none of OPAQUE, MASK and BLEND, and is taken as OPAQUE",
+        ),
     }
-    if unlit {
-        // It shows its colour whatever light falls on it: what glows so, and reflects nothing.
-        glow = pbr.base_color_texture.as_ref().filter(|_| glossiness.is_none());
-        let own = if glow.is_some() {
-            [factor[0], factor[1], factor[2]]
-        } else {
-            [r, g, b]
-        };
-        let shown = 1.0 - out.transmission;
-        out.radiance = own.map(|channel| channel * shown);
-        (out.base_color, out.metallic) = ([0.0; 3], 1.0);
-        document.warn(format!(
-            "{element} is unlit: its colour is emitted, and lights what is near"
-        ));
-    } else {
-        out.base_color = [r, g, b];
-    }
-    let glass = transmission(document, others, &element)?;
-    out.transmission = out.transmission.max(glass);
-    let rough = pbr.metallic_roughness_texture.as_ref();
-    let named = paint::Named {
-        base: texture,
-        rough: rough.filter(|_| glossiness.is_none() && !unlit),
-        glow,
-    };
-    let lit = if unlit { 0.0 } else { 1.0 };
-    let textured = named.rough.is_some();
-    let factors = Paint {
-        base: [factor[0] * lit, factor[1] * lit, factor[2] * lit, factor[3]],
-        metallic: if textured {
+    let [red, green, blue, _] = factor;
+    let mut paint = Paint {
+        base: factor,
+        metallic: if rough.is_some() {
             pbr.metallic_factor.0
         } else {
             out.metallic
         },
         roughness: out.roughness,
-        bump: 0.0,
-        radiance: if unlit {
-            [factor[0], factor[1], factor[2]]
-        } else {
-            out.radiance
-        },
-        base_texture: None,
-        rough_texture: None,
-        bump_texture: None,
-        glow_texture: None,
-        opacity: Opacity::Opaque,
-        transmission: glass,
+        radiance: out.radiance,
+        ..Paint::PLAIN
     };
-    let painted = paint::read(document, &element, material, &named, factors, opacity)?;
-    out.paint = painted.map(|painted| painted.paint);
+    let mut glow = material.emissive_texture.as_ref();
+    let is_unlit = others.contains_key("KHR_materials_unlit");
+    if is_unlit {
+        // It shows its colour whatever light falls on it: what glows so, and reflects nothing.
+        glow = pbr.base_color_texture.as_ref().filter(|_| glossiness.is_none());
+        rough = None;
+        paint.base = [0.0, 0.0, 0.0, factor[3]];
+        (paint.metallic, paint.radiance) = (1.0, [red, green, blue]);
+        let own = if glow.is_some() { paint.radiance } else { [r, g, b] };
+        let shown = 1.0 - out.transmission;
+        out.radiance = own.map(|channel| channel * shown);
+        (out.base_color, out.metallic) = ([0.0; 3], 1.0);
+        document.note(
+            element,
+            "it is unlit: its colour is emitted, and lights what is near",
+        );
+    } else {
+        out.base_color = [r, g, b];
+    }
+    paint.transmission = transmission(document, others, element)?;
+    out.transmission = out.transmission.max(paint.transmission);
+    let mut set = None;
+    let mut lie = |placed: Option<Placed>, what: &str, is_color: bool| {
+        let placed = placed?;
+        let (own, set) = (placed.set, *set.get_or_insert(placed.set));
+        if own != set {
+            let what = format!(
+                "its {what} texture lies by TEXCOORD_{own}, the one before it by TEXCOORD_{set}, and is replaced by its mean"
+            );
+            document.note(element, what);
+        }
+        (own == set).then(|| placed.shown(document, is_color))
+    };
+    let of = |info: Option<&Info>| match info {
+        Some(info) => document.placed(info, element),
+        None => Ok(None),
+    };
+    paint.base_texture = lie(of(texture)?, "base colour", true);
+    paint.rough_texture = lie(of(rough)?, "metallic-roughness", false);
+    if let Some(normal) = &material.normal_texture {
+        paint.bump_texture = lie(document.placed(normal, element)?, "normal", false);
+        paint.bump = normal.scale;
+    }
+    // Nothing glows, whatever the texture shows.
+    let is_named = glow.is_some();
+    let glow = of(glow.filter(|_| paint.radiance != [0.0; 3]))?;
+    let own_glow = glow.as_ref().map(|own| (Rc::new(own.glow(document)), own.set));
+    if is_named && own_glow.is_none() && !is_unlit {
+        // What is known to glow somewhere is not taken to glow everywhere; unlit surfaces have a colour in any case.
+        (out.radiance, paint.radiance) = ([0.0; 3], [0.0; 3]);
+    }
+    paint.glow_texture = lie(glow, "emission", true);
+    let cutoff = material.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0);
+    paint.opacity = match material.alpha_mode {
+        Valid(AlphaMode::Mask) if opacity < 1.0 || cutoff > 1.0 => Opacity::Cut(cutoff),
+        Valid(AlphaMode::Blend) if opacity < 1.0 => Opacity::Blended,
+        _ => Opacity::Opaque,
+    };
+    // In [0, 1]; NaN is reported with the material.
+    let unit = |x: f32| if x >= 0.0 { x.min(1.0) } else { 0.0 };
+    paint.base = paint.base.map(unit);
+    for factor in [&mut paint.metallic, &mut paint.roughness, &mut paint.transmission] {
+        *factor = unit(*factor);
+    }
+    out.paint = Some(paint).filter(Paint::is_seen);
     Ok(Look {
         material: out,
-        glow,
-        set: painted.map_or(0, |painted| painted.set),
-        is_unlit: unlit,
+        glow: own_glow,
+        set: set.unwrap_or(0),
     })
 }
 
@@ -186,11 +209,9 @@ fn transmission(
 ) -> Result<f32, SceneError> {
     let found: Option<Transmission> = document.extension(others, "KHR_materials_transmission", element)?;
     let Some(found) = found else { return Ok(0.0) };
-    let mut share = found.transmission_factor;
-    if let Some(info) = &found.transmission_texture
-        && let Some(mean) = document.mean_values(info.index, element)?
-    {
-        share *= mean[0];
-    }
-    Ok(share)
+    let mean = match &found.transmission_texture {
+        Some(info) => document.mean(info, element, false)?,
+        None => None,
+    };
+    Ok(found.transmission_factor * mean.map_or(1.0, |mean| mean[0]))
 }

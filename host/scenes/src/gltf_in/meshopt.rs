@@ -11,9 +11,6 @@ use super::Document;
 /// Both names of the extension.
 pub(super) const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
-#[cfg(feature = "meshopt")]
-const ADVICE: &str = "unpack the file, for example with `gltf-transform copy`, or export it again";
-
 /// The bytes of a view, and its stride where it has one.
 pub(super) type Bytes<'a> = (&'a [u8], Option<usize>);
 
@@ -73,52 +70,35 @@ impl Document<'_> {
         };
         let cell = &self.unpacked[index.value()];
         if cell.get().is_none() {
+            let plain = self.buffers.get(view.buffer.value());
             match self.unpack(&compressed, name) {
                 Ok(bytes) => cell.set(bytes).unwrap_or_default(),
                 // The file brings the same data as they are.
-                Err(error)
-                    if self
-                        .buffers
-                        .get(view.buffer.value())
-                        .is_some_and(|buffer| !buffer.is_empty()) =>
-                {
-                    self.warn(format!("its plain data are taken, as {error}"));
+                Err(error) if plain.is_some_and(|buffer| !buffer.is_empty()) => {
+                    self.note("", format!("its plain data are taken, as {error}"));
                     return Ok(None);
                 }
                 Err(error) => return Err(error),
             }
         }
-        Ok(cell
-            .get()
-            .map(|bytes| (bytes.as_slice(), Some(compressed.byte_stride as usize))))
+        let stride = Some(compressed.byte_stride as usize);
+        Ok(cell.get().map(|bytes| (bytes.as_slice(), stride)))
     }
 
     fn unpack(&self, view: &Compressed, name: &str) -> Result<Vec<u8>, SceneError> {
-        let source = self.bytes(
-            gltf::json::Index::new(view.buffer),
-            (view.byte_offset, view.byte_length),
-            name,
-        )?;
+        let range = (view.byte_offset, view.byte_length);
+        let source = self.bytes(Index::new(view.buffer), range, name)?;
         let size = view.count.saturating_mul(view.byte_stride);
         self.load.take(name, "what a compressed view holds", size)?;
-        self.decode_view(view, source, name)
-    }
-
-    #[cfg(not(feature = "meshopt"))]
-    fn decode_view(&self, _: &Compressed, _: &[u8], name: &str) -> Result<Vec<u8>, SceneError> {
-        Err(super::super::error::not_compiled(
+        #[cfg(not(feature = "meshopt"))]
+        return Err(super::super::error::not_compiled(
             self.path,
-            format!("{name} ({})", NAMES[0]),
+            &format!("{name} ({})", NAMES[0]),
             "meshopt",
-        ))
-    }
-
-    #[cfg(feature = "meshopt")]
-    fn decode_view(&self, view: &Compressed, source: &[u8], name: &str) -> Result<Vec<u8>, SceneError> {
-        decode(view, source).map_err(|error| {
-            let problem = format!("cannot be unpacked: {error}");
-            self.malformed(name, problem, ADVICE)
-        })
+        ));
+        #[cfg(feature = "meshopt")]
+        decode(view, source)
+            .map_err(|error| self.malformed(name, format!("cannot be unpacked: {error}"), super::UNPACK))
     }
 }
 

@@ -28,50 +28,48 @@
 
 mod accessor;
 mod animation;
-mod asset;
 mod attributes;
 mod bend;
 mod container;
 mod draco;
 mod emission;
 mod extensions;
-mod ies;
 mod image;
 mod instancing;
 mod ktx2;
+mod light;
 mod material;
 mod mesh;
 mod meshopt;
 mod node;
-mod paint;
-mod punctual;
 #[cfg(test)]
 mod tests;
 mod texture;
 
-pub use asset::Asset;
-
 use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
+use std::fmt::Display;
 use std::path::Path;
 
 use gltf::json;
 
-use super::error::SceneError;
+use super::error::{SceneError, malformed};
 use super::files::{Limits, Load};
 use super::model::{Scene, SceneData};
+use super::notes::Notes;
 
 /// Attribute of vertices, without the underscore: radiance of the triangle that the vertex belongs to. Written by
 /// [`super::glb_out`] for emission that differs from triangle to triangle; glTF leaves names with `_` to applications.
 pub(super) const RADIANCE_ATTRIBUTE: &str = "RADIANCE";
 
-pub(super) use ies::NAME as IES;
+pub(super) use light::IES;
 
 /// Key in the scene's `extras`: background radiance, three numbers.
 pub(super) const BACKGROUND_EXTRA: &str = "lightbvh_background";
 
-/// Warnings kept; the rest is counted.
-const MAX_WARNINGS: usize = 50;
+/// What to do about what cannot be unpacked, and about data that contradict each other.
+const UNPACK: &str = "unpack the file, for example with `gltf-transform copy`, or export it again";
+const DAMAGED: &str = "the file is damaged; export it again";
 
 impl Scene {
     /// Reads a `.gltf` or `.glb` file in memory and checks it; `name` stands for the path in messages, `folder` is where
@@ -93,13 +91,12 @@ impl Scene {
             buffers: Vec::new(),
             unpacked: vec![OnceCell::new(); root.buffer_views.len()],
             pictures: RefCell::default(),
-            warnings: RefCell::default(),
+            notes: RefCell::default(),
         };
         document.check_extensions()?;
         if pointers > 0 {
-            document.warn(format!(
-                "{pointers} channels of animations move no node, and are left out"
-            ));
+            let what = format!("{pointers} channels of animations move no node, and are left out");
+            document.note("", what);
         }
         document.buffers = container::buffers(&document, binary)?;
         let mut data = SceneData {
@@ -111,51 +108,14 @@ impl Scene {
         data.materials = looks.into_iter().map(|look| look.material).collect();
         let order = node::read(&document, &mut data)?;
         bend::skins(&document, &order, &mut data)?;
-        punctual::read(&document, &order, &mut data)?;
-        ies::read(&document, &order, &mut data)?;
+        light::punctual(&document, &order, &mut data)?;
+        light::measured(&document, &order, &mut data)?;
         (data.animations, data.idle) = animation::read(&document, &order)?;
         data.pictures = document.pictures.take().into_kept();
-        data.warnings = document.into_warnings();
+        data.warnings = document.notes.take().into_warnings();
         data.part_clips();
         Self::loaded(data, load)
     }
-}
-
-/// What is said of several elements, said once: `materials[0], materials[3] and 7 more: ...`.
-fn grouped(warnings: Vec<String>) -> Vec<String> {
-    let mut groups: Vec<(Vec<String>, String)> = Vec::new();
-    for warning in warnings {
-        let said = warning
-            .split_once(": ")
-            .filter(|(element, _)| element.ends_with(']'));
-        let (elements, what) = match said {
-            Some((element, what)) => (vec![element.to_owned()], what.to_owned()),
-            None => (Vec::new(), warning),
-        };
-        match groups
-            .iter_mut()
-            .find(|(of, known)| !of.is_empty() && !elements.is_empty() && *known == what)
-        {
-            // Several textures of an element say the same.
-            Some((of, _)) if of.last() == elements.last() => {}
-            Some((of, _)) => of.extend(elements),
-            None => groups.push((elements, what)),
-        }
-    }
-    let line = |(elements, what): (Vec<String>, String)| {
-        let named = elements
-            .iter()
-            .take(3)
-            .map(String::as_str)
-            .collect::<Vec<_>>()
-            .join(", ");
-        match elements.len() {
-            0 => what,
-            1..=3 => format!("{named}: {what}"),
-            more => format!("{named} and {} more: {what}", more - 3),
-        }
-    };
-    groups.into_iter().map(line).collect()
 }
 
 /// A parsed file and what has been read of it.
@@ -168,46 +128,17 @@ struct Document<'a> {
     /// What compressed views hold, by view, once it has been asked for.
     unpacked: Vec<OnceCell<Vec<u8>>>,
     pictures: RefCell<image::Pictures>,
-    warnings: RefCell<Vec<String>>,
+    notes: RefCell<Notes>,
 }
 
 impl Document<'_> {
-    fn malformed(
-        &self,
-        element: impl Into<String>,
-        problem: impl Into<String>,
-        advice: &'static str,
-    ) -> SceneError {
-        let path = self.path.to_owned();
-        SceneError::Malformed {
-            path,
-            element: element.into(),
-            problem: problem.into(),
-            advice,
-        }
+    fn malformed(&self, element: impl Display, problem: impl Into<String>, advice: &str) -> SceneError {
+        malformed(format!("{}: {element}", self.path), problem, advice)
     }
 
-    fn unsupported(
-        &self,
-        element: impl Into<String>,
-        feature: impl Into<String>,
-        advice: &'static str,
-    ) -> SceneError {
-        self.malformed(element, format!("{} is not supported", feature.into()), advice)
-    }
-
-    fn warn(&self, warning: String) {
-        self.warnings.borrow_mut().push(warning);
-    }
-
-    fn into_warnings(self) -> Vec<String> {
-        let mut warnings = grouped(self.warnings.into_inner());
-        if warnings.len() > MAX_WARNINGS {
-            let more = warnings.len() - MAX_WARNINGS;
-            warnings.truncate(MAX_WARNINGS);
-            warnings.push(format!("and {more} more"));
-        }
-        warnings
+    /// See [`Notes::add`].
+    fn note(&self, element: &str, what: impl Into<String>) {
+        self.notes.borrow_mut().add(element, what);
     }
 
     /// `list[index]`, or an error that names who asked.

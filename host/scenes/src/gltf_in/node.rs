@@ -8,6 +8,7 @@ use gltf::json;
 use super::super::error::SceneError;
 use super::super::model::{Camera, Node, SceneData};
 use super::super::transform::Transform;
+use super::bend::columns;
 use super::{BACKGROUND_EXTRA, Document, instancing};
 
 /// Fills nodes, cameras and background; gives the place of each of the file's nodes, `None` where the scene does not
@@ -39,11 +40,11 @@ pub(super) fn read(document: &Document<'_>, data: &mut SceneData) -> Result<Vec<
         placing.tree(vec![node], data)?;
     }
     if let Some((node, parent)) = listed.first() {
-        document.warn(format!(
-            "scene.nodes lists {} nodes that have a parent, the first one node {node} of node {parent}: they stay with it where it is in the \
-             scene",
+        let what = format!(
+            "lists {} nodes that have a parent, the first one node {node} of node {parent}: they stay with it where it is in the scene",
             listed.len()
-        ));
+        );
+        document.note("scene.nodes", what);
     }
     let Placing {
         place, mut cameras, ..
@@ -159,20 +160,14 @@ fn add(
 ) -> Result<(), SceneError> {
     let node = &document.root.nodes[index];
     let element = format!("nodes[{index}]");
-    let mesh = match node.mesh {
-        Some(mesh) => {
-            document.get(&document.root.meshes, mesh, "mesh", &element)?;
-            Some(mesh.value() as u32)
-        }
-        None => None,
-    };
-    let skin = match node.skin {
-        Some(skin) => {
-            document.get(&document.root.skins, skin, "skin", &element)?;
-            Some(skin.value() as u32)
-        }
-        None => None,
-    };
+    if let Some(mesh) = node.mesh {
+        document.get(&document.root.meshes, mesh, "mesh", &element)?;
+    }
+    if let Some(skin) = node.skin {
+        document.get(&document.root.skins, skin, "skin", &element)?;
+    }
+    let mesh = node.mesh.map(|mesh| mesh.value() as u32);
+    let skin = node.skin.map(|skin| skin.value() as u32);
     // A node's own weights come before its mesh's.
     let of_mesh = mesh.and_then(|mesh| document.root.meshes[mesh as usize].weights.clone());
     let weights = node.weights.clone().or(of_mesh).unwrap_or_default();
@@ -187,7 +182,7 @@ fn add(
                 };
                 cameras.push((index, place));
             }
-            None => document.warn(format!("{element}: its camera is not perspective and is ignored")),
+            None => document.note(&element, "its camera is not perspective and is ignored"),
         }
     }
     let name = node.name.clone().unwrap_or_else(|| format!("node {index}"));
@@ -218,9 +213,8 @@ fn add(
 }
 
 fn transform(node: &json::Node) -> Transform {
-    match node.matrix {
-        // The last row of an affine matrix is (0, 0, 0, 1) (glTF 2.0, section 3.5.3).
-        Some(m) => Transform::Matrix([0, 4, 8, 12].map(|column| [m[column], m[column + 1], m[column + 2]])),
+    match &node.matrix {
+        Some(matrix) => Transform::Matrix(columns(matrix)),
         None => Transform::Trs {
             translation: node.translation.unwrap_or_default(),
             rotation: node.rotation.unwrap_or_default().0,

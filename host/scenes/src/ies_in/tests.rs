@@ -38,55 +38,54 @@ fn steps(from: f64, to: f64, count: usize) -> Vec<f64> {
         .collect()
 }
 
+fn table(kind: u32, vertical: &[f64], horizontal: &[f64], value: impl Fn(f64, f64) -> f64) -> Photometry {
+    Photometry::read(&file(kind, vertical, horizontal, value)).expect("sound")
+}
+
 #[test]
 fn angles_of_luminaires_name_directions() {
     let value = |v: f64, h: f64| 100.0 + v + 0.1 * h;
-    let full =
-        Photometry::read(&file(1, &steps(0.0, 180.0, 19), &steps(0.0, 360.0, 13), value)).expect("sound");
-    for (v, h) in [(0.0, 0.0), (35.0, 100.0), (90.0, 270.0), (171.0, 359.0)] {
-        let expected = if v == 0.0 {
-            full.candela([0.0, 0.0, 1.0])
-        } else {
-            value(v, h)
-        };
-        near(full.candela(luminaire(v, h)), expected);
+    let (all, quarter) = (steps(0.0, 180.0, 19), steps(0.0, 90.0, 10));
+    let circle = steps(0.0, 360.0, 13);
+    // All around; a quadrant and a half, of which the rest is an image; one angle for all; a half from 90 to 270 degrees; up.
+    let (right, old) = (steps(0.0, 180.0, 4), steps(90.0, 270.0, 7));
+    let cases = [
+        (&all, &circle, [35.0, 100.0], [35.0, 100.0]),
+        (&all, &circle, [90.0, 270.0], [90.0, 270.0]),
+        (&all, &circle, [171.0, 359.0], [171.0, 359.0]),
+        (&quarter, &steps(0.0, 90.0, 4), [50.0, 20.0], [50.0, 20.0]),
+        (&quarter, &steps(0.0, 90.0, 4), [50.0, 160.0], [50.0, 20.0]),
+        (&quarter, &steps(0.0, 90.0, 4), [50.0, 200.0], [50.0, 20.0]),
+        (&quarter, &steps(0.0, 90.0, 4), [50.0, 340.0], [50.0, 20.0]),
+        (&quarter, &right, [50.0, 130.0], [50.0, 130.0]),
+        (&quarter, &right, [50.0, 230.0], [50.0, 130.0]),
+        (&quarter, &vec![0.0], [50.0, 230.0], [50.0, 0.0]),
+        (&quarter, &old, [50.0, 200.0], [50.0, 200.0]),
+        (&quarter, &old, [50.0, 340.0], [50.0, 200.0]),
+        (&quarter, &old, [50.0, 30.0], [50.0, 150.0]),
+        (&steps(90.0, 180.0, 10), &vec![0.0], [120.0, 0.0], [120.0, 0.0]),
+    ];
+    for (vertical, horizontal, [v, h], [own_v, own_h]) in cases {
+        let table = table(1, vertical, horizontal, value);
+        near(table.candela(luminaire(v, h)), value(own_v, own_h));
     }
-    // Factors count.
-    near(full.candela(luminaire(90.0, 90.0)), 199.0);
-    // A quadrant, of which the rest is an image; a half; one angle for all; a half from 90 to 270 degrees.
-    let quadrant =
-        Photometry::read(&file(1, &steps(0.0, 90.0, 10), &steps(0.0, 90.0, 4), value)).expect("sound");
-    for h in [20.0, 160.0, 200.0, 340.0] {
-        near(quadrant.candela(luminaire(50.0, h)), value(50.0, 20.0));
-    }
+    // Beyond the table there is nothing; where all planes meet, one value.
     assert_eq!(
-        quadrant.candela(luminaire(95.0, 0.0)),
-        0.0,
-        "the table ends at 90 degrees"
+        table(1, &quarter, &right, value).candela(luminaire(95.0, 0.0)),
+        0.0
     );
-    let half =
-        Photometry::read(&file(1, &steps(0.0, 90.0, 10), &steps(0.0, 180.0, 4), value)).expect("sound");
-    near(half.candela(luminaire(50.0, 130.0)), value(50.0, 130.0));
-    near(half.candela(luminaire(50.0, 230.0)), value(50.0, 130.0));
-    let round = Photometry::read(&file(1, &steps(0.0, 90.0, 10), &[0.0], value)).expect("sound");
-    near(round.candela(luminaire(50.0, 230.0)), value(50.0, 0.0));
-    let old =
-        Photometry::read(&file(1, &steps(0.0, 90.0, 10), &steps(90.0, 270.0, 7), value)).expect("sound");
-    near(old.candela(luminaire(50.0, 200.0)), value(50.0, 200.0));
-    near(old.candela(luminaire(50.0, 340.0)), value(50.0, 200.0));
-    near(old.candela(luminaire(50.0, 30.0)), value(50.0, 150.0));
-    // Up lights.
-    let up = Photometry::read(&file(1, &steps(90.0, 180.0, 10), &[0.0], value)).expect("sound");
-    near(up.candela(luminaire(120.0, 0.0)), value(120.0, 0.0));
-    assert_eq!(up.candela(luminaire(60.0, 0.0)), 0.0);
+    assert_eq!(
+        table(1, &steps(90.0, 180.0, 10), &[0.0], value).candela(luminaire(60.0, 0.0)),
+        0.0
+    );
+    near(table(1, &all, &circle, value).candela([0.0, 0.0, 1.0]), 100.0);
 }
 
 #[test]
 fn angles_of_floodlights_and_headlamps_name_directions() {
     let value = |v: f64, h: f64| 200.0 + v + 0.1 * h;
     let (v, h) = (20.0_f64.to_radians(), 30.0_f64.to_radians());
-    let b =
-        Photometry::read(&file(2, &steps(-90.0, 90.0, 19), &steps(-90.0, 90.0, 19), value)).expect("sound");
+    let b = table(2, &steps(-90.0, 90.0, 19), &steps(-90.0, 90.0, 19), value);
     near(
         b.candela([h.sin(), h.cos() * v.sin(), h.cos() * v.cos()]),
         value(20.0, 30.0),
@@ -95,7 +94,7 @@ fn angles_of_floodlights_and_headlamps_name_directions() {
         b.candela([-h.sin(), -h.cos() * v.sin(), h.cos() * v.cos()]),
         value(-20.0, -30.0),
     );
-    let a = Photometry::read(&file(3, &steps(-90.0, 90.0, 19), &steps(0.0, 90.0, 10), value)).expect("sound");
+    let a = table(3, &steps(-90.0, 90.0, 19), &steps(0.0, 90.0, 10), value);
     near(
         a.candela([v.cos() * h.sin(), v.sin(), v.cos() * h.cos()]),
         value(20.0, 30.0),
@@ -164,45 +163,29 @@ fn broken_files_are_named_and_never_panic() {
     let sound = file(1, &[0.0, 45.0, 90.0], &[0.0], |_, _| 100.0);
     assert!(Photometry::read(&sound).is_ok());
     let text = String::from_utf8_lossy(&sound).into_owned();
-    let says = |text: &str, part: &str| {
-        let problem = Profile::read(String::new(), text.as_bytes().to_vec()).expect_err(text);
+    let with = |from: &str, to: &str| text.replace(from, to);
+    for (text, part) in [
+        (String::new(), "no line `TILT=`"),
+        (
+            String::from("TILT=NONE\n1 2 3"),
+            "ends before its number of vertical angles",
+        ),
+        (with("2.0 3 1 1", "2.0 0 1 1"), "0 vertical angles"),
+        (with("2.0 3 1 1", "2.0 4096 4096 1"), "more than"),
+        (with("2.0 3 1 1", "2.0 3 1 7"), "photometric type is 7"),
+        (with("2.0 3 1 1", "nan 3 1 1"), "expected a number"),
+        (with("2.0 3 1 1", "-2.0 3 1 1"), "make -1"),
+        (with("0 45 90", "0 90 45"), "do not ascend"),
+        (with("100 100 100", "100 1e400 100"), "expected a number"),
+        (with("100 100 100", "0 -5 0"), "no light in any direction"),
+        (with("100 100 100", "100 100"), "ends before its candela value"),
+    ] {
+        let problem = Profile::read(String::new(), text.clone().into_bytes()).expect_err(&text);
         assert!(problem.contains(part), "{problem}");
-    };
-    says("", "no line `TILT=`");
-    says("TILT=NONE\n1 2 3", "ends before its number of vertical angles");
-    says(&text.replace("2.0 3 1 1", "2.0 0 1 1"), "0 vertical angles");
-    says(&text.replace("2.0 3 1 1", "2.0 4096 4096 1"), "more than");
-    says(&text.replace("2.0 3 1 1", "2.0 3 1 7"), "photometric type is 7");
-    says(&text.replace("2.0 3 1 1", "nan 3 1 1"), "expected a number");
-    says(&text.replace("2.0 3 1 1", "-2.0 3 1 1"), "make -1");
-    says(&text.replace("0 45 90", "0 90 45"), "do not ascend");
-    says(&text.replace("100 100 100", "100 1e400 100"), "expected a number");
-    says(
-        &text.replace("100 100 100", "0 -5 0"),
-        "no light in any direction",
-    );
-    says(
-        &text.replace("100 100 100", "100 100"),
-        "ends before its candela value",
-    );
-    // Damage of all sorts.
-    let mut state = 1_u32;
-    let mut next = || {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (state >> 8) as usize
-    };
-    for _ in 0..20_000 {
-        let mut bytes = sound.clone();
-        for _ in 0..1 + next() % 4 {
-            let at = next() % bytes.len();
-            match next() % 3 {
-                0 => bytes[at] = next() as u8,
-                1 => bytes.truncate(at.max(1)),
-                _ => bytes.insert(at, b" .-e90123"[next() % 9]),
-            }
-        }
-        let _ = Photometry::read(&bytes);
     }
+    crate::random::damaged(std::slice::from_ref(&sound), 20_000, |bytes| {
+        _ = Photometry::read(bytes)
+    });
     let tilted = text.replace("TILT=NONE", "TILT=INCLUDE\n1\n2\n0 90\n1 0.9");
     assert_eq!(Photometry::read(tilted.as_bytes()), Photometry::read(&sound));
 }
@@ -236,10 +219,9 @@ fn pictures_show_their_tables() {
 #[test]
 fn a_circle_that_is_not_closed_is_closed() {
     for (last, count) in [(345.0, 24), (270.0, 4), (350.0, 36)] {
-        let file = file(1, &steps(0.0, 90.0, 10), &steps(0.0, last, count), |_, h| {
+        let table = table(1, &steps(0.0, 90.0, 10), &steps(0.0, last, count), |_, h| {
             100.0 + h
         });
-        let table = Photometry::read(&file).expect("a table");
         near(table.candela(luminaire(30.0, last)), 100.0 + last);
         let between = 0.5 * (last + 360.0);
         near(table.candela(luminaire(30.0, between)), 100.0 + 0.5 * last);

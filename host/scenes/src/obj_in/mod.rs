@@ -14,20 +14,51 @@
 //! The crate `tobj` is not used: it panics at `Kd 1 2` and at relative texture indices beyond the first, refuses faces that name
 //! missing normals, and its errors name neither line nor value.
 
-mod faces;
-mod lines;
 mod mtl;
 mod pictures;
 #[cfg(test)]
 mod tests;
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
 
-use super::error::SceneError;
+use super::check::bounded;
+use super::error::{SceneError, malformed};
 use super::files::{Limits, Load, without_mark};
-use super::model::{Scene, SceneData};
+use super::frame::emits;
+use super::model::{Material, Mesh, Node, Primitive, Scene, SceneData};
 use super::notes::Notes;
+use super::polygon::Cutter;
+use crate::vector::{dot, normal};
+use mtl::Library;
+
+const REPAIR: &str = "repair the line, or export the file again";
+
+/// A triangle.
+struct Face {
+    vertices: [u32; 3],
+    /// Texture coordinates of each; [`NONE`] for a corner without.
+    coordinates: [u32; 3],
+    /// The sum of its normals where all its corners have one.
+    normal: Option<[f32; 3]>,
+}
+
+/// No texture coordinates.
+const NONE: u32 = u32::MAX;
+
+/// What a file has said so far.
+struct Reading<'a> {
+    file: &'a str,
+    load: &'a Load,
+    notes: Notes,
+    positions: Vec<[f32; 3]>,
+    normals: Vec<[f32; 3]>,
+    coordinates: Vec<[f32; 2]>,
+    /// Faces by group and material, in the order of their first face.
+    parts: Vec<((String, String), Vec<Face>)>,
+    by_names: HashMap<(String, String), usize>,
+    cutter: Cutter,
+}
 
 impl Scene {
     /// Reads an `.obj` file in memory and the material libraries that it names, and checks it; `name` stands for the path in
@@ -39,28 +70,354 @@ impl Scene {
         Self::read_obj(name, bytes, &Load::new(folder, &Limits::default())?)
     }
 
-    pub(super) fn read_obj(name: &str, bytes: &[u8], load: &Load) -> Result<Self, SceneError> {
-        let bytes = without_mark(name, bytes)?;
-        let mut notes = Notes::default();
-        let mut data = SceneData {
-            name: name.to_owned(),
-            ..SceneData::default()
+    pub(super) fn read_obj(file: &str, bytes: &[u8], load: &Load) -> Result<Self, SceneError> {
+        let mut reading = Reading {
+            file,
+            load,
+            notes: Notes::default(),
+            positions: Vec::new(),
+            normals: Vec::new(),
+            coordinates: Vec::new(),
+            parts: Vec::new(),
+            by_names: HashMap::new(),
+            cutter: Cutter::default(),
         };
-        let file: Rc<str> = name.into();
-        faces::read(&file, bytes, load, &mut data, &mut notes)?;
-        data.warnings = notes.into_warnings();
-        Self::loaded(data, load)
+        let mut library = Library::new(load);
+        let (mut object, mut group, mut material) = (String::new(), String::new(), String::new());
+        // The part that faces go to, until a name changes.
+        let mut part = None;
+        for (line, text) in lines(&String::from_utf8_lossy(without_mark(file, bytes)?)) {
+            let (word, rest) = split(&text);
+            match word {
+                "v" => reading.positions.push(numbers::<3>(file, line, rest)?),
+                "vn" => reading.normals.push(numbers::<3>(file, line, rest)?),
+                "vt" => reading.texture_coordinates(line, rest),
+                "f" => {
+                    let part = *part.get_or_insert_with(|| reading.part(&object, &group, &material));
+                    reading.face(line, rest, part)?;
+                }
+                "o" | "g" | "usemtl" => {
+                    part = None;
+                    let rest = rest.to_owned();
+                    match word {
+                        "o" => (object, group) = (rest, String::new()),
+                        "g" => group = rest,
+                        _ => material = rest,
+                    }
+                }
+                "mtllib" => reading.libraries(line, rest, &mut library)?,
+                "l" | "p" | "curv" | "curv2" | "surf" => {
+                    reading.note(
+                        line,
+                        format!("elements `{word}` are left out; only faces are read"),
+                    );
+                }
+                _ => {}
+            }
+        }
+        Self::loaded(reading.finish(library), load)
     }
 }
 
-/// What is wrong with a line.
-fn wrong(file: &str, line: u32, problem: impl Into<String>, advice: &'static str) -> SceneError {
-    SceneError::Text {
-        path: file.to_owned(),
-        line,
-        problem: problem.into(),
-        advice,
+impl Reading<'_> {
+    fn note(&mut self, line: u32, what: impl Into<String>) {
+        self.notes.add(format!("{} line {line}", self.file), what);
     }
+
+    /// Reads the libraries that a line names: one, whose name may have spaces, or several.
+    fn libraries(&mut self, line: u32, rest: &str, library: &mut Library<'_>) -> Result<(), SceneError> {
+        let Some(folder) = self.load.folder() else {
+            self.note(
+                line,
+                "material libraries are left out, as there is no folder to look in",
+            );
+            return Ok(());
+        };
+        let rest = rest.replace('\\', "/");
+        let whole = beside(self.load, folder, rest.trim());
+        let several = rest
+            .split_ascii_whitespace()
+            .map(|name| beside(self.load, folder, name));
+        let paths: Vec<PathBuf> = if whole.is_file() {
+            vec![whole]
+        } else {
+            several.collect()
+        };
+        for path in paths {
+            match self.load.read(&path) {
+                Ok(bytes) => library.read(&path, &bytes, &mut self.notes)?,
+                Err(error) if error.ends_the_load() => return Err(error),
+                Err(error) => self.note(line, format!("a material library is left out: {error}")),
+            }
+        }
+        Ok(())
+    }
+
+    /// One or two coordinates; a third is left out.
+    fn texture_coordinates(&mut self, line: u32, rest: &str) {
+        let mut words = rest.split_ascii_whitespace();
+        let mut next = || match words.next() {
+            Some(word) => word.parse().ok().filter(|&x| bounded(x, 0.0) == x),
+            None => Some(0.0),
+        };
+        let lies = next().zip(next()).map(|(u, v)| [u, v]);
+        if lies.is_none() {
+            self.note(
+                line,
+                "texture coordinates that are no numbers, or beyond 2^20, count as 0",
+            );
+        }
+        self.coordinates.push(lies.unwrap_or_default());
+    }
+
+    /// The place in `parts` of what a group has of a material.
+    fn part(&mut self, object: &str, group: &str, material: &str) -> usize {
+        let group = match (object, group) {
+            (object, "") => object.to_owned(),
+            ("", group) => group.to_owned(),
+            (object, group) => format!("{object}/{group}"),
+        };
+        let names = (group, material.to_owned());
+        let next = self.parts.len();
+        let part = *self.by_names.entry(names.clone()).or_insert(next);
+        if part == next {
+            self.parts.push((names, Vec::new()));
+        }
+        part
+    }
+
+    fn face(&mut self, line: u32, rest: &str, part: usize) -> Result<(), SceneError> {
+        let wrong = |problem: String| wrong(self.file, line, problem);
+        let mut corners: Vec<(u32, Option<u32>, Option<u32>)> = Vec::new();
+        let mut lacks_normals = false;
+        for word in rest.split_ascii_whitespace() {
+            // `vertex`, `vertex/texture`, `vertex//normal` or `vertex/texture/normal`.
+            let mut parts = word.split('/');
+            let mut next = |what, count| index(parts.next().unwrap_or(""), what, count).map_err(wrong);
+            let vertex = next("vertex", self.positions.len())?;
+            let unnamed = || Err(format!("`{}` names no vertex", shown(word)));
+            let vertex = vertex.unwrap_or_else(unnamed).map_err(wrong)?;
+            let texture = next("texture coordinate", self.coordinates.len())?;
+            let texture = texture.transpose().map_err(wrong)?;
+            // The shape is whole without it.
+            let normal = next("normal", self.normals.len())?;
+            lacks_normals |= matches!(normal, Some(Err(_)));
+            corners.push((vertex, texture, normal.and_then(Result::ok)));
+        }
+        if corners.len() < 3 {
+            let problem = format!("a face has {} vertices, expected at least 3", corners.len());
+            return Err(wrong(problem));
+        }
+        let places = corners.iter().map(|corner| self.positions[corner.0 as usize]);
+        let places: Vec<[f32; 3]> = places.collect();
+        let faces = &mut self.parts[part].1;
+        let cut = self.cutter.cut(&places, |triangle| {
+            let triangle = triangle.map(|k| corners[k]);
+            let normals = triangle.map(|corner| corner.2.map(|n| self.normals[n as usize]));
+            let normal = match normals {
+                [Some(a), Some(b), Some(c)] => Some([0, 1, 2].map(|i| a[i] + b[i] + c[i])),
+                _ => None,
+            };
+            faces.push(Face {
+                vertices: triangle.map(|corner| corner.0),
+                coordinates: triangle.map(|corner| corner.1.unwrap_or(NONE)),
+                normal,
+            });
+        });
+        cut.map_err(wrong)?;
+        if lacks_normals {
+            self.note(
+                line,
+                "faces that name normals that are not before them are read without normals; export the file again, or with its normals",
+            );
+        }
+        let bytes = (size_of::<Face>() * corners.len()) as u64;
+        self.load.take(self.file, "the list of triangles", bytes)
+    }
+
+    /// A node for each group, a primitive for each of its materials.
+    fn finish(mut self, library: Library<'_>) -> SceneData {
+        let mut data = SceneData {
+            name: self.file.to_owned(),
+            ..SceneData::default()
+        };
+        let (mut groups, mut materials) = (HashMap::new(), HashMap::new());
+        for ((group, material), _) in &self.parts {
+            let next = data.meshes.len() as u32;
+            if *groups.entry(group.as_str()).or_insert(next) == next {
+                data.nodes.push(Node {
+                    name: group.clone(),
+                    mesh: Some(next),
+                    ..Node::default()
+                });
+                data.meshes.push(Mesh {
+                    name: group.clone(),
+                    primitives: Vec::new(),
+                });
+            }
+            let next = data.materials.len() as u32;
+            if *materials.entry(material.as_str()).or_insert(next) < next {
+                continue;
+            }
+            let found = library.materials.get(material);
+            if found.is_none() && !material.is_empty() {
+                let what = format!(
+                    "material `{}` is in no library, and taken as grey",
+                    shown(material)
+                );
+                self.notes.add(self.file, what);
+            }
+            data.materials.push(match found {
+                Some((found, _)) => found.clone(),
+                None => Material {
+                    name: material.clone(),
+                    base_color: [0.5; 3],
+                    ..Material::default()
+                },
+            });
+        }
+        // Programs write `d 0` for what a picture's alpha cuts out.
+        let is_left_out = |own: &Material| own.is_clear() && !emits(own.radiance);
+        if data.materials.iter().all(is_left_out) {
+            for material in &mut data.materials {
+                material.transmission = 0.0;
+                let what = "all surfaces let half of the light through or more: they are taken as opaque";
+                self.notes.add(self.file, what);
+            }
+        }
+        if data.materials.iter().any(is_left_out) {
+            let what = "surfaces that let half of the light through or more are left out";
+            self.notes.add(self.file, what);
+        }
+        for ((group, material), faces) in &self.parts {
+            let number = materials[material.as_str()];
+            let primitive = self.primitive(number, &data.materials[number as usize], faces, &library);
+            data.meshes[groups[group.as_str()] as usize]
+                .primitives
+                .push(primitive);
+        }
+        data.pictures = library.into_pictures();
+        data.warnings = self.notes.into_warnings();
+        data
+    }
+
+    fn primitive(&self, material: u32, own: &Material, faces: &[Face], library: &Library<'_>) -> Primitive {
+        let glow = library
+            .materials
+            .get(&own.name)
+            .and_then(|(_, glow)| glow.as_ref());
+        let lights = emits(own.radiance) || glow.is_some();
+        let mut primitive = Primitive {
+            material,
+            ..Primitive::default()
+        };
+        // Equal corners once; of parts that are painted, those with texture coordinates of their own.
+        let (mut known, mut used) = (HashMap::new(), Vec::new());
+        for face in faces {
+            let mut order = [0, 1, 2];
+            let front = normal(face.vertices.map(|vertex| self.positions[vertex as usize]));
+            let faces_away = |normal: [f32; 3]| dot(front, normal.map(f64::from)) < 0.0;
+            if lights && face.normal.is_some_and(faces_away) {
+                order.swap(1, 2);
+            }
+            primitive.triangles.push(order.map(|k| {
+                let texture = if own.paint.is_some() {
+                    face.coordinates[k]
+                } else {
+                    NONE
+                };
+                let corner = (face.vertices[k], texture);
+                *known.entry(corner).or_insert_with(|| {
+                    used.push(corner);
+                    used.len() as u32 - 1
+                })
+            }));
+        }
+        let at = |&(vertex, _): &(u32, u32)| self.positions[vertex as usize];
+        primitive.positions = used.iter().map(at).collect();
+        if let Some(paint) = own
+            .paint
+            .filter(|_| used.iter().any(|&(_, texture)| texture != NONE))
+        {
+            let lies = |&(_, texture): &(u32, u32)| self.coordinates.get(texture as usize).copied();
+            let coordinates: Vec<_> = used.iter().map(|own| lies(own).unwrap_or_default()).collect();
+            primitive.radiance =
+                glow.map(|glow| glow.radiance(&primitive.triangles, &coordinates, paint.radiance));
+            primitive.coordinates = Some(coordinates);
+        }
+        primitive
+    }
+}
+
+/// Lines without comments, those that go on after `\` as one, each with its number from 1.
+fn lines(text: &str) -> impl Iterator<Item = (u32, String)> + '_ {
+    let mut lines = (1..).zip(text.lines().map(str::trim));
+    std::iter::from_fn(move || {
+        let (number, line) = lines.next()?;
+        let mut text = line.to_owned();
+        // A comment ends with its line.
+        while !line.starts_with('#') && text.ends_with('\\') {
+            text.pop();
+            text.push(' ');
+            text += lines.next().map_or("", |(_, line)| line);
+        }
+        // Names have such signs too.
+        let comment = text.match_indices('#').find(|(at, _)| {
+            let before = text[..*at].chars().next_back();
+            before.is_none_or(|before| before.is_ascii_whitespace())
+        });
+        if let Some((comment, _)) = comment {
+            text.truncate(comment);
+        }
+        Some((number, text))
+    })
+}
+
+/// The first word, and what comes after it.
+fn split(line: &str) -> (&str, &str) {
+    let line = line.trim();
+    line.split_once(|c: char| c.is_ascii_whitespace())
+        .map_or((line, ""), |(word, rest)| (word, rest.trim()))
+}
+
+/// The first `N` numbers of a line, where there are as many.
+fn numbers<const N: usize>(file: &str, line: u32, text: &str) -> Result<[f32; N], SceneError> {
+    let words = text.split_ascii_whitespace().take(N);
+    let numbers = words.map(|word| word.parse().ok().filter(|value: &f32| value.is_finite()));
+    let numbers: Option<Vec<f32>> = numbers.collect();
+    let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
+    numbers.ok_or_else(|| {
+        let problem = format!("expected {N} numbers, found `{}`", shown(text));
+        wrong(file, line, problem)
+    })
+}
+
+/// An index from 1, or from -1 for the last one so far: none for an empty text, and what is wrong where nothing is there.
+fn index(text: &str, what: &str, count: usize) -> Result<Option<Result<u32, String>>, String> {
+    if text.is_empty() {
+        return Ok(None);
+    }
+    let no_index = |_| format!("`{}` is no index of a {what}", shown(text));
+    let number: i64 = text.parse().map_err(no_index)?;
+    let index = match number < 0 {
+        true => (count as i64).saturating_add(number),
+        false => number - 1,
+    };
+    let found = u32::try_from(index)
+        .ok()
+        .filter(|&index| (index as usize) < count);
+    let missing = || format!("it refers to {what} {number}, but there are only {count} before it");
+    Ok(Some(found.ok_or_else(missing)))
+}
+
+/// The beginning of a text, for messages.
+fn shown(text: &str) -> String {
+    text.chars().take(60).collect()
+}
+
+/// What is wrong with a line.
+fn wrong(file: &str, line: u32, problem: String) -> SceneError {
+    malformed(format!("{file}, line {line}"), problem, REPAIR)
 }
 
 /// A file by a path from `folder`, or by its name alone: exporters write paths of their own machine.
@@ -72,5 +429,3 @@ fn beside(load: &Load, folder: &Path, name: &str) -> PathBuf {
         _ => path,
     }
 }
-
-const REPAIR: &str = "repair the line, or export the file again";

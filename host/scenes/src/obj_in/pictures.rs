@@ -9,34 +9,26 @@ use image::{DynamicImage, RgbaImage};
 use super::super::error::SceneError;
 use super::super::files::Load;
 use super::super::paint::Picture;
-use super::super::srgb::linear_from_srgb;
-use super::super::{pictures, radiance_hdr};
+use super::super::pictures;
+use super::mtl::Placing;
 
-/// The mean of a picture, linear.
-pub(super) type Mean = [f64; 3];
-
-/// A picture that the renderer shows.
-#[derive(Clone, Debug)]
-pub(super) struct Kept {
-    /// Its number among those of the scene.
-    pub picture: u32,
-    pub pixels: Rc<RgbaImage>,
+/// A picture, its mean, and where it lies.
+pub(super) struct Map {
+    pub path: PathBuf,
+    /// Linear.
+    pub mean: [f32; 3],
+    pub placing: Placing,
 }
 
-/// What a kept picture is made of: a file, and another one that says its opacity.
-type Source = (PathBuf, Option<PathBuf>);
+/// A picture that the renderer shows, with its number among those of the scene.
+type Kept = (u32, Rc<RgbaImage>);
 
-/// What has been decoded, with what was wrong with it.
-#[derive(Debug)]
+/// What has been decoded.
 pub(super) struct Pictures<'a> {
     pub load: &'a Load,
-    means: HashMap<PathBuf, Result<Mean, String>>,
-    kept: Vec<Rc<RgbaImage>>,
-    by_source: HashMap<Source, Option<Kept>>,
-    /// Why pictures are not shown that could be read, a sentence each.
-    unshown: Vec<String>,
-    /// What ends the load.
-    end: Option<SceneError>,
+    means: HashMap<PathBuf, [f32; 3]>,
+    /// By the files of colours and opacities.
+    kept: HashMap<(PathBuf, Option<PathBuf>), Kept>,
 }
 
 impl<'a> Pictures<'a> {
@@ -44,72 +36,38 @@ impl<'a> Pictures<'a> {
         Self {
             load,
             means: HashMap::new(),
-            kept: Vec::new(),
-            by_source: HashMap::new(),
-            unshown: Vec::new(),
-            end: None,
+            kept: HashMap::new(),
         }
-    }
-
-    /// What no scene may do, where a picture was asked for that would have needed it.
-    ///
-    /// # Errors
-    /// [`SceneError::Outside`], [`SceneError::Memory`].
-    pub fn end(&mut self) -> Result<(), SceneError> {
-        self.end.take().map_or(Ok(()), Err)
     }
 
     /// The mean colour of a file.
-    pub fn mean(&mut self, path: &Path) -> Result<Mean, String> {
-        if let Some(known) = self.means.get(path) {
-            return known.clone();
+    pub fn mean(&mut self, path: &Path) -> Result<[f32; 3], SceneError> {
+        if let Some(&known) = self.means.get(path) {
+            return Ok(known);
         }
-        let mean = self.decode(path).map(|picture| mean_of(&picture));
-        self.means.insert(path.to_owned(), mean.clone());
-        mean
+        let mean = mean_of(self.decode(path)?);
+        self.means.insert(path.to_owned(), mean);
+        Ok(mean)
     }
 
-    /// A file whose mean is known, as a picture that is shown; `None` where its numbers are light, which bytes cannot hold, and
-    /// where it cannot be read. With `opacity` its opacity is that of another file: its alpha, or where that is opaque its red.
-    pub fn keep(&mut self, path: &Path, opacity: Option<&Path>) -> Option<Kept> {
+    /// A file as a picture that is shown; `None` where its numbers are light, which bytes cannot hold. With `opacity` its
+    /// opacity is that of another file: its alpha, or where that is opaque its red.
+    pub fn keep(&mut self, path: &Path, opacity: Option<&Path>) -> Result<Option<Kept>, SceneError> {
         let source = (path.to_owned(), opacity.map(Path::to_owned));
-        if let Some(known) = self.by_source.get(&source) {
-            return known.clone();
+        if let Some(known) = self.kept.get(&source) {
+            return Ok(Some(known.clone()));
         }
-        let kept = self.made(path, opacity).map(|pixels| {
-            let pixels = Rc::new(pixels);
-            self.kept.push(Rc::clone(&pixels));
-            Kept {
-                picture: self.kept.len() as u32 - 1,
-                pixels,
-            }
-        });
-        self.by_source.insert(source, kept.clone());
-        kept
-    }
-
-    /// Why pictures are not shown, since this was asked last.
-    pub fn take_unshown(&mut self) -> Vec<String> {
-        std::mem::take(&mut self.unshown)
-    }
-
-    fn made(&mut self, path: &Path, opacity: Option<&Path>) -> Option<RgbaImage> {
-        let picture = self.decode(path).ok()?;
+        let picture = self.decode(path)?;
         if is_linear(&picture) {
-            self.unshown.push(format!(
-                "{} holds light that bytes cannot, and its mean colour is shown",
-                path.display()
-            ));
-            return None;
+            return Ok(None);
         }
         let mut pixels = picture.into_rgba8();
         let bytes = pixels.as_raw().len() as u64;
-        let taken = self.load.take(&path.display().to_string(), "a picture", bytes);
-        taken.map_err(|error| self.end = Some(error)).ok()?;
+        self.load.take(&path.display().to_string(), "a picture", bytes)?;
         match opacity {
             None => pixels.pixels_mut().for_each(|pixel| pixel.0[3] = u8::MAX),
             Some(opacity) => {
-                let other = self.decode(opacity).ok()?.into_rgba8();
+                let other = self.decode(opacity)?.into_rgba8();
                 let has_alpha = other.pixels().any(|pixel| pixel.0[3] < u8::MAX);
                 let (size, of) = (pixels.dimensions(), other.dimensions());
                 let at = |k: u32, size: u32, of: u32| {
@@ -121,37 +79,23 @@ impl<'a> Pictures<'a> {
                 }
             }
         }
-        Some(pixels)
+        let kept = (self.kept.len() as u32, Rc::new(pixels));
+        self.kept.insert(source, kept.clone());
+        Ok(Some(kept))
     }
 
     /// All that is kept, by number.
     pub fn into_kept(self) -> Vec<Picture> {
-        drop(self.by_source);
-        self.kept.into_iter().map(pictures::kept).collect()
+        let mut kept: Vec<Kept> = self.kept.into_values().collect();
+        kept.sort_by_key(|(number, _)| *number);
+        kept.into_iter()
+            .map(|(_, pixels)| pictures::kept(pixels))
+            .collect()
     }
 
     /// The pixels of a file.
-    fn decode(&mut self, path: &Path) -> Result<DynamicImage, String> {
-        let decode = || {
-            let name = path.display().to_string();
-            let bytes = radiance_hdr::with_signature(self.load.read(path)?);
-            let mut picture = pictures::decode(self.load, &name, &bytes, Some(path))?;
-            if let DynamicImage::ImageRgb32F(pixels) = &mut picture {
-                let divisors = radiance_hdr::divisors(&bytes);
-                let divisors = divisors.map_err(|problem| pictures::undecoded(&name, problem))?;
-                pixels
-                    .pixels_mut()
-                    .for_each(|pixel| pixel.0 = radiance_hdr::divided(pixel.0, divisors));
-            }
-            Ok(picture)
-        };
-        decode().map_err(|error: SceneError| {
-            let text = error.to_string();
-            if error.ends_the_load() {
-                self.end = Some(error);
-            }
-            text
-        })
+    fn decode(&self, path: &Path) -> Result<DynamicImage, SceneError> {
+        pictures::decode_light(self.load, self.load.read(path)?, path)
     }
 }
 
@@ -163,18 +107,15 @@ fn is_linear(picture: &DynamicImage) -> bool {
     )
 }
 
-fn mean_of(picture: &DynamicImage) -> Mean {
+fn mean_of(picture: DynamicImage) -> [f32; 3] {
+    if !is_linear(&picture) {
+        let [r, g, b, _] = pictures::mean_of(&picture.into_rgba8(), true);
+        return [r, g, b];
+    }
     let pixels = f64::from(picture.width()) * f64::from(picture.height());
     let mut sums = [0.0; 3];
-    if is_linear(picture) {
-        for pixel in picture.to_rgb32f().pixels() {
-            sums = [0, 1, 2].map(|k| sums[k] + f64::from(pixel.0[k]));
-        }
-    } else {
-        let light: [f64; 256] = std::array::from_fn(|step| linear_from_srgb(step as u8).into());
-        for pixel in picture.to_rgb8().pixels() {
-            sums = [0, 1, 2].map(|k| sums[k] + light[usize::from(pixel.0[k])]);
-        }
+    for pixel in picture.into_rgb32f().pixels() {
+        sums = [0, 1, 2].map(|k| sums[k] + f64::from(pixel.0[k]));
     }
-    sums.map(|sum| sum / pixels)
+    sums.map(|sum| (sum / pixels) as f32)
 }

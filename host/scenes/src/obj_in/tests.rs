@@ -2,8 +2,6 @@ use super::*;
 use crate::paint::{Opacity, Wrap};
 use crate::random::damaged;
 
-mod painted;
-
 const ROOM: &str = "# a lamp over a floor
 mtllib room.mtl
 v -1 0 -1
@@ -34,21 +32,38 @@ Kd 0 0 0
 Ke 4 5 6
 ";
 
-/// A folder of its own with files in it.
-fn folder(name: &str, files: &[(&str, &[u8])]) -> std::path::PathBuf {
+/// A triangle of a material `glow`.
+const LAMP: &str = "mtllib room.mtl\nusemtl glow\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+const WHITE: [u8; 4] = [255; 4];
+const BLACK: [u8; 4] = [0, 0, 0, 255];
+
+/// Reads a file with its library and pictures beside it, in a folder of its own.
+fn read_with(name: &str, obj: &str, mtl: &str, files: &[(&str, &[u8])]) -> Result<Scene, SceneError> {
     let folder = std::env::temp_dir().join(format!("lightbvh-obj-{name}-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder for files");
-    for (file, bytes) in files {
+    for (file, bytes) in files.iter().chain(&[("room.mtl", mtl.as_bytes())]) {
         std::fs::write(folder.join(file), bytes).expect("a folder for files");
     }
-    folder
-}
-
-fn read(name: &str, obj: &str, mtl: &str) -> Result<Scene, SceneError> {
-    let folder = folder(name, &[("room.mtl", mtl.as_bytes())]);
     let scene = Scene::read_obj_slice("room.obj", obj.as_bytes(), Some(&folder));
     let _ = std::fs::remove_dir_all(folder);
     scene
+}
+
+fn read(name: &str, obj: &str, mtl: &str) -> Result<Scene, SceneError> {
+    read_with(name, obj, mtl, &[])
+}
+
+/// A picture of so many columns.
+fn png(columns: u32, texels: &[[u8; 4]]) -> Vec<u8> {
+    let rows = texels.len() as u32 / columns;
+    let picture = image::RgbaImage::from_raw(columns, rows, texels.as_flattened().to_vec());
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let written = picture
+        .expect("a picture")
+        .write_to(&mut bytes, image::ImageFormat::Png);
+    written.expect("memory");
+    bytes.into_inner()
 }
 
 #[test]
@@ -63,18 +78,17 @@ fn groups_materials_and_indices() {
     // α² = 2 / (30 + 2) = 1/16, so roughness² = α = 1/4.
     assert_eq!(data.materials[0].roughness, 0.5);
     assert_eq!(data.materials[1].radiance, [4.0, 5.0, 6.0]);
-    let frame = scene.frame(0);
-    assert_eq!(frame.emissive.len(), 2);
-    assert_eq!(frame.mesh_lights.len(), 1);
-    // Normals say that the lamp shines down, also where its winding does not.
-    for light in &frame.emissive {
-        assert!(crate::vector::normal(light.p)[1] < 0.0);
-        assert!(light.p.iter().all(|vertex| vertex[1] == 1.0));
-    }
+    assert_eq!((scene.emissive_count(), scene.mesh_light_count()), (2, 1));
+    // Normals say that the lamp shines down, also where its winding does not. Some editors put a mark of UTF-8 first.
     let turned = ROOM.replace("-4//1 -3//1 \\\n  -2//1 -1//-1", "-1//1 -2//1 -3//1 -4//1");
-    let turned = read("turned", &turned, LIBRARY).expect("valid");
-    for light in &turned.frame(0).emissive {
-        assert!(crate::vector::normal(light.p)[1] < 0.0);
+    for text in [ROOM, &turned, &format!("\u{feff}{ROOM}")] {
+        let scene = read("turned", text, LIBRARY).expect("valid");
+        let lights = scene.frame(0).emissive;
+        assert_eq!(lights.len(), 2);
+        for light in lights {
+            assert!(crate::vector::normal(light.p)[1] < 0.0);
+            assert!(light.p.iter().all(|vertex| vertex[1] == 1.0));
+        }
     }
 }
 
@@ -88,37 +102,27 @@ fn libraries_lie_beside_the_file_where_their_path_leads_nowhere() {
 
 #[test]
 fn materials_of_all_kinds() {
-    let lines = |names: &[&str]| -> String {
-        let faces = names.iter().map(|name| format!("usemtl {name}\nf 1 2 3\n"));
-        format!(
-            "mtllib room.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n{}",
-            faces.collect::<String>()
-        )
-    };
-    let mtl = "newmtl mirror\nKd 0 0 0\nKs 0.9 0.8 0.7\nillum 3\nnewmtl glass\nillum 7\nnewmtl thin\nd 0.25\nnewmtl clear\nTr 0.75\n\
-               newmtl both\nd 1\nTr 1\nnewmtl pbr\nKd 0.5\nPr 0.3\nPm 0.6\nnewmtl missing\nmap_Ke -s 1 1 1 no such.png\n";
-    let obj = lines(&[
+    let names = [
         "mirror", "glass", "thin", "clear", "both", "pbr", "missing", "unknown",
-    ]);
+    ];
+    let faces: String = names.map(|name| format!("usemtl {name}\nf 1 2 3\n")).concat();
+    let obj = format!("mtllib room.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n{faces}");
+    let mtl = "newmtl mirror\nKd 0 0 0\nKs 0.9 0.8 0.7\nillum 3\nnewmtl glass\nillum 7\nnewmtl thin\nd 0.25\nnewmtl clear\nTr 0.75\n\
+               newmtl both\nd 1\nTr 1\nnewmtl pbr\nKd 0.5\nPr 0.3\nPm 0.6\nnewmtl missing\nKe 1 1 1\nmap_Ke -s 1 1 1 no such.png\nmap_Kd no.png\n";
     let scene = read("kinds", &obj, mtl).expect("valid");
-    let of = |name: &str| {
-        let materials = &scene.data().materials;
-        materials
-            .iter()
-            .find(|material| material.name == name)
-            .expect(name)
-    };
+    let materials = &scene.data().materials;
+    let of = |name: &str| materials.iter().find(|own| own.name == name).expect(name);
     assert_eq!(of("mirror").base_color, [0.9, 0.8, 0.7]);
     assert_eq!((of("mirror").metallic, of("mirror").roughness), (1.0, 0.0));
-    assert_eq!(of("glass").transmission, 1.0);
-    assert_eq!(of("thin").transmission, 0.75);
-    assert_eq!(of("clear").transmission, 0.75);
-    assert_eq!(of("both").transmission, 0.0);
+    assert_eq!(
+        ["glass", "thin", "clear", "both"].map(|name| of(name).transmission),
+        [1.0, 0.75, 0.75, 0.0]
+    );
     assert_eq!(of("pbr").base_color, [0.5; 3]);
     assert_eq!((of("pbr").roughness, of("pbr").metallic), (0.3, 0.6));
-    assert_eq!(of("missing").radiance, [0.0; 3]);
+    assert!(of("missing").radiance == [0.0; 3] && of("missing").paint.is_none());
     // Glass, thin and clear are left out.
-    assert_eq!(scene.triangle_count(), 5);
+    assert_eq!((scene.triangle_count(), scene.emissive_count()), (5, 0));
     let warnings = scene.warnings().join("\n");
     for expected in [
         "`unknown` is in no library",
@@ -127,70 +131,43 @@ fn materials_of_all_kinds() {
     ] {
         assert!(warnings.contains(expected), "{warnings}");
     }
-    assert!(matches!(
-        scene.require_lights(),
-        Err(SceneError::NoEmissive { .. })
-    ));
 }
 
 /// What would be an empty picture is taken as opaque; a lamp of clear glass is none.
 #[test]
 fn a_file_that_is_clear_throughout_is_opaque() {
     let obj = "mtllib room.mtl\nusemtl one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl two\nf 3 2 1\n";
-    let of = |mtl: &str| {
-        let scene = read("clear", obj, mtl).expect("valid");
-        (scene.triangle_count(), scene.warnings().join("\n"))
-    };
-    let (count, said) = of("newmtl one\nd 0\nnewmtl two\nd 0\n");
-    assert!(count == 2 && said.contains("taken as opaque"), "{count}: {said}");
-    let (count, said) = of("newmtl one\nd 0\nnewmtl two\nd 0\nKe 1 1 1\n");
-    assert!(count == 1 && said.contains("are left out"), "{count}: {said}");
-}
-
-#[test]
-fn maps_count_by_their_means() {
-    // Half white, half black: 0.5 of light.
-    let mut picture = image::RgbImage::new(2, 1);
-    picture.put_pixel(0, 0, image::Rgb([255; 3]));
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    picture
-        .write_to(&mut bytes, image::ImageFormat::Png)
-        .expect("memory");
-    let mtl = "newmtl glow\nKd 0 0 0\nmap_Kd half.png\nKe 4 2 1\nmap_Ke half.png\n";
-    let folder = folder(
-        "maps",
-        &[("room.mtl", mtl.as_bytes()), ("half.png", &bytes.into_inner())],
-    );
-    let obj = "mtllib room.mtl\nusemtl glow\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    let scene = Scene::read_obj_slice("room.obj", obj.as_bytes(), Some(&folder)).expect("valid");
-    let _ = std::fs::remove_dir_all(folder);
-    assert_eq!(scene.data().materials[0].radiance, [2.0, 1.0, 0.5]);
-    assert_eq!(scene.data().materials[0].base_color, [0.5; 3]);
+    for (last, expected, words) in [("", 2, "taken as opaque"), ("Ke 1 1 1\n", 1, "are left out")] {
+        let mtl = format!("newmtl one\nd 0\nnewmtl two\nd 0\n{last}");
+        let scene = read("clear", obj, &mtl).expect("valid");
+        let (count, said) = (scene.triangle_count(), scene.warnings().join("\n"));
+        assert!(count == expected && said.contains(words), "{count}: {said}");
+    }
 }
 
 #[test]
 fn errors_name_the_line() {
     let cases = [
-        ("v 0 0 0\nf 1 2 3\n", "line 2", "vertex 2, but there are only 1"),
-        ("v 0 0\n", "line 1", "expected 3 numbers, found `0 0`"),
-        ("v 0 0 nan\n", "line 1", "expected 3 numbers"),
-        ("v 0 0 0\n\nf 1 1\n", "line 3", "2 vertices, expected at least 3"),
-        ("v 0 0 0\nf 1 0 1\n", "line 2", "vertex 0"),
-        ("v 0 0 0\nf 1 -2 1\n", "line 2", "vertex -2"),
-        ("v 0 0 0\nf 1 / 1\n", "line 2", "`/` names no vertex"),
-        ("v 0 0 0\nf a b c\n", "line 2", "`a` is no index of a vertex"),
+        ("v 0 0 0\nf 1 2 3\n", 2, "vertex 2, but there are only 1"),
+        ("v 0 0\n", 1, "expected 3 numbers, found `0 0`"),
+        ("v 0 0 nan\n", 1, "expected 3 numbers"),
+        ("v 0 0 0\n\nf 1 1\n", 3, "2 vertices, expected at least 3"),
+        ("v 0 0 0\nf 1 0 1\n", 2, "vertex 0"),
+        ("v 0 0 0\nf 1 -2 1\n", 2, "vertex -2"),
+        ("v 0 0 0\nf 1 / 1\n", 2, "`/` names no vertex"),
+        ("v 0 0 0\nf a b c\n", 2, "`a` is no index of a vertex"),
         (
             "v 0 0 0\nf 1/1 1 1\n",
-            "line 2",
+            2,
             "texture coordinate 1, but there are only 0",
         ),
-        ("v 0 0 0\nf 1//x 1 1\n", "line 2", "`x` is no index of a normal"),
+        ("v 0 0 0\nf 1//x 1 1\n", 2, "`x` is no index of a normal"),
     ];
     for (obj, line, problem) in cases {
         let error = Scene::read_obj_slice("x.obj", obj.as_bytes(), None)
             .expect_err(problem)
             .to_string();
-        assert!(error.starts_with(&format!("x.obj, {line}: ")), "{error}");
+        assert!(error.starts_with(&format!("x.obj, line {line}: ")), "{error}");
         assert!(error.contains(problem), "{error}");
     }
     let error = Scene::read_obj_slice("x.obj", b"v 0 0 0\n", None).expect_err("no face");
@@ -201,6 +178,25 @@ fn errors_name_the_line() {
     assert!(error.to_string().contains("light cannot be negative"), "{error}");
 }
 
+/// Whatever is named is beside the file.
+#[test]
+fn libraries_outside_of_the_folder_are_refused() {
+    let secret = std::env::temp_dir().join(format!("lightbvh-obj-secret-{}.mtl", std::process::id()));
+    std::fs::write(&secret, LIBRARY).expect("a folder for files");
+    let name = secret.file_name().and_then(|name| name.to_str()).expect("a name");
+    let error = read("outside", &ROOM.replace("room.mtl", &format!("../{name}")), "");
+    assert!(matches!(error, Err(SceneError::Outside { .. })), "{error:?}");
+    // The format has no escapes: this is a name, of nothing.
+    let scene = read(
+        "outside",
+        &ROOM.replace("room.mtl", &format!("%2e%2e/{name}")),
+        "",
+    )
+    .expect("valid");
+    assert!(scene.emissive_count() == 0 && scene.warnings()[0].contains("a material library is left out"));
+    std::fs::remove_file(secret).expect("removed");
+}
+
 /// Files of some exporters name normals that they leave out. Of a face with some of them none counts: which side emits is its
 /// front.
 #[test]
@@ -209,16 +205,13 @@ fn faces_that_name_missing_normals_are_read_without() {
     let scene = Scene::read_obj_slice("x.obj", obj.as_bytes(), None).expect("valid");
     assert_eq!(scene.triangle_count(), 3);
     let warnings = scene.warnings();
-    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    let first = "x.obj line 5, x.obj line 6, x.obj line 7: faces that name normals that are not before them";
     assert!(
-        warnings[0].starts_with("faces that name normals that are not before them are read without normals")
-            && warnings[0].ends_with("(3 times, first in x.obj, line 5)"),
+        warnings.len() == 1 && warnings[0].starts_with(first),
         "{warnings:?}"
     );
     let lamp = |normal: &str| {
-        let obj = format!(
-            "mtllib room.mtl\nusemtl glow\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//{normal}\n"
-        );
+        let obj = LAMP.replace("f 1 2 3", &format!("vn 0 0 -1\nf 1//1 2//1 3//{normal}"));
         read("normals", &obj, LIBRARY).expect("valid").frame(0).emissive[0].p
     };
     let ([_, b, c], [_, d, e]) = (lamp("1"), lamp("2"));
@@ -227,9 +220,8 @@ fn faces_that_name_missing_normals_are_read_without() {
 
 #[test]
 fn damage_is_an_error_or_a_scene() {
-    let files = [ROOM.as_bytes().to_vec()];
     let mut valid = 0;
-    damaged(&files, 3000, |bytes| {
+    damaged(&[ROOM.as_bytes().to_vec()], 3000, |bytes| {
         valid += usize::from(Scene::read_obj_slice("damaged", bytes, None).is_ok());
     });
     // Most damage is of a digit.
@@ -237,33 +229,9 @@ fn damage_is_an_error_or_a_scene() {
     let load = Load::new(None, &Limits::default()).expect("no folder");
     let mut library = mtl::Library::new(&load);
     damaged(&[LIBRARY.as_bytes().to_vec()], 2000, |bytes| {
-        let _ = library.read("damaged", bytes, None, &mut Notes::default());
+        let _ = library.read(Path::new("damaged"), bytes, &mut Notes::default());
     });
     assert!(library.materials.contains_key("glow"));
-}
-
-/// Some editors put a mark of UTF-8 first.
-#[test]
-fn a_mark_of_utf8_is_passed_by() {
-    let plain = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    let marked = format!("\u{feff}{plain}");
-    let [plain, marked] = [plain, &marked].map(|text| {
-        let scene = Scene::read_obj_slice("x.obj", text.as_bytes(), None).expect("valid");
-        (scene.frame(0).triangles, scene.warnings().to_vec())
-    });
-    assert_eq!(plain, marked);
-}
-
-/// A picture of so many columns.
-fn png(columns: u32, texels: &[[u8; 4]]) -> Vec<u8> {
-    let rows = texels.len() as u32 / columns;
-    let picture =
-        image::RgbaImage::from_raw(columns, rows, texels.as_flattened().to_vec()).expect("a picture");
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    picture
-        .write_to(&mut bytes, image::ImageFormat::Png)
-        .expect("a picture");
-    bytes.into_inner()
 }
 
 /// A dart shines with its area, to one side, wherever it begins.
@@ -273,13 +241,162 @@ fn concave_faces_emit_with_their_area() {
         let text =
             format!("mtllib room.mtl\nusemtl glow\nv -2 2 2\nv 0 2 0.5\nv 2 2 2\nv 0 2 -2\nf {face}\n");
         let scene = read("dart", &text, LIBRARY).expect("valid");
-        let primitive = &scene.data().meshes[0].primitives[0];
-        let heights: Vec<f32> = (primitive.triangles.iter())
-            .map(|triangle| {
-                let [a, b, c] = triangle.map(|k| primitive.positions[k as usize]);
-                0.5 * ((b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]))
-            })
+        let lights = scene.frame(0).emissive;
+        let twice: Vec<f64> = lights
+            .iter()
+            .map(|light| crate::vector::normal(light.p)[1])
             .collect();
-        assert_eq!(heights, [2.5; 2], "{face}");
+        assert_eq!(twice, [5.0; 2], "{face}");
+    }
+}
+
+/// Two triangles of a square from (0, 0) to (1, 1), and a third that shares an edge with them and lies elsewhere on the picture.
+const PAINTED: &str = "mtllib room.mtl
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt 1 0.5
+vt 0 0.5
+vt 0.5 1 0
+vt 1 1
+usemtl sign
+f 1/1 2/2 3/3
+f 1/1 3/3 4/4
+f 1/4 2/3 3/6
+";
+
+fn painted(name: &str, mtl: &str, files: &[(&str, &[u8])]) -> Scene {
+    read_with(name, PAINTED, &format!("newmtl sign\n{mtl}"), files).expect("valid")
+}
+
+/// The format's second coordinate grows upward: below its middle lie the rows of the lower half. What stands for the picture is
+/// its mean, and black beside a map says nothing.
+#[test]
+fn pictures_lie_upright_and_count_by_their_means() {
+    let sign = png(1, &[WHITE, BLACK]);
+    let mtl = "Kd 0 0 0\nmap_Kd sign.png\nKe 2 3 4\nmap_Ke sign.png\n";
+    let scene = painted("upright", mtl, &[("sign.png", &sign)]);
+    let primitive = &scene.data().meshes[0].primitives[0];
+    let radiance = primitive.radiance.as_ref().expect("by its picture");
+    // Means of four texels, and the picture begins anew: within the lower row white counts from a half at its edges to nothing,
+    // a quarter in the mean.
+    for (radiance, expected) in radiance.iter().zip([0.5, 0.5, 1.5]) {
+        assert!(
+            (radiance[0] - expected).abs() < 1e-3,
+            "{radiance:?}, expected {expected}"
+        );
+    }
+    let [r, g, b] = radiance[2];
+    assert!((g / r - 1.5).abs() < 1e-5 && (b / r - 2.0).abs() < 1e-5);
+    assert_eq!(scene.warnings(), &[] as &[String]);
+    // The mean of the material is that of the whole picture.
+    assert_eq!(scene.data().materials[0].radiance, [1.0, 1.5, 2.0]);
+    assert_eq!(scene.data().materials[0].base_color, [0.5; 3]);
+}
+
+#[test]
+fn colours_opacities_and_options_of_maps() {
+    let leaf = png(2, &[[255, 0, 0, 7], [0, 255, 0, 7], WHITE, BLACK]);
+    let shape = png(1, &[WHITE, BLACK]);
+    let mtl = "Kd 0.5 1 1\nmap_Kd -clamp on -s 2 3 1 -o 0.25 0.5 -bm 1 leaf.png\nmap_d shape.png\n";
+    let files: [(&str, &[u8]); 2] = [("leaf.png", &leaf), ("shape.png", &shape)];
+    let scene = painted("leaf", mtl, &files);
+    let data = scene.data();
+    // The shape lies as the colours do, though it has not their options, or others.
+    let others = mtl.replace("map_d shape", "map_d -s 4 4 shape");
+    for scene in [&scene, &painted("leaf-others", &others, &files)] {
+        let warnings = scene.warnings();
+        assert!(
+            warnings.len() == 1 && warnings[0].contains("`map_d`") && warnings[0].contains("`-s`"),
+            "{warnings:?}"
+        );
+    }
+    let same = mtl.replace("map_d shape", "map_d -clamp on -s 2 3 1 -o 0.25 0.5 shape");
+    assert_eq!(painted("leaf-same", &same, &files).warnings(), &[] as &[String]);
+    let paint = data.materials[0].paint.expect("a picture");
+    assert_eq!(paint.base, [0.5, 1.0, 1.0, 1.0]);
+    assert_eq!(paint.opacity, Opacity::Cut(0.5));
+    let texture = paint.base_texture.expect("a picture");
+    assert_eq!(texture.wrap, [Wrap::Clamp; 2]);
+    assert_eq!(texture.transform, [[2.0, 0.0], [0.0, -3.0], [0.25, 0.5]]);
+    assert!(texture.is_color && paint.glow_texture.is_none());
+    // Opacity is that of the other picture, row by row.
+    let alphas = |scene: &Scene| -> Vec<u8> {
+        let texels = scene.data().pictures[0].texels.iter();
+        texels.skip(3).step_by(4).copied().collect()
+    };
+    assert_eq!(alphas(&scene), [255, 255, 0, 0]);
+
+    // Vertices 1, 2 and 3 are there twice, for they lie at two places of the picture; 4 once.
+    let primitive = &data.meshes[0].primitives[0];
+    let lies = primitive.coordinates.as_ref().expect("where it lies");
+    assert_eq!((primitive.positions.len(), lies.len()), (7, 7));
+    let third = primitive.triangles[2].map(|vertex| lies[vertex as usize]);
+    assert_eq!(third, [[0.0, 0.5], [1.0, 0.5], [1.0, 1.0]]);
+
+    // Without a picture of opacity the alpha of colours counts for nothing.
+    let scene = painted("opaque", "map_Kd leaf.png\n", &files);
+    let paint = scene.data().materials[0].paint.expect("a picture");
+    assert_eq!(paint.opacity, Opacity::Opaque);
+    assert_eq!(alphas(&scene), [255; 4]);
+}
+
+/// Options and names as exporters write them, with signs that begin comments elsewhere, and coordinates that are none.
+#[test]
+fn maps_and_names_as_exporters_write_them() {
+    let leaf = png(1, &[WHITE]);
+    for options in [
+        "-imfchan m",
+        "-type sphere",
+        "-colorspace sRGB",
+        "-blendu on -blendv off",
+        "-mm 0 1",
+        "-t 0.1 0 0",
+        "-bm 0.5 -boost 2 -texres 512",
+        "-s 1 1 1",
+    ] {
+        for file in ["leaf.png", "512 leaf.png", "leaf#1.png"] {
+            let mtl = format!("map_Kd {options} {file} # a leaf\n");
+            let scene = painted("options", &mtl, &[(file, &leaf)]);
+            let warnings = scene.warnings();
+            assert!(
+                scene.data().materials[0].paint.is_some(),
+                "{options} {file}: {warnings:?}"
+            );
+        }
+    }
+    let text = PAINTED
+        .replace("usemtl sign", "usemtl Material#2")
+        .replace("mtllib", "# from C:\\models\\\nmtllib")
+        .replace("vt 1 1", "vt -nan(ind) 1e30");
+    let library = "newmtl Material#1\nKd 1 0 0\nnewmtl Material#2\nKd 0 1 0 # green\nmap_Kd leaf.png\n";
+    let scene = read_with("signs", &text, library, &[("leaf.png", &leaf)]).expect("valid");
+    let (data, warnings) = (scene.data(), scene.warnings());
+    assert_eq!(data.materials[0].base_color, [0.0, 1.0, 0.0], "{warnings:?}");
+    let lies = data.meshes[0].primitives[0].coordinates.as_ref();
+    assert_eq!(lies.expect("where it lies").last(), Some(&[0.0; 2]));
+    assert!(warnings[0].contains("count as 0"), "{warnings:?}");
+}
+
+/// Lamps that show one picture, each in a material of its own: it is looked at once.
+#[test]
+fn many_lamps_of_one_picture() {
+    let sign = png(512, &vec![[255, 0, 0, 255]; 512 * 512]);
+    let mut obj = String::from("mtllib room.mtl\nvt 0 0\nvt 1 0\nvt 1 1\n");
+    let mut mtl = String::new();
+    for k in 0..2000 {
+        mtl += &format!("newmtl m{k}\nKe 1 1 1\nmap_Ke sign.png\n");
+        obj += &format!("v {k} 0 0\nv {k} 1 0\nv {k} 1 1\ng g{k}\nusemtl m{k}\nf -3/1 -2/2 -1/3\n");
+    }
+    let scene = read_with("lamps", &obj, &mtl, &[("sign.png", &sign)]).expect("valid");
+    let data = scene.data();
+    assert_eq!((data.pictures.len(), data.meshes.len()), (1, 2000));
+    for mesh in &data.meshes {
+        let [r, g, b] = mesh.primitives[0].radiance.as_ref().expect("its own")[0];
+        // What glows anywhere leaves a trace in the other channels.
+        assert!((r - 1.0).abs() < 1e-6 && g < 1e-3 && b < 1e-3);
     }
 }

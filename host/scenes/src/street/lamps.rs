@@ -5,13 +5,19 @@ use super::super::random::Random;
 use super::super::shapes::Shape;
 use super::{FACADE, HALF_LENGTH, Palette};
 
-const ALONG_X: [f64; 3] = [1.0, 0.0, 0.0];
-
 pub(super) fn add(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     street_lamps(b, palette);
     strings(b, random, palette);
     lanterns(b, random, palette);
     signs(b, random, palette);
+}
+
+/// Swings between these amplitudes in radians, in a period of the first number of frames and up to so many steps more.
+fn swing(b: &mut SceneBuilder, random: &mut Random, node: u32, [low, high]: [f64; 2], period: [u32; 3]) {
+    let amplitude = random.between(low, high);
+    let [first, step, count] = period;
+    let period = first + step * random.pick(count as usize) as u32;
+    b.swing(node, [1.0, 0.0, 0.0], amplitude, period, random.unit());
 }
 
 /// A post every 8 m on either side, with two lamps each.
@@ -71,13 +77,7 @@ fn strings(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     while z < HALF_LENGTH {
         let mesh = meshes[random.pick(meshes.len())];
         let node = b.put("string of bulbs", None, [0.0, random.between(5.6, 6.6), z], mesh);
-        b.swing(
-            node,
-            ALONG_X,
-            random.between(0.15, 0.5),
-            60 + 15 * random.pick(4) as u32,
-            random.unit(),
-        );
+        swing(b, random, node, [0.15, 0.5], [60, 15, 4]);
         z += 6.0;
     }
 }
@@ -99,19 +99,9 @@ fn lanterns(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     while z < HALF_LENGTH {
         let span = b.put("cord", None, [0.0, 5.9, z], span);
         for x in [-3.2, 0.0, 3.2] {
-            let node = b.put(
-                "paper lantern",
-                Some(span),
-                [x, 0.0, 0.0],
-                meshes[random.pick(meshes.len())],
-            );
-            b.swing(
-                node,
-                ALONG_X,
-                random.between(0.2, 0.6),
-                45 + 10 * random.pick(4) as u32,
-                random.unit(),
-            );
+            let mesh = meshes[random.pick(meshes.len())];
+            let node = b.put("paper lantern", Some(span), [x, 0.0, 0.0], mesh);
+            swing(b, random, node, [0.2, 0.6], [45, 10, 4]);
         }
         z += 12.0;
     }
@@ -146,13 +136,7 @@ fn signs(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
         let mesh = meshes[random.pick(tubes.len())][random.pick(colors.len())];
         let sign = b.node("neon sign", Some(bracket), [0.0, -0.05, 0.0], STILL, Some(mesh));
         if count % 4 < 2 {
-            b.swing(
-                sign,
-                ALONG_X,
-                random.between(0.1, 0.35),
-                50 + 10 * random.pick(3) as u32,
-                random.unit(),
-            );
+            swing(b, random, sign, [0.1, 0.35], [50, 10, 3]);
         }
         z += 4.0;
         count += 1;

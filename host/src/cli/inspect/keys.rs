@@ -44,19 +44,12 @@ pub(super) fn carriers(data: &SceneData) -> Vec<bool> {
 pub(super) fn frames(animations: &[Animation], carries: &[bool]) -> Vec<u32> {
     let mut frames = BTreeSet::new();
     for animation in animations {
-        let moving = animation
-            .channels
-            .iter()
-            .map(|own| (own.node, own.interpolation, &own.times));
-        let bending = animation
-            .morphs
-            .iter()
-            .map(|own| (own.node, own.interpolation, &own.times));
-        for (_, interpolation, times) in moving.chain(bending).filter(|(node, ..)| carries[*node as usize]) {
-            let keys = times.iter().map(|&time| f64::from(time));
-            let between = times
+        for channel in animation.channels.iter().filter(|own| carries[own.node as usize]) {
+            let keys = channel.times.iter().map(|&time| f64::from(time));
+            let between = channel
+                .times
                 .windows(2)
-                .filter(|_| interpolation == Interpolation::CubicSpline)
+                .filter(|_| channel.interpolation == Interpolation::CubicSpline)
                 .map(|pair| 0.5 * (f64::from(pair[0]) + f64::from(pair[1])));
             for time in keys.chain(between) {
                 let frame = time * f64::from(FRAMES_PER_SECOND);
