@@ -21,8 +21,7 @@ const FOLDERS: [(&str, &str, &str); 2] = [
 /// The folder of a module: those of the reference renderer are the host's.
 #[must_use]
 pub fn folder(file: &str) -> &'static str {
-    let is_renderer = file.starts_with("render") || file.starts_with("restir");
-    FOLDERS[usize::from(is_renderer)].0
+    FOLDERS[usize::from(file.starts_with("render"))].0
 }
 
 /// Name of the manifest in [`DIRECTORY`].

@@ -13,8 +13,7 @@ use lightbvh::BuildParams;
 use lightbvh::light::AnyLight;
 use lightbvh::light::infinite::Environment;
 use lightbvh_host::backend::{
-    Backend, Bvh, Combination, CpuBackend, DeviceBackend, Integrator, PIXEL_RECORD, Restir, RestirFrame,
-    RestirOptions, Sampler, SceneArrays,
+    Backend, Bvh, CpuBackend, DeviceBackend, Integrator, PIXEL_RECORD, Sampler, SceneArrays,
 };
 use lightbvh_host::method::{Method, Step, Target};
 use lightbvh_host::scene::{
