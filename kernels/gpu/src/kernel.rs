@@ -112,7 +112,6 @@ impl Kernel {
 mod tests {
     use alloc::vec::Vec;
 
-    use super::*;
     use crate::spirv::Interface;
     use crate::{KERNELS, Kernel};
 

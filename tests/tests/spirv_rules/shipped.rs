@@ -87,7 +87,10 @@ fn shipped_modules_name_no_file_of_the_machine_that_built_them() {
 #[test]
 fn words_that_are_no_module_are_refused() {
     let error = verify("x.spv", &[1, 2, 3]).unwrap_err().to_string();
-    assert!(error.starts_with("x.spv: not a readable SPIR-V module"), "{error}");
+    assert!(
+        error.starts_with("x.spv: not a readable SPIR-V module"),
+        "{error}"
+    );
     assert!(decorate(&[]).is_err());
     let error = manifest::read(Path::new("/nowhere")).unwrap_err().to_string();
     assert!(error.starts_with("cannot read /nowhere/"), "{error}");
