@@ -77,7 +77,7 @@ impl Choice<WIDTH> for Kinds {
     type Node = AnyNode;
     type Importance = DefaultImportance;
     const NAME: &'static str = "moments with beams";
-    const SUFFIX: &'static str = AnyLight::SUFFIX;
+    const SUFFIX: &'static str = "_any";
 }
 
 /// Children per node of [`Standard`].
@@ -92,6 +92,12 @@ pub type AnyNode = Lit<SpotMomentNode<8>, AnyLight>;
 /// The tree of a choice.
 pub type TreeOf<'a, C, const W: usize> =
     LightTree<'a, <C as Choice<W>>::Node, <C as Choice<W>>::Importance, W>;
+/// The tree of [`Standard`].
+pub type StandardTree<'a> = TreeOf<'a, Standard, WIDTH>;
+/// The tree of [`Paper`].
+pub type PaperTree<'a> = TreeOf<'a, Paper, 4>;
+/// The tree of [`Kinds`].
+pub type AnyTree<'a> = TreeOf<'a, Kinds, WIDTH>;
 
 impl<N: Layout<W>, I: ImportanceModel<N, W>, const W: usize> PickLight for LightTree<'_, N, I, W> {
     #[inline]

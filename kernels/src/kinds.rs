@@ -7,13 +7,10 @@ use lightbvh::refit::{self, BlasRoot, Children, LIMITED_ROWS};
 use lightbvh::{Instance, LightPoint, Random64, SampledLight};
 use spirv_std::spirv;
 
-pub use crate::bvh::AnyNode;
-use crate::bvh::{Kinds, TreeOf, WIDTH};
+use crate::bvh::{AnyNode, AnyTree, WIDTH};
 use crate::invocation;
 use crate::query::{PointsPush, Query, QueryPush, query_passes};
 use crate::refit::{RefitPush, refit_passes};
-
-type AnyTree<'a> = TreeOf<'a, Kinds, WIDTH>;
 
 query_passes!(
     Query,

@@ -16,12 +16,10 @@
 
 pub mod bvh;
 pub mod kinds;
-pub mod path;
 pub mod query;
 pub mod receivers;
 pub mod refit;
 pub mod render;
-pub mod restir;
 pub mod scatter;
 pub mod self_test;
 pub mod shading;

@@ -8,7 +8,7 @@ use lightbvh::light::Light;
 use lightbvh::{EmissiveTriangle, Instance, LightPoint, Random64, SampledLight, ShadingPoint, TreeWords};
 use spirv_std::spirv;
 
-use crate::bvh::{Choice, Node, Paper, PaperNode, Standard, TreeOf, WIDTH};
+use crate::bvh::{Choice, Node, PaperNode, PaperTree, StandardTree, TreeOf};
 use crate::invocation;
 
 /// A point, and what is asked: 32 bytes.
@@ -106,9 +106,6 @@ macro_rules! query_passes {
         }
     };
 }
-
-type StandardTree<'a> = TreeOf<'a, Standard, WIDTH>;
-type PaperTree<'a> = TreeOf<'a, Paper, 4>;
 
 query_passes!(Query, Node, StandardTree, sample = "sample", pmf = "pmf");
 query_passes!(

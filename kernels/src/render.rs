@@ -9,15 +9,17 @@ use lightbvh::light::infinite::DistantLight;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{AnyNode, Kinds, Node, Paper, PaperNode, Standard, TreeOf, WIDTH};
+use crate::bvh::{AnyNode, AnyTree, Node, PaperNode, PaperTree, StandardTree};
 use crate::invocation;
-use crate::path::path_pixel;
 use crate::shading::camera::Camera;
 use crate::shading::emitter::Emitter;
+use crate::shading::grid::{TINY, div, flush_vector};
 use crate::shading::material::Material;
 use crate::shading::numbers::Part;
+use crate::shading::path::path_radiance;
 use crate::shading::pick::{Chosen, PickLight, Power, Uniform};
 use crate::shading::pixel::{Samples, Scene, reflected, see};
+use crate::shading::ray::Ray;
 use crate::shading::skin::{Corner, NoSkin, SkinView};
 use crate::shading::sky::{NoSky, SkyView};
 use crate::shading::trace::{RayNode, TriangleBlock};
@@ -59,8 +61,20 @@ pub struct RenderParams {
 
 const _: () = assert!(size_of::<RenderParams>() == 56);
 
-/// The radiance that reaches the camera through pixel `index`, linear RGB, W/(m² sr). Pixels are numbered by rows from
-/// the upper left.
+/// The ray of pixel `index`, numbered by rows from the upper left, what it sees where it meets nothing, and the seed of the random
+/// numbers of its lights.
+#[inline]
+fn pixel_ray(camera: &Camera, params: &RenderParams, index: u32) -> (Ray, Vec3, u32) {
+    let width = if params.width == 0 { 1 } else { params.width };
+    let y = index / width;
+    let x = index - y * width;
+    let pixel = hash(index);
+    let ray = camera.ray([x, y], [width, params.height], pixel, params.jitter);
+    let background = Vec3::new(params.background[0], params.background[1], params.background[2]);
+    (ray, background, hash(pixel.wrapping_add(hash(params.seed))))
+}
+
+/// The direct light that reaches the camera through pixel `index`, linear RGB, W/(m² sr).
 #[inline]
 #[must_use]
 pub fn render_pixel<L: Emitter, P: PickLight>(
@@ -70,14 +84,8 @@ pub fn render_pixel<L: Emitter, P: PickLight>(
     picker: &P,
     index: u32,
 ) -> [f32; 3] {
-    let width = if params.width == 0 { 1 } else { params.width };
-    let y = index / width;
-    let x = index - y * width;
-    let pixel = hash(index);
-    let ray = camera.ray([x, y], [width, params.height], pixel, params.jitter);
-    let background = Vec3::new(params.background[0], params.background[1], params.background[2]);
+    let (ray, background, seed) = pixel_ray(camera, params, index);
     let seen = see(scene, &ray, background);
-    let seed = hash(pixel.wrapping_add(hash(params.seed)));
     let samples = Samples {
         count: params.samples,
         first: params.first,
@@ -97,6 +105,29 @@ pub fn render_pixel<L: Emitter, P: PickLight>(
     [radiance.x, radiance.y, radiance.z]
 }
 
+/// The radiance that reaches the camera through pixel `index` along paths of up to `bounces` reflections, linear RGB, W/(m² sr):
+/// the mean of [`samples`](RenderParams::samples) paths, which all begin with one camera ray.
+#[inline]
+#[must_use]
+pub fn path_pixel<L: Emitter, P: PickLight>(
+    scene: &Scene<'_, L>,
+    camera: &Camera,
+    params: &RenderParams,
+    bounces: u32,
+    picker: &P,
+    index: u32,
+) -> [f32; 3] {
+    let (ray, background, seed) = pixel_ray(camera, params, index);
+    let mut sum = Vec3::ZERO;
+    for sample in 0..params.samples {
+        let seed = hash(seed.wrapping_add(sample));
+        sum += path_radiance(scene, &ray, background, picker, bounces, seed);
+    }
+    let count = if params.samples == 0 { 1 } else { params.samples };
+    let mean = flush_vector(sum * div(1.0, count as i32 as f32), TINY);
+    [mean.x, mean.y, mean.z]
+}
+
 /// Push constants of the render passes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -113,47 +144,20 @@ pub struct RenderPush {
     pub tree: TreeWords,
 }
 
-/// A pass over the pixels of a scene: of triangles, by the default's trees or the paper's, or of lights of any kind, with a sky and
-/// textures besides. The specialisation constant 0 says how lights are chosen: [`by`](crate::shading::pick::by).
-macro_rules! scene_pass {
+/// A pass over the pixels of a scene with one type of light and tree, in a module of its own: both in one are more than SwiftShader
+/// compiles. The specialisation constant 0 says how lights are chosen:
+/// [`by`](crate::shading::pick::by). The lists are bindings that only some scenes have, and the results'.
+macro_rules! render_pass {
     (
-        $(#[$doc:meta])*
-        [$plain:ident = $plain_name:tt, $eq4:ident = $eq4_name:tt, $any:ident = $any_name:tt],
-        $push_type:ty,
-        [$($out:ident: $word:ty = $at:tt or $any_at:tt),*],
-        |$i:ident, $push:ident, $scene:ident, $picker:ident, $camera:ident| $body:block
+        $pass:ident = $name:tt, $is_paths:literal, $tree:ident, $light:ty, $node:ty,
+        [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr, $results:tt
     ) => {
-        scene_pass!(
-            @ $(#[$doc])* $plain = $plain_name, TreeOf<Standard, WIDTH>, EmissiveTriangle, Node, $push_type,
-            [], NoSky, NoSkin,
-            [$($out: $word = $at),*], |$i, $push, $scene, $picker, $camera| $body
-        );
-        scene_pass!(
-            @ $(#[$doc])* $eq4 = $eq4_name, TreeOf<Paper, 4>, EmissiveTriangle, PaperNode, $push_type,
-            [], NoSky, NoSkin,
-            [$($out: $word = $at),*], |$i, $push, $scene, $picker, $camera| $body
-        );
-        scene_pass!(
-            @ $(#[$doc])* $any = $any_name, TreeOf<Kinds, WIDTH>, AnyLight, AnyNode, $push_type,
-            [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3], 12 corners: Corner, 13 paint: u32],
-            SkyView { suns, counts: sky_counts, radiance: sky_radiance },
-            SkinView { corners, words: paint },
-            [$($out: $word = $any_at),*], |$i, $push, $scene, $picker, $camera| $body
-        );
-    };
-    (
-        @ $(#[$doc:meta])*
-        $pass:ident = $name:tt, TreeOf<$choice:ty, $width:tt>, $light:ty, $node:ty, $push_type:ty,
-        [$($own_at:tt $own:ident: $own_word:ty),*], $sky:expr, $skin:expr,
-        [$($out:ident: $word:ty = $at:tt),*],
-        |$i:ident, $push:ident, $scene:ident, $picker:ident, $camera:ident| $body:block
-    ) => {
-        $(#[$doc])*
+        /// Direct lighting, or light along paths.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(spec_constant(id = 0))] by: u32,
-            #[spirv(push_constant)] $push: &$push_type,
+            #[spirv(push_constant)] push: &RenderPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
@@ -163,14 +167,14 @@ macro_rules! scene_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] nodes: &[$node],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] thresholds: &[u32],
-            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $own_at)] $own: &[$own_word],)*
-            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $out: &mut [$word],)*
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
+            #[spirv(storage_buffer, descriptor_set = 0, binding = $results)] results: &mut [[f32; 3]],
         ) {
-            let $i = invocation(id);
-            if $i < $push.count {
-                let $scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
-                let tree: TreeOf<'_, $choice, $width> = $push.tree.tree(nodes, instances, trails);
-                let $picker = Chosen {
+            let i = invocation(id);
+            if i < push.count {
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
+                let tree: $tree<'_> = push.tree.tree(nodes, instances, trails);
+                let picker = Chosen {
                     by,
                     tree,
                     power: Power { thresholds },
@@ -178,33 +182,55 @@ macro_rules! scene_pass {
                         count: triangles.len() as u32,
                     },
                 };
-                let $camera = &camera[0];
-                $body
+                let pixel = push.first.wrapping_add(i);
+                results[i as usize] = if $is_paths {
+                    path_pixel(&scene, &camera[0], &push.params, push.bounces, &picker, pixel)
+                } else {
+                    render_pixel(&scene, &camera[0], &push.params, &picker, pixel)
+                };
             }
         }
     };
 }
 
-pub(crate) use scene_pass;
+/// Both passes over the pixels of a scene with one type of light and tree.
+macro_rules! render_passes {
+    ($direct:ident = $direct_name:tt, $paths:ident = $paths_name:tt, $($scene:tt)*) => {
+        render_pass!($direct = $direct_name, false, $($scene)*);
+        render_pass!($paths = $paths_name, true, $($scene)*);
+    };
+}
 
-scene_pass!(
-    /// Direct lighting.
-    [render = "render", render_eq4 = "render_eq4", render_any = "render_any"],
-    RenderPush,
-    [results: [f32; 3] = 9 or 14],
-    |i, push, scene, picker, camera| {
-        let pixel = push.first.wrapping_add(i);
-        results[i as usize] = render_pixel(&scene, camera, &push.params, &picker, pixel);
-    }
+render_passes!(
+    render = "render",
+    render_paths = "render_paths",
+    StandardTree,
+    EmissiveTriangle,
+    Node,
+    [],
+    NoSky,
+    NoSkin,
+    9
 );
-
-scene_pass!(
-    /// Light along paths.
-    [render_paths = "render_paths", render_paths_eq4 = "render_paths_eq4", render_paths_any = "render_paths_any"],
-    RenderPush,
-    [results: [f32; 3] = 9 or 14],
-    |i, push, scene, picker, camera| {
-        let pixel = push.first.wrapping_add(i);
-        results[i as usize] = path_pixel(&scene, camera, &push.params, push.bounces, &picker, pixel);
-    }
+render_passes!(
+    render_eq4 = "render_eq4",
+    render_paths_eq4 = "render_paths_eq4",
+    PaperTree,
+    EmissiveTriangle,
+    PaperNode,
+    [],
+    NoSky,
+    NoSkin,
+    9
+);
+render_passes!(
+    render_any = "render_any",
+    render_paths_any = "render_paths_any",
+    AnyTree,
+    AnyLight,
+    AnyNode,
+    [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3], 12 corners: Corner, 13 paint: u32],
+    SkyView { suns, counts: sky_counts, radiance: sky_radiance },
+    SkinView { corners, words: paint },
+    14
 );

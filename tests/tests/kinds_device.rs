@@ -9,7 +9,8 @@ use lightbvh::{Bvh, Edit, EmissiveTriangle, LightPoint, Random64, SampledLight, 
 use lightbvh_gpu::{KernelSet, query_push};
 use lightbvh_host::backend::{Mirrored, nodes_in_use};
 use lightbvh_host::vulkan::Options;
-use lightbvh_kernels::kinds::{AnyNode, light_point_for};
+use lightbvh_kernels::bvh::AnyNode;
+use lightbvh_kernels::kinds::light_point_for;
 use lightbvh_kernels::query::{PointsPush, Query};
 use lightbvh_tests::devices::on_each_device;
 use lightbvh_tests::generate::{Random, across};

@@ -43,8 +43,6 @@ mod render_light;
 mod render_material;
 mod render_pick;
 mod render_rays;
-mod restir;
-mod restir_unbiased;
 mod sampling;
 mod scene_edits;
 mod scenes;

@@ -1,7 +1,5 @@
 //! The methods of the comparison: what they may leave out, and what they are equal to.
 
-use std::sync::Arc;
-
 use lightbvh::{BuildParams, Heuristic};
 use lightbvh_host::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler};
 use lightbvh_host::method::{Method, Step, Target, runner};
@@ -42,16 +40,13 @@ fn image(scene: &Scene, method: Method, visits: impl Fn(u32, bool) -> bool) -> V
             assert_eq!(times.wait, times.rebuild, "nothing is built beside the frame");
         }
     }
-    let arrays = Arc::new(arrays_at(scene, LAST, SETTINGS.width, SETTINGS.height).expect("a frame"));
+    let arrays = arrays_at(scene, LAST, SETTINGS.width, SETTINGS.height).expect("a frame");
     let step = Step {
         scene,
         frame: LAST,
         lights: &arrays.lights,
     };
-    runner
-        .image(&step, &arrays, &SETTINGS, 0)
-        .expect("an image")
-        .value
+    runner.image(&step, &arrays, &SETTINGS).expect("an image").value
 }
 
 #[test]

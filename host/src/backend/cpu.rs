@@ -11,11 +11,7 @@ use lightbvh_kernels::shading::pixel::Scene;
 use rayon::prelude::*;
 
 use super::batches::in_batches;
-use super::restir::cpu::resample;
-use super::{
-    Backend, BackendError, Bvh, Follow, Integrator, Restir, RestirFrame, Sampler, SceneArrays, Timed,
-    node_record,
-};
+use super::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, node_record};
 use crate::render::{render, render_path};
 use crate::scene::SceneLight;
 use crate::words::Record;
@@ -75,40 +71,15 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for CpuB
                 integrator,
             };
             Ok(Timed::of(|| match sampler {
-                Sampler::Uniform => image.by(&uniform(scene)),
-                Sampler::Power => image.by(&power(scene)),
+                Sampler::Uniform => image.by(&Uniform {
+                    count: scene.lights.triangles().len() as u32,
+                }),
+                Sampler::Power => image.by(&Power {
+                    thresholds: &scene.thresholds,
+                }),
                 Sampler::SingleLevel | Sampler::TwoLevel => image.by(&self.bvh.tree()),
             }))
         })
-    }
-
-    fn restir(
-        &mut self,
-        restir: &mut Restir<C::Light>,
-        frame: &RestirFrame<'_, C::Light>,
-    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
-        let source = restir.options().source;
-        let view = self.view(frame.scene, source);
-        Ok(Timed::of(|| match source {
-            Sampler::Uniform => resample(restir, frame, &view, &uniform(frame.scene)),
-            Sampler::Power => resample(restir, frame, &view, &power(frame.scene)),
-            Sampler::SingleLevel | Sampler::TwoLevel => resample(restir, frame, &view, &self.bvh.tree()),
-        }))
-    }
-}
-
-fn uniform<L>(scene: &SceneArrays<L>) -> Uniform
-where
-    L: SceneLight,
-{
-    Uniform {
-        count: scene.lights.triangles().len() as u32,
-    }
-}
-
-fn power<L>(scene: &SceneArrays<L>) -> Power<'_> {
-    Power {
-        thresholds: &scene.thresholds,
     }
 }
 

@@ -14,11 +14,9 @@ use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::batches::{all_candidates, in_batches};
-use super::device_arrays::{DeviceEmitters, DeviceTree, HeldScene, choosing, device_time};
-use super::restir::device::resample;
-use super::{
-    Backend, BackendError, Bvh, Integrator, Restir, RestirFrame, Sampler, SceneArrays, Timed, node_record,
-};
+use super::device_arrays::{DeviceTree, choosing, device_time, scene_bindings};
+use super::held::Held;
+use super::{Backend, BackendError, Bvh, Integrator, Sampler, SceneArrays, Timed, node_record};
 use crate::scene::SceneLight;
 use crate::vulkan::{Binding, Buffer, Device, Kernel, Pass};
 use crate::words::Record;
@@ -34,7 +32,7 @@ const SURFACES_PER_PASS: usize = 1 << 18;
 pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) device: &'d Device,
     pub(super) tree: DeviceTree<C::Node, C::Light>,
-    pub(super) roots: Arc<Buffer<BlasRoot>>,
+    pub(super) roots: Buffer<BlasRoot>,
     /// What refits are listed in.
     pub(super) list: Buffer<u32>,
     /// By which a refit's passes hand over from children to nodes.
@@ -44,7 +42,7 @@ pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     /// What was followed and is not yet submitted.
     pub(super) pending: Option<Pass<'static>>,
     /// The scene rendered last.
-    pub(super) scene: HeldScene<C::Light>,
+    scene: Held,
 }
 
 impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
@@ -56,12 +54,12 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         let mut new = Self {
             device,
             tree: DeviceTree::new(device)?,
-            roots: Arc::new(device.buffer(0, 1)?),
+            roots: device.buffer(0, 1)?,
             list: device.buffer(0, 1)?,
             children: device.buffer(0, 1)?,
             mirror: Mirror::default(),
             pending: None,
-            scene: HeldScene::default(),
+            scene: Held::default(),
         };
         // The copies of the first frame are the upload.
         new.follow_ahead(bvh)?;
@@ -81,11 +79,6 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         Ok(())
     }
 
-    /// The lights that `sampler` chooses among, where they are the light BVH's.
-    pub(super) fn emitters(&self, sampler: Sampler) -> Option<DeviceEmitters<C::Light>> {
-        sampler.needs_bvh().then(|| self.tree.emitters.clone())
-    }
-
     /// The kernel of this choice.
     pub(super) fn kernel(&self, name: &str) -> Result<Arc<Kernel>, BackendError> {
         Ok(self.device.kernel(&format!("{name}{}", C::SUFFIX))?)
@@ -95,8 +88,8 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     pub(super) fn buffers(&self, kernel: &Kernel) -> Vec<Binding> {
         let bind = |name: &str, stride: u32| match Array::named(name) {
             Some(Array::Nodes) => self.tree.nodes.bind(),
-            Some(Array::Triangles) => self.tree.emitters.triangles.bind(),
-            Some(Array::Instances) => self.tree.emitters.instances.bind(),
+            Some(Array::Triangles) => self.tree.triangles.bind(),
+            Some(Array::Instances) => self.tree.instances.bind(),
             Some(Array::Roots) => self.roots.bind(),
             Some(Array::Trails) => self.tree.trails.bind(),
             None if name == "children" => self.children.bind().of_elements(stride),
@@ -199,10 +192,8 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
         let kernel = device.kernel_with(&format!("{pass}{}", C::SUFFIX), choosing(sampler))?;
         let mut pass = self.led();
         let mut followed = pass.len();
-        let emitters = self.emitters(sampler);
-        let scene = self.scene.bring(device, scene, sampler, emitters, &mut pass);
-        let scene = scene.inspect_err(|_| self.scene = HeldScene::default())?;
-        let inputs = scene.with_lights(&self.tree);
+        let inputs = scene_bindings(device, &mut self.scene, scene, sampler, &self.tree, &mut pass);
+        let inputs = inputs.inspect_err(|_| self.scene = Held::default())?;
         let pixels = params.width as usize * params.height as usize;
         // The first part comes with the scene.
         let mut first_pass = Some(pass);
@@ -236,16 +227,8 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
         });
         if image.is_err() {
             // What the device holds is not known.
-            self.scene = HeldScene::default();
+            self.scene = Held::default();
         }
         image
-    }
-
-    fn restir(
-        &mut self,
-        restir: &mut Restir<C::Light>,
-        frame: &RestirFrame<'_, C::Light>,
-    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
-        resample::<C, W>(restir, frame, self)
     }
 }

@@ -1,7 +1,6 @@
 //! A BVH and its edits on a device: what changed is copied, the rest is computed there, all in one submission with what is
 //! asked next.
 
-use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::{Pod, bytes_of, cast_slice};
@@ -124,26 +123,11 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
         pass: &mut Pass<'a>,
     ) -> Result<(), BackendError> {
         let (device, own) = (self.device, &mut self.tree);
-        let emitters = &mut own.emitters;
         renew(device, &mut own.nodes, bvh, frame, Array::Nodes, pass)?;
-        renew(
-            device,
-            &mut emitters.instances,
-            bvh,
-            frame,
-            Array::Instances,
-            pass,
-        )?;
+        renew(device, &mut own.instances, bvh, frame, Array::Instances, pass)?;
         renew(device, &mut own.trails, bvh, frame, Array::Trails, pass)?;
         renew(device, &mut self.roots, bvh, frame, Array::Roots, pass)?;
-        renew(
-            device,
-            &mut emitters.triangles,
-            bvh,
-            frame,
-            Array::Triangles,
-            pass,
-        )?;
+        renew(device, &mut own.triangles, bvh, frame, Array::Triangles, pass)?;
         let top = self.mirror.top::<C::Node>() as usize;
         own.bottoms = bvh.nodes().len();
         own.top = top..top + bvh.top_nodes().len();
@@ -152,11 +136,10 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     }
 }
 
-/// Does a frame's copies of one buffer. If it needs more capacity, or something else still reads it, another buffer replaces it;
-/// the device copies the rest.
+/// Does a frame's copies of one buffer. If it needs more capacity, another buffer replaces it; the device copies the rest.
 fn renew<'a, T: Pod, N: Node<W>, I, const W: usize>(
     device: &Device,
-    buffer: &mut Arc<Buffer<T>>,
+    buffer: &mut Buffer<T>,
     bvh: &'a lightbvh::Bvh<N, I, W>,
     frame: &Frame,
     array: Array,
@@ -168,15 +151,10 @@ fn renew<'a, T: Pod, N: Node<W>, I, const W: usize>(
     if len == buffer.len() && copies().next().is_none() {
         return Ok(());
     }
-    if !Arc::get_mut(buffer).is_some_and(|own| own.set_len(len)) {
-        let room = if len > buffer.room() {
-            roomy(len)
-        } else {
-            buffer.room()
-        };
-        let new = device.buffer(len, room)?;
+    if !buffer.set_len(len) {
+        let new = device.buffer(len, roomy(len))?;
         pass.carry(buffer, &new);
-        *buffer = Arc::new(new);
+        *buffer = new;
     }
     for copy in copies() {
         let first = copy.bytes.start as usize / size_of::<T>();

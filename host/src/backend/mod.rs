@@ -11,7 +11,6 @@ mod follow;
 mod held;
 mod mirrored;
 mod record;
-mod restir;
 mod scene;
 mod words;
 
@@ -21,9 +20,6 @@ pub use device::DeviceBackend;
 pub use error::BackendError;
 pub use mirrored::Mirrored;
 pub use record::{PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, node_record};
-pub use restir::{
-    Combination, History, LightRemap, RESERVOIR_RECORD, Restir, RestirFrame, RestirOptions, SURFACE_RECORD,
-};
 pub use scene::{Sampler, SceneArrays};
 pub use words::DeviceArrays;
 
@@ -111,17 +107,6 @@ pub trait Backend<L: Emitter = EmissiveTriangle> {
         params: &RenderParams,
         sampler: Sampler,
         integrator: Integrator,
-    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError>;
-
-    /// Renders the next frame of `restir`: direct lighting, W/(m² sr), by rows from the upper left. Candidates from a light BVH
-    /// come from this backend's, and so do the lights then.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
-    fn restir(
-        &mut self,
-        restir: &mut Restir<L>,
-        frame: &RestirFrame<'_, L>,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError>;
 }
 

@@ -31,8 +31,8 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
         Ok(DeviceArrays {
             nodes: self.tree.node_words()?,
             roots: words(&self.roots)?,
-            instances: words(&self.tree.emitters.instances)?,
-            triangles: words(&self.tree.emitters.triangles)?,
+            instances: words(&self.tree.instances)?,
+            triangles: words(&self.tree.triangles)?,
             trails: words(&self.tree.trails)?,
         })
     }

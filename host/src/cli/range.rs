@@ -7,12 +7,11 @@ use crate::error::HostError;
 /// Columns and rows of an image, at most.
 pub(super) const MAX_SIDE: u64 = 16_384;
 
-/// A number as it was given: its option, its range, and what the range is of, as the error's last words.
+/// A number as it was given: its option and its range.
 pub(super) struct Given {
     pub option: &'static str,
     pub value: u64,
     pub range: RangeInclusive<u64>,
-    pub of: &'static str,
 }
 
 /// `value` of `option`, which is to lie in `range`.
@@ -21,7 +20,6 @@ pub(super) fn given(option: &'static str, value: impl Into<u64>, range: RangeInc
         option,
         value: value.into(),
         range,
-        of: "",
     }
 }
 
@@ -33,7 +31,7 @@ pub(super) fn check(numbers: &[Given]) -> Result<(), HostError> {
         Some(given) => Err(HostError::Range {
             option: given.option,
             value: given.value,
-            expected: format!("{} to {}{}", given.range.start(), given.range.end(), given.of),
+            expected: format!("{} to {}", given.range.start(), given.range.end()),
         }),
     }
 }

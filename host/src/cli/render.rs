@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 use self::options::{BackendName, IntegratorName, recipe};
 use self::sequence::Sequence;
 use self::view::{camera_words, check_places, playing, seen_by};
-use super::range::{self, Given, MAX_SIDE, given};
+use super::range::{self, MAX_SIDE, given};
 use super::{Context, Outcome, devices, frames, table, target};
 use crate::backend::Integrator;
 use crate::cli::table::news;
@@ -26,9 +26,6 @@ use crate::vulkan::VulkanError;
 
 pub(super) use self::options::Args;
 
-/// Most final samples of ReSTIR per pixel: each keeps a history of its own, about 80 bytes per pixel.
-const MAX_HISTORIES: u32 = 64;
-
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let recipe = recipe(args)?;
     if context.device.is_some() && args.backend == BackendName::Cpu {
@@ -37,18 +34,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             needs: "--backend vulkan",
         });
     }
-    let (most, of, default) = match recipe.reuse {
-        None => (65_536, "", 16),
-        Some(_) => (MAX_HISTORIES, " with ReSTIR", 1),
-    };
-    let samples = args.spp.unwrap_or(default);
     range::check(&[
         given("--width", args.width, 1..=MAX_SIDE),
         given("--height", args.height, 1..=MAX_SIDE),
-        Given {
-            of,
-            ..given("--spp", samples, 1..=most.into())
-        },
+        given("--spp", args.spp, 1..=65_536),
         given("--bounces", args.bounces.unwrap_or(1), 1..=MAX_BOUNCES.into()),
         given("--candidates", recipe.candidates, 1..=MAX_CANDIDATES.into()),
         given("--scattered", args.scattered, 0..=MAX_SCATTERED.into()),
@@ -100,7 +89,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let sequence = Sequence {
         args,
         recipe,
-        samples,
         scene: &scene,
     };
     let (shown, name) = match args.backend {
@@ -121,7 +109,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     };
     if context.json {
         let mut report = json!({
-            "camera_chosen": camera_words(&scene), "scene": scene.name(), "width": args.width, "height": args.height, "spp": samples,
+            "camera_chosen": camera_words(&scene), "scene": scene.name(), "width": args.width, "height": args.height, "spp": args.spp,
             "sampler": args.sampler, "backend": name,
         });
         if recipe.lights.needs_bvh() {
@@ -134,17 +122,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         }
         .into();
         report["integrator"] = json!(args.integrator);
-        if recipe.reuse.is_none() && args.integrator == IntegratorName::Direct {
+        if args.integrator == IntegratorName::Direct {
             report["candidates"] = recipe.candidates.into();
             report["scattered"] = recipe.scattered.into();
-        }
-        if let Some(options) = recipe.restir() {
-            report["restir"] = json!({
-                "mode": options.combination.name(),
-                "unbiased": options.combination.is_unbiased(),
-                "candidates": options.candidates,
-                "most_shadow_rays_per_sample": options.most_shadow_rays(),
-            });
         }
         if args.animate.is_some() {
             report["frames"] = shown.into();

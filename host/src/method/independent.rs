@@ -1,17 +1,19 @@
 //! Samples that know nothing of each other: lights chosen by a table, by a tree over all triangles, or by the paper's two
 //! levels.
 
-use std::sync::Arc;
+use std::hint::black_box;
+use std::time::Duration;
 
 use lightbvh::exact::hash;
 use lightbvh_kernels::bvh::Choice;
 
 use super::moving::Moving;
-use super::{Recipe, Runner, SampleBudget, SequenceId, Step, Target, UpdateTimes, mean_of, time_power_table};
+use super::{Recipe, Runner, SampleBudget, Step, Target, UpdateTimes};
 use crate::backend::{
     Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, all_candidates,
 };
 use crate::error::HostError;
+use crate::render::power_thresholds;
 use crate::scene::SceneLight;
 use crate::workload::{RenderSettings, build, words_in_use};
 
@@ -54,7 +56,7 @@ impl<'d, C: Choice<W, Light: SceneLight>, const W: usize> Independent<'d, C, W> 
 impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Independent<'_, C, W> {
     fn advance(&mut self, step: &Step<'_, C::Light>) -> Result<UpdateTimes, HostError> {
         if let Some(moving) = &mut self.moving {
-            return moving.advance(step, Some(&mut *self.backend));
+            return moving.advance(step, &mut *self.backend);
         }
         if let Some(bvh) = &mut self.single {
             let followed = Timed::of(|| bvh.follow(step.lights));
@@ -65,7 +67,11 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
             });
         }
         match self.recipe.lights {
-            Sampler::Power => Ok(time_power_table(step)),
+            // The renderer reads the table that comes with the frame's arrays; here it is made once more, for its time.
+            Sampler::Power => {
+                let made = Timed::of(|| black_box(power_thresholds(step.lights.triangles())).is_ok());
+                Ok(UpdateTimes::waited(made.time))
+            }
             Sampler::SingleLevel => {
                 let params = self.recipe.builder.params();
                 let built = Timed::of(|| build(step.lights, Sampler::SingleLevel, &params));
@@ -79,12 +85,17 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
     fn image(
         &mut self,
         step: &Step<'_, C::Light>,
-        arrays: &Arc<SceneArrays<C::Light>>,
+        arrays: &SceneArrays<C::Light>,
         settings: &RenderSettings,
-        _sequence: SequenceId,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
         let recipe = self.recipe;
-        recipe.require_power_table(step, arrays)?;
+        if recipe.lights == Sampler::Power && arrays.thresholds.is_empty() {
+            return Err(HostError::Sampler {
+                scene: step.scene.name().to_owned(),
+                sampler: recipe.name,
+                lights: arrays.lights.triangles().len(),
+            });
+        }
         let mut all = settings.params(step.scene.data().background);
         all.candidates = recipe.candidates;
         all.scattered = recipe.scattered;
@@ -114,8 +125,8 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
         }
     }
 
-    fn backend(&mut self) -> Option<&mut dyn Backend<C::Light>> {
-        Some(&mut *self.backend)
+    fn backend(&mut self) -> &mut dyn Backend<C::Light> {
+        &mut *self.backend
     }
 
     fn words_in_use(&self, nodes: Vec<u32>) -> Vec<u32> {
@@ -142,4 +153,24 @@ fn parts(integrator: Integrator, samples: u32, candidates: u32) -> u32 {
         }
         Integrator::Direct | Integrator::Path { .. } => samples,
     }
+}
+
+/// The mean of `count` images, and their times together.
+fn mean_of(
+    count: u32,
+    settings: &RenderSettings,
+    mut image: impl FnMut(u32) -> Result<Timed<Vec<[f32; 3]>>, HostError>,
+) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
+    let mut sum = Timed {
+        value: vec![[0.0f32; 3]; settings.width as usize * settings.height as usize],
+        time: Duration::ZERO,
+    };
+    for number in 0..count {
+        let part = image(number)?;
+        sum.time += part.time;
+        for (sum, part) in sum.value.iter_mut().flatten().zip(part.value.iter().flatten()) {
+            *sum += part / count as f32;
+        }
+    }
+    Ok(sum)
 }

@@ -5,12 +5,9 @@
 mod independent;
 mod moving;
 mod names;
-mod restir;
 
 pub use names::{Builder, Importance, Method, Recipe};
 
-use std::hint::black_box;
-use std::sync::Arc;
 use std::time::Duration;
 
 use lightbvh::light::AnyLight;
@@ -18,12 +15,8 @@ use lightbvh::{EditError, EmissiveTriangle, Lights};
 use lightbvh_kernels::bvh::{Choice, Kinds, Paper, Standard, WIDTH};
 
 use self::independent::Independent;
-use self::restir::Reservoirs;
-use crate::backend::{
-    Backend, BackendError, Bvh, CpuBackend, DeviceBackend, Follow, History, Sampler, SceneArrays, Timed,
-};
+use crate::backend::{Backend, BackendError, Bvh, CpuBackend, DeviceBackend, Follow, SceneArrays, Timed};
 use crate::error::HostError;
-use crate::render::power_thresholds;
 use crate::scene::{Scene, SceneLight};
 use crate::vulkan::Device;
 use crate::workload::RenderSettings;
@@ -76,17 +69,13 @@ impl UpdateTimes {
     }
 }
 
-/// Names a sequence of images of consecutive frames.
-pub type SequenceId = u64;
-
 /// What [`RenderSettings::samples`] counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleBudget {
-    /// Shadow rays per pixel, so that methods can be compared at equal cost: of ReSTIR, as many histories as cost no more, but
-    /// one at least. All look at the same points in the pixels.
+    /// Shadow rays per pixel, so that methods can be compared at equal cost. All look at the same points in the pixels.
     ShadowRays,
-    /// Light samples per pixel, paths, or histories of ReSTIR, shared out over points of their own in the pixels, the same in
-    /// every frame: edges become smooth.
+    /// Light samples per pixel, or paths, shared out over points of their own in the pixels, the same in every frame: edges become
+    /// smooth.
     CameraRays,
 }
 
@@ -99,55 +88,25 @@ pub trait Runner<L: SceneLight = EmissiveTriangle> {
     /// [`HostError`] from a device, or for lights that the method cannot take.
     fn advance(&mut self, step: &Step<'_, L>) -> Result<UpdateTimes, HostError>;
 
-    /// Renders the frame last advanced to, which `arrays` are of, and `settings` too. Images of one `sequence` follow each other
-    /// over consecutive frames, so that what one leaves behind (reservoirs) may serve the next; a sequence that is not
-    /// known yet begins.
+    /// Renders the frame last advanced to, which `arrays` are of, and `settings` too.
     ///
     /// # Errors
     /// [`HostError`] from a device, or for a scene that the method cannot take.
     fn image(
         &mut self,
         step: &Step<'_, L>,
-        arrays: &Arc<SceneArrays<L>>,
+        arrays: &SceneArrays<L>,
         settings: &RenderSettings,
-        sequence: SequenceId,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError>;
 
-    /// Drops what a sequence left behind.
-    fn end(&mut self, _sequence: SequenceId) {}
-
-    /// What renders single images, where one does: of the frame last advanced to.
-    fn backend(&mut self) -> Option<&mut dyn Backend<L>> {
-        None
-    }
+    /// What renders, as of the frame last advanced to.
+    fn backend(&mut self) -> &mut dyn Backend<L>;
 
     /// The words in use, out of the words of all nodes of the [`backend`](Self::backend).
-    fn words_in_use(&self, nodes: Vec<u32>) -> Vec<u32> {
-        nodes
-    }
-
-    /// What the last image of a sequence left behind, history by history; nothing but of ReSTIR.
-    ///
-    /// # Errors
-    /// [`HostError`] from a device.
-    fn histories(&self, _sequence: SequenceId) -> Result<Vec<History>, HostError> {
-        Ok(Vec::new())
-    }
-
-    /// Shadow rays that the last image of a sequence traced, where they are counted.
-    fn shadow_rays(&self, _sequence: SequenceId) -> Option<u64> {
-        None
-    }
+    fn words_in_use(&self, nodes: Vec<u32>) -> Vec<u32>;
 
     /// Whether a frame depends on the first frame and itself alone, so that those between may be left out.
-    fn may_skip(&self) -> bool {
-        false
-    }
-
-    /// How many images of its sequence must come before the one that counts.
-    fn history(&self) -> u32 {
-        0
-    }
+    fn may_skip(&self) -> bool;
 }
 
 /// Where a method renders and refits.
@@ -210,26 +169,7 @@ impl Recipe {
         first: &Step<'_, C::Light>,
         target: Target<'d>,
     ) -> Result<Box<dyn Runner<C::Light> + 'd>, HostError> {
-        Ok(match self.restir() {
-            Some(options) => Box::new(Reservoirs::<C, W>::new(*self, options, first, target)?),
-            None => Box::new(Independent::<C, W>::new(*self, first, target)?),
-        })
-    }
-
-    /// An error where lights are chosen by a power table and there is none.
-    fn require_power_table<L: SceneLight>(
-        &self,
-        step: &Step<'_, L>,
-        arrays: &SceneArrays<L>,
-    ) -> Result<(), HostError> {
-        if self.lights == Sampler::Power && arrays.thresholds.is_empty() {
-            return Err(HostError::Sampler {
-                scene: step.scene.name().to_owned(),
-                sampler: self.name,
-                lights: arrays.lights.triangles().len(),
-            });
-        }
-        Ok(())
+        Ok(Box::new(Independent::<C, W>::new(*self, first, target)?))
     }
 }
 
@@ -280,30 +220,4 @@ impl MethodLight for AnyLight {
             }),
         }
     }
-}
-
-/// The renderer reads the table that comes with the frame's arrays; here it is made once more, for its time.
-fn time_power_table<L: SceneLight>(step: &Step<'_, L>) -> UpdateTimes {
-    let made = Timed::of(|| black_box(power_thresholds(step.lights.triangles())).is_ok());
-    UpdateTimes::waited(made.time)
-}
-
-/// The mean of `count` images, and their times together.
-fn mean_of(
-    count: u32,
-    settings: &RenderSettings,
-    mut image: impl FnMut(u32) -> Result<Timed<Vec<[f32; 3]>>, HostError>,
-) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
-    let mut sum = Timed {
-        value: vec![[0.0f32; 3]; settings.width as usize * settings.height as usize],
-        time: Duration::ZERO,
-    };
-    for number in 0..count {
-        let part = image(number)?;
-        sum.time += part.time;
-        for (sum, part) in sum.value.iter_mut().flatten().zip(part.value.iter().flatten()) {
-            *sum += part / count as f32;
-        }
-    }
-    Ok(sum)
 }

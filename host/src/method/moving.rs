@@ -41,12 +41,12 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Moving<C, W> {
         &self.scene
     }
 
-    /// Updates the lights to the next frame, then `backend`, if any. Time of refit is all that the frame's thread does for it:
+    /// Updates the lights to the next frame, then `backend`. Time of refit is all that the frame's thread does for it:
     /// swapping in the new trees, the edits, and new summaries, and those of `backend`.
     pub fn advance(
         &mut self,
         step: &Step<'_, C::Light>,
-        backend: Option<&mut (dyn Follow<C, W> + '_)>,
+        backend: &mut (dyn Follow<C, W> + '_),
     ) -> Result<UpdateTimes, HostError> {
         // Following the animation is the scene's business, whichever method renders it.
         let edits = self.instances.edits(step.scene, step.frame);
@@ -54,10 +54,8 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Moving<C, W> {
         let start = self.rebuilder.begin_frame(&mut self.scene)?;
         self.scene.apply(edits).map_err(|source| step.refused(source))?;
         self.scene.refit();
-        let mut refit = began.elapsed().saturating_sub(start.waited);
-        if let Some(backend) = backend {
-            refit += backend.follow(&self.scene)?.time;
-        }
+        let own = began.elapsed().saturating_sub(start.waited);
+        let refit = own + backend.follow(&self.scene)?.time;
         self.rebuilder.end_frame(&self.scene);
         Ok(UpdateTimes {
             refit,

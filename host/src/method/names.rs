@@ -6,7 +6,7 @@ use serde::Serialize;
 use strum::{IntoStaticStr, VariantArray};
 
 use super::SampleBudget;
-use crate::backend::{Combination, Integrator, RestirOptions, Sampler};
+use crate::backend::{Integrator, Sampler};
 
 /// Candidates of a resampled method.
 const DEFAULT_CANDIDATES: u32 = 8;
@@ -48,13 +48,6 @@ pub enum Method {
     TwoLevelMoments,
     /// The same, with each sample one of several candidates, by what they would contribute.
     TwoLevelMomentsResampled,
-    /// Spatiotemporal reservoirs (Bitterli et al. 2020).
-    Restir,
-    /// The same with candidates from the paper's two-level light BVH.
-    TwoLevelRestir,
-    /// The same with candidates from the default two-level light BVH.
-    #[value(alias = "bvh-restir")]
-    TwoLevelMomentsRestir,
 }
 
 /// What lights of a BVH are chosen by: a [`Choice`].
@@ -95,13 +88,11 @@ pub struct Recipe {
     pub builder: Builder,
     /// Whether a single level is built anew by every frame, which waits for it.
     pub rebuilt: bool,
-    /// Candidates that each sample of direct light is one of; 1 for lights as picked. ReSTIR has its own number.
+    /// Candidates that each sample of direct light is one of; 1 for lights as picked.
     pub candidates: u32,
     /// Directions that the surface reflects into whose lights join the candidates of each sample of direct light.
     pub scattered: u32,
-    /// How samples are reused by ReSTIR, if they are.
-    pub reuse: Option<Combination>,
-    /// What light is followed; ReSTIR follows direct light.
+    /// What light is followed.
     pub integrator: Integrator,
     /// What the samples of an image count.
     pub budget: SampleBudget,
@@ -128,17 +119,12 @@ impl Method {
             rebuilt: false,
             candidates: 1,
             scattered: 0,
-            reuse: None,
             integrator: Integrator::Direct,
             budget: SampleBudget::ShadowRays,
         };
         let rebuilt = |importance| Recipe {
             rebuilt: true,
             ..by(SingleLevel, importance)
-        };
-        let restir = |lights, importance| Recipe {
-            reuse: Some(Combination::Unbiased),
-            ..by(lights, importance)
         };
         match self {
             Self::Uniform => by(Uniform, Moments),
@@ -156,23 +142,7 @@ impl Method {
                 candidates: DEFAULT_CANDIDATES,
                 ..by(TwoLevel, Moments)
             },
-            Self::Restir => restir(Power, Moments),
-            Self::TwoLevelRestir => restir(TwoLevel, Eq4),
-            Self::TwoLevelMomentsRestir => restir(TwoLevel, Moments),
         }
-    }
-}
-
-impl Recipe {
-    /// Whether an image depends on a light BVH and nothing else.
-    pub fn is_light_bvh(&self) -> bool {
-        self.lights.needs_bvh() && self.reuse.is_none()
-    }
-
-    /// What ReSTIR does, if the method is that.
-    pub fn restir(&self) -> Option<RestirOptions> {
-        let reuse = self.reuse?;
-        Some(RestirOptions::new(self.lights, reuse))
     }
 }
 

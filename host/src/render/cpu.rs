@@ -1,7 +1,6 @@
 //! The render passes on the CPU: the kernel's function for each pixel, over all cores.
 
-use lightbvh_kernels::path::path_pixel;
-use lightbvh_kernels::render::{RenderParams, render_pixel};
+use lightbvh_kernels::render::{RenderParams, path_pixel, render_pixel};
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::emitter::Emitter;
 use lightbvh_kernels::shading::pick::PickLight;

@@ -3,7 +3,6 @@
 use super::buffer::{Binding, Buffer};
 use super::error::VulkanError;
 use super::kernel::Kernel;
-use super::memory::Region;
 use super::shared::Shared;
 use bytemuck::Pod;
 use lightbvh_gpu::groups;
@@ -15,7 +14,7 @@ use std::sync::Arc;
 #[derive(Clone, Default)]
 pub struct Pass<'a> {
     pub(crate) fills: Vec<Binding>,
-    pub(super) carries: Vec<(Binding, Binding, Vec<Region>)>,
+    pub(super) carries: Vec<(Binding, Binding, u64)>,
     pub(crate) writes: Vec<Write<'a>>,
     pub(crate) dispatches: Vec<Dispatch>,
 }
@@ -67,42 +66,11 @@ impl<'a> Pass<'a> {
 
     /// Copies what `from` holds to the start of `to`, as far as both reach; before anything is written.
     pub fn carry<T: Pod>(&mut self, from: &Buffer<T>, to: &Buffer<T>) -> &mut Self {
-        let len = from.len().min(to.len());
-        // Both have so many.
-        let _ = self.carry_parts(from, to, &[(0, 0..len)]);
+        let bytes = from.byte_len().min(to.byte_len()) as u64;
+        if bytes > 0 {
+            self.carries.push((from.bind(), to.bind(), bytes));
+        }
         self
-    }
-
-    /// Copies elements of `from`, from each first one on, to places in `to`, another buffer; before anything is written. The
-    /// places do not overlap.
-    ///
-    /// # Errors
-    /// [`VulkanError::WrongLength`] when they do not fit.
-    pub fn carry_parts<T: Pod>(
-        &mut self,
-        from: &Buffer<T>,
-        to: &Buffer<T>,
-        parts: &[(usize, Range<usize>)],
-    ) -> Result<&mut Self, VulkanError> {
-        let mut regions = Vec::new();
-        for (first, place) in parts.iter().filter(|(_, place)| !place.is_empty()) {
-            let len = place.len();
-            for (end, held) in [(first.saturating_add(len), from.len()), (place.end, to.len())] {
-                if end > held {
-                    return Err(VulkanError::WrongLength { given: end, held });
-                }
-            }
-            let bytes = |elements: usize| (elements * size_of::<T>()) as u64;
-            regions.push(Region {
-                from: bytes(*first),
-                to: bytes(place.start),
-                bytes: bytes(len),
-            });
-        }
-        if !regions.is_empty() {
-            self.carries.push((from.bind(), to.bind(), regions));
-        }
-        Ok(self)
     }
 
     /// Replaces elements of `buffer` from `first` on, before any dispatch. Parts that are written in one pass do not overlap.

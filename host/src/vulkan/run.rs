@@ -144,11 +144,7 @@ impl Device {
                 }
             }
         })?;
-        let carried: u64 = pass
-            .carries
-            .iter()
-            .map(|(_, _, regions)| regions.len() as u64)
-            .sum();
+        let carried = pass.carries.len() as u64;
         count(&shared.counters.regions, last.regions() + carried);
         count(&shared.counters.runs, last.runs());
         Ok(Submission {
@@ -184,7 +180,7 @@ fn prepare(
     device: &ash::Device,
     commands: vk::CommandBuffer,
     fills: &[super::Binding],
-    carries: &[(super::Binding, super::Binding, Vec<Region>)],
+    carries: &[(super::Binding, super::Binding, u64)],
 ) {
     for binding in fills {
         fill(device, commands, &binding.memory, UNWRITTEN);
@@ -192,8 +188,13 @@ fn prepare(
     if !fills.is_empty() && !carries.is_empty() {
         barrier(device, commands);
     }
-    for (from, to, regions) in carries {
-        copy(device, commands, from.memory.buffer, to.memory.buffer, regions);
+    for &(ref from, ref to, bytes) in carries {
+        let whole = Region {
+            from: 0,
+            to: 0,
+            bytes,
+        };
+        copy(device, commands, from.memory.buffer, to.memory.buffer, &[whole]);
     }
     if !fills.is_empty() || !carries.is_empty() {
         barrier(device, commands);

@@ -97,25 +97,6 @@ fn trade_measures_each_choice() {
     }
 }
 
-/// ReSTIR beside the default: unbiased, by whole histories of six rays.
-#[test]
-fn trade_measures_restir() {
-    let report = json("trade --json --quick --axes integrator --size 48x27 --frame 12");
-    let points = report["points"].as_array().expect("points");
-    let restir: Vec<_> = points
-        .iter()
-        .filter(|point| point["config"]["integrator"] == "restir")
-        .collect();
-    let sources: Vec<_> = restir.iter().map(|point| &point["config"]["levels"]).collect();
-    assert_eq!(sources, ["power", "two-level"]);
-    for point in restir {
-        assert!(point["error"].as_f64() > Some(0.0), "{point}");
-        assert!(point["error_equal_time"].as_f64() > Some(0.0), "{point}");
-        let bias = point["bias"]["mean"].as_f64().expect("several images");
-        assert!(bias.abs() < 0.3, "{point}");
-    }
-}
-
 /// More time, less error; less error, more time.
 #[test]
 fn trade_picks_within_a_budget() {

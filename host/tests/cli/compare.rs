@@ -107,9 +107,6 @@ fn quick_compares_all_methods_on_all_scenes() {
             "two-level-sah",
             "two-level-saoh",
             "two-level-moments",
-            "restir",
-            "two-level-restir",
-            "two-level-moments-restir",
         ] {
             let of_method = |row: &&Value| row["scene"] == scene && row["method"] == method;
             assert_eq!(

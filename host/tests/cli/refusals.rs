@@ -36,7 +36,6 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
     for (options, needs) in [
         ("--bounces 3", "--integrator path"),
         ("--device 0", "--backend vulkan"),
-        ("--sampler restir --candidates 4", "without ReSTIR"),
         (
             "--sampler two-level-moments-resampled --integrator path",
             "without candidates",

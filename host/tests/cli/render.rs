@@ -59,8 +59,6 @@ fn every_sampler_heuristic_and_importance_renders() {
         "single-level-refit",
         "single-level-rebuilt",
         "two-level",
-        "restir",
-        "bvh-restir",
     ] {
         for (heuristic, importance) in [
             ("sah", "eq4"),
@@ -81,44 +79,6 @@ fn every_sampler_heuristic_and_importance_renders() {
             assert!(Path::new(&file).exists());
         }
     }
-}
-
-#[test]
-fn restir_says_what_it_is_and_gives_the_same_file_on_both_processors() {
-    let folder = Folder::new("restir");
-    let device = has_device();
-    for (sampler, name, mode) in [
-        ("restir", "restir", Some("biased")),
-        ("restir", "restir", Some("unbiased")),
-        ("bvh-restir", "two-level-moments-restir", None),
-    ] {
-        let mut files = Vec::new();
-        for backend in ["cpu", "vulkan"] {
-            if backend == "vulkan" && !device {
-                continue;
-            }
-            let file = folder.file(&format!("{backend}.exr"));
-            let combined = mode.map_or(String::new(), |mode| format!("--restir-mode {mode}"));
-            let report = json(&format!(
-                "render carousel --frame 2 --width 48 --height 27 --spp 2 --sampler {sampler} {combined} \
-                 --backend {backend} -o {file} --json"
-            ));
-            let restir = &report["restir"];
-            assert_eq!(report["sampler"], name);
-            assert_eq!(restir["mode"], mode.unwrap_or("unbiased"));
-            assert_eq!(restir["unbiased"], mode != Some("biased"));
-            let rays = report["shadow_rays_per_pixel"].as_f64().expect("rays");
-            let most = 2.0 * restir["most_shadow_rays_per_sample"].as_f64().expect("rays");
-            assert!(rays > 0.0 && rays <= most, "{rays} {most}");
-            files.push(std::fs::read(&file).expect("an image"));
-        }
-        assert!(
-            files.windows(2).all(|pair| pair[0] == pair[1]),
-            "{sampler}: the images differ"
-        );
-    }
-    let help = String::from_utf8(run("render --help").stdout).expect("text");
-    assert!(help.contains("biased (darker"), "{help}");
 }
 
 /// Nobody reads what it says: an error with its own exit code, no panic, and the image is there.

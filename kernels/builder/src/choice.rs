@@ -1,47 +1,36 @@
 //! Kernels of another choice of layout, width and share of uniform choice: a crate of entry points that is written, then built
 //! like any other crate's.
 
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use lightbvh::requirements::{Layout, Model};
 
-use crate::files::{self, FileError};
+use crate::Error;
+use crate::files::{self, cannot};
 
 /// The entry points; `NODE` and `IMPORTANCE` stand for the choice's types.
 const ENTRY_POINTS: &str = include_str!("choice/entry_points.txt");
 
-/// Most halvings of a share of uniform choice, as `Defensive` has it.
-const MOST_HALVINGS: u32 = 20;
-
-/// Why options name no choice.
-#[derive(Debug, thiserror::Error, PartialEq, Eq)]
-pub enum ChoiceError {
-    /// No such layout.
-    #[error("--layout {0} is not known, expected moments or two-sided")]
-    Layout(String),
-    /// No such width.
-    #[error("--width {0} is out of range, expected 4 to 16")]
-    Width(String),
-    /// No such share.
-    #[error("--share {0} is out of range, expected 0 for none or up to 20 halvings of 1")]
-    Share(String),
-}
-
 /// The choice that the values of `--layout`, `--width` and `--share` name.
 ///
 /// # Errors
-/// [`ChoiceError`] naming the first that means nothing.
-pub fn parse(layout: &str, width: &str, share: &str) -> Result<Model, ChoiceError> {
+/// Names the first that means nothing.
+pub fn parse(layout: &str, width: &str, share: &str) -> Result<Model, Error> {
     let named = Layout::ALL.into_iter().find(|own| own.name() == layout);
-    let number = |text: &str| text.parse::<u32>().ok();
+    let number = |option: &str, text: &str, range: RangeInclusive<u32>, expected: &str| {
+        let number = text.parse().ok().filter(|number| range.contains(number));
+        let refused = || format!("--{option} {text} is out of range, expected {expected}");
+        number.ok_or_else(|| Error(refused()))
+    };
     Ok(Model {
-        layout: named.ok_or_else(|| ChoiceError::Layout(layout.to_owned()))?,
-        width: number(width)
-            .filter(|width| (4..=16).contains(width))
-            .ok_or_else(|| ChoiceError::Width(width.to_owned()))? as usize,
-        uniform_halvings: number(share)
-            .filter(|&share| share <= MOST_HALVINGS)
-            .ok_or_else(|| ChoiceError::Share(share.to_owned()))?,
+        layout: named.ok_or_else(|| {
+            Error(format!(
+                "--layout {layout} is not known, expected moments or two-sided"
+            ))
+        })?,
+        width: number("width", width, 4..=16, "4 to 16")? as usize,
+        uniform_halvings: number("share", share, 0..=20, "0 for none or up to 20 halvings of 1")?,
         ..Model::DEFAULT
     })
 }
@@ -50,14 +39,12 @@ pub fn parse(layout: &str, width: &str, share: &str) -> Result<Model, ChoiceErro
 ///
 /// # Errors
 /// Names the file that cannot be written.
-pub fn write_crate(choice: &Model, root: &Path, out: &Path) -> Result<PathBuf, FileError> {
+pub fn write_crate(choice: &Model, root: &Path, out: &Path) -> Result<PathBuf, Error> {
     let folder = out.join("crate");
     let sources = folder.join("src");
-    std::fs::create_dir_all(&sources).map_err(|source| FileError::new("create", &sources, source))?;
+    std::fs::create_dir_all(&sources).map_err(cannot("create", &sources))?;
     let core = root.join("core");
-    let core = core
-        .canonicalize()
-        .map_err(|source| FileError::new("resolve", &core, source))?;
+    let core = core.canonicalize().map_err(cannot("resolve", &core))?;
     files::replace(&folder.join("Cargo.toml"), manifest(&core).as_bytes())?;
     files::replace(&sources.join("lib.rs"), entry_points(choice).as_bytes())?;
     Ok(folder)
@@ -105,22 +92,18 @@ mod tests {
         );
         let choice = parse("moments", "8", "6").expect("a choice");
         assert_eq!(choice, Model::DEFAULT);
-        for layout in ["Moments", "eq4", "", "two-sided-moments"] {
-            assert_eq!(
-                parse(layout, "8", "6"),
-                Err(ChoiceError::Layout(layout.to_owned()))
-            );
+        for (layout, width, share, said) in [
+            ("Moments", "8", "6", "--layout Moments"),
+            ("eq4", "8", "6", "--layout eq4"),
+            ("", "8", "6", "--layout "),
+            ("two-sided", "3", "6", "--width 3"),
+            ("two-sided", "17", "6", "--width 17"),
+            ("two-sided", "eight", "6", "--width eight"),
+            ("moments", "8", "21", "--share 21"),
+        ] {
+            let error = parse(layout, width, share).expect_err(said).to_string();
+            assert!(error.starts_with(said) && error.contains("expected"), "{error}");
         }
-        for width in ["3", "17", "-8", "eight"] {
-            assert_eq!(
-                parse("two-sided", width, "6"),
-                Err(ChoiceError::Width(width.to_owned()))
-            );
-        }
-        assert_eq!(
-            parse("moments", "8", "21"),
-            Err(ChoiceError::Share("21".to_owned()))
-        );
     }
 
     /// Every pass of a set of kernels is there, over the nodes of the choice.

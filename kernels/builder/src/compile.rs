@@ -1,13 +1,13 @@
 //! Runs rust-gpu on the kernels, or on any crate of kernels. Only with the features `prebuilt-backend` or `upstream`.
 
+use crate::Error;
 use crate::decorate::decorate;
-use crate::files::{self, FileError};
-use crate::manifest::{FORMAT, Manifest, ManifestError, ModuleRecord};
+use crate::files::{self, cannot};
+use crate::manifest::{self, FORMAT, Manifest, ModuleRecord};
 use crate::names::buffer_names;
 use crate::sources::{self, ALWAYS};
-use crate::verify::{VerifyError, verify};
-use crate::{Unreadable, manifest};
-use spirv_builder::{Capability, CompileResult, ModuleResult, SpirvBuilder, SpirvBuilderError};
+use crate::verify::verify;
+use spirv_builder::{Capability, CompileResult, ModuleResult, SpirvBuilder};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -25,56 +25,6 @@ const NAMED: &str = "target/kernels/named";
 
 /// The version of spirv-builder, which `Cargo.toml` pins, and with it of the backend.
 const BACKEND: &str = "rustc_codegen_spirv 0.11.0";
-
-/// Why the kernels could not be built.
-#[derive(Debug, thiserror::Error)]
-pub enum CompileError {
-    /// A backend was named, but not the toolchain that loads it.
-    #[error(
-        "RUSTC_CODEGEN_SPIRV is set but RUST_GPU_TOOLCHAIN is not; set it to the rustup toolchain of the backend"
-    )]
-    NoToolchain,
-    /// Built for a prebuilt backend, but none was named.
-    #[error(
-        "RUSTC_CODEGEN_SPIRV is not set; set it and RUST_GPU_TOOLCHAIN to a prebuilt backend and its toolchain, \
-         or build with --features upstream on upstream's nightly (kernels/README.md)"
-    )]
-    NoBackend,
-    /// The compiler refused.
-    #[error("rust-gpu: {0}")]
-    Builder(#[from] SpirvBuilderError),
-    /// The compiler gave one module for all entry points.
-    #[error("rust-gpu gave one module where one per entry point was asked for")]
-    SingleModule,
-    /// The crate has nothing to compile.
-    #[error("the crate has no entry point: no function with #[spirv(compute(..))]")]
-    NoEntryPoint,
-    /// A module that cannot be parsed.
-    #[error("{file}: {source}")]
-    Unreadable {
-        /// The file.
-        file: String,
-        /// What the parser said.
-        source: Unreadable,
-    },
-    /// A module that breaks the rules.
-    #[error(transparent)]
-    Verify(#[from] VerifyError),
-    /// A module or file that does not fit.
-    #[error(transparent)]
-    Manifest(#[from] ManifestError),
-    /// A file that cannot be read.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// `rustc --version` failed.
-    #[error("cannot run {program}: {reason}")]
-    Compiler {
-        /// The command.
-        program: String,
-        /// What went wrong.
-        reason: String,
-    },
-}
 
 /// Finished modules and their manifest.
 pub struct Built {
@@ -100,7 +50,7 @@ struct Compiled {
 ///
 /// # Errors
 /// What the compiler, the verifier or the file system said.
-pub fn compile(root: &Path) -> Result<Built, CompileError> {
+pub fn compile(root: &Path) -> Result<Built, Error> {
     let root = &resolved(root)?;
     let prebuilt = prebuilt()?;
     let compiler = compiler(prebuilt.as_ref())?;
@@ -132,12 +82,12 @@ pub fn compile(root: &Path) -> Result<Built, CompileError> {
 ///
 /// # Errors
 /// As [`compile`]; nothing is written then.
-pub fn compile_crate(path: &Path, out: &Path) -> Result<Vec<(ModuleRecord, Vec<u32>)>, CompileError> {
+pub fn compile_crate(path: &Path, out: &Path) -> Result<Vec<(ModuleRecord, Vec<u32>)>, Error> {
     let path = resolved(path)?;
     let target = path.join(TARGET_DIR);
     let named = path.join(NAMED);
     let compiled = modules(prebuilt()?, &path, &target, &path, &named.to_string_lossy())?;
-    std::fs::create_dir_all(out).map_err(|source| FileError::new("create", out, source))?;
+    std::fs::create_dir_all(out).map_err(cannot("create", out))?;
     for (record, words) in &compiled.modules {
         files::replace(&out.join(&record.file), &files::bytes(words))?;
     }
@@ -145,9 +95,8 @@ pub fn compile_crate(path: &Path, out: &Path) -> Result<Vec<(ModuleRecord, Vec<u
 }
 
 /// Cargo names files by their resolved paths, and they are compared with this one.
-fn resolved(path: &Path) -> Result<PathBuf, FileError> {
-    path.canonicalize()
-        .map_err(|source| FileError::new("resolve", path, source))
+fn resolved(path: &Path) -> Result<PathBuf, Error> {
+    path.canonicalize().map_err(cannot("resolve", path))
 }
 
 /// The finished modules of the crate in the folder `kernels`, sorted by name. `named` is where the compiler leaves its names,
@@ -158,28 +107,27 @@ fn modules(
     target: &Path,
     root: &Path,
     named: &str,
-) -> Result<Compiled, CompileError> {
+) -> Result<Compiled, Error> {
     let directory = root.join(named);
-    std::fs::create_dir_all(&directory).map_err(|source| FileError::new("create", &directory, source))?;
+    std::fs::create_dir_all(&directory).map_err(cannot("create", &directory))?;
     let result = run(kernels, target, named, prebuilt)?;
     let ModuleResult::MultiModule(raw) = result.module else {
-        return Err(CompileError::SingleModule);
+        return Err(Error(
+            "rust-gpu gave one module where one per entry point was asked for".to_owned(),
+        ));
     };
-    let any = raw.values().next().ok_or(CompileError::NoEntryPoint)?;
+    let any = raw.values().next().ok_or_else(|| {
+        Error("the crate has no entry point: no function with #[spirv(compute(..))]".to_owned())
+    })?;
     // .../NAME.spvs/ENTRY.spv
     let crate_name = any.parent().and_then(Path::file_stem).unwrap_or_default();
     let mut names = names(&directory.join(crate_name).with_extension("spv"))?;
     let mut modules = Vec::new();
     for (entry_point, path) in &raw {
         let file = format!("{entry_point}.spv");
-        let words = files::words(&files::read(path)?).ok_or_else(|| ManifestError::Module {
-            file: file.clone(),
-            what: "not whole words",
-        })?;
-        let words = decorate(&words).map_err(|source| CompileError::Unreadable {
-            file: file.clone(),
-            source,
-        })?;
+        // What is not whole words is no module.
+        let words = files::words(&files::read(path)?).unwrap_or_default();
+        let words = decorate(&words).map_err(|error| Error(format!("{file}: {error}")))?;
         verify(&file, &words)?;
         let buffers = names.remove(entry_point).unwrap_or_default();
         modules.push((ModuleRecord::new(file, &words, buffers), words));
@@ -192,8 +140,8 @@ fn modules(
 ///
 /// # Errors
 /// Names the file that could not be written.
-pub fn install(root: &Path, built: &Built) -> Result<(), CompileError> {
-    Ok(manifest::write(root, &built.manifest, &built.modules)?)
+pub fn install(root: &Path, built: &Built) -> Result<(), Error> {
+    manifest::write(root, &built.manifest, &built.modules)
 }
 
 fn run(
@@ -201,7 +149,7 @@ fn run(
     target: &Path,
     named: &str,
     prebuilt: Option<Prebuilt>,
-) -> Result<CompileResult, CompileError> {
+) -> Result<CompileResult, Error> {
     let mut builder = SpirvBuilder::new(kernels, TARGET);
     if let Some(Prebuilt { library, toolchain }) = prebuilt {
         builder.rustc_codegen_spirv_location = Some(library.into());
@@ -215,46 +163,46 @@ fn run(
     builder.optimizer.preserve_bindings = true;
     builder.target_dir_path = Some(target.to_owned());
     builder.extra_args.push(format!("--dump-pre-inline={named}"));
-    Ok(builder.build()?)
+    builder
+        .build()
+        .map_err(|error| Error(format!("rust-gpu: {error}")))
 }
 
 /// The names of buffers by entry point, from what the compiler left in `file`.
-fn names(file: &Path) -> Result<BTreeMap<String, Vec<String>>, CompileError> {
+fn names(file: &Path) -> Result<BTreeMap<String, Vec<String>>, Error> {
     let words = files::words(&files::read(file)?).unwrap_or_default();
-    buffer_names(&words).map_err(|source| CompileError::Unreadable {
-        file: file.display().to_string(),
-        source,
-    })
+    buffer_names(&words).map_err(|error| Error(format!("{}: {error}", file.display())))
 }
 
-fn prebuilt() -> Result<Option<Prebuilt>, CompileError> {
+fn prebuilt() -> Result<Option<Prebuilt>, Error> {
     match (
         std::env::var_os("RUSTC_CODEGEN_SPIRV"),
         std::env::var("RUST_GPU_TOOLCHAIN"),
     ) {
         (Some(library), Ok(toolchain)) => Ok(Some(Prebuilt { library, toolchain })),
-        (Some(_), Err(_)) => Err(CompileError::NoToolchain),
+        (Some(_), Err(_)) => Err(Error(
+            "RUSTC_CODEGEN_SPIRV is set but RUST_GPU_TOOLCHAIN is not; set it to the rustup toolchain of the backend"
+                .to_owned(),
+        )),
         (None, _) if cfg!(feature = "upstream") => Ok(None),
-        (None, _) => Err(CompileError::NoBackend),
+        (None, _) => Err(Error(
+            "RUSTC_CODEGEN_SPIRV is not set; set it and RUST_GPU_TOOLCHAIN to a prebuilt backend and its toolchain, \
+             or build with --features upstream on upstream's nightly (kernels/README.md)"
+                .to_owned(),
+        )),
     }
 }
 
 /// First line of `rustc --version` of the toolchain that compiles the kernels.
-fn compiler(prebuilt: Option<&Prebuilt>) -> Result<String, CompileError> {
+fn compiler(prebuilt: Option<&Prebuilt>) -> Result<String, Error> {
     let mut command = Command::new("rustc");
     if let Some(Prebuilt { toolchain, .. }) = prebuilt {
         command.arg(format!("+{toolchain}"));
     }
     command.arg("--version");
-    let fail = |reason: String| CompileError::Compiler {
-        program: format!("{command:?}"),
-        reason,
-    };
-    let mut again = Command::new(command.get_program());
-    let output = again
-        .args(command.get_args())
-        .output()
-        .map_err(|error| fail(error.to_string()))?;
+    let program = format!("{command:?}");
+    let fail = |reason: String| Error(format!("cannot run {program}: {reason}"));
+    let output = command.output().map_err(|error| fail(error.to_string()))?;
     if !output.status.success() {
         return Err(fail(String::from_utf8_lossy(&output.stderr).into_owned()));
     }
@@ -266,7 +214,7 @@ fn compiler(prebuilt: Option<&Prebuilt>) -> Result<String, CompileError> {
 }
 
 /// The files of this repository that the compiler read: Cargo writes them beside its result, in Make's notation.
-fn source_files(root: &Path, module: &Path) -> Result<Vec<String>, CompileError> {
+fn source_files(root: &Path, module: &Path) -> Result<Vec<String>, Error> {
     // .../release/deps/NAME.spvs/ENTRY.spv, and .../release/NAME.spv.d
     let spvs = module.parent().unwrap_or(module);
     let release = spvs.parent().and_then(Path::parent).unwrap_or(spvs);

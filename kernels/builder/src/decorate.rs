@@ -7,7 +7,7 @@
 //! Nothing here asks a device for a feature: no execution mode and no capability is added.
 
 use crate::branches::one_armed;
-use crate::{Unreadable, load};
+use crate::{Error, load};
 use rspirv::binary::Assemble;
 use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{Capability, Decoration, ExecutionMode, Op};
@@ -19,7 +19,7 @@ use std::collections::HashSet;
 ///
 /// # Errors
 /// When the words are not a SPIR-V module.
-pub fn decorate(words: &[u32]) -> Result<Vec<u32>, Unreadable> {
+pub fn decorate(words: &[u32]) -> Result<Vec<u32>, Error> {
     let mut module = load(words)?;
     strip_debug(&mut module);
     strip_brake(&mut module);

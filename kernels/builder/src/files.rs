@@ -1,43 +1,28 @@
 //! Files of words, written whole or not at all.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::{fs, io};
 
-/// A file that could not be read or written.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot {action} {}: {source}", path.display())]
-pub struct FileError {
-    /// What was tried: "read", "write", ..
-    pub action: &'static str,
-    /// The file.
-    pub path: PathBuf,
-    /// What the system said.
-    pub source: io::Error,
-}
+use crate::Error;
 
-impl FileError {
-    pub(crate) fn new(action: &'static str, path: &Path, source: io::Error) -> Self {
-        Self {
-            action,
-            path: path.to_owned(),
-            source,
-        }
-    }
+/// The error of something that was tried with a file: "read", "write", ..
+pub(crate) fn cannot(action: &str, path: &Path) -> impl FnOnce(io::Error) -> Error {
+    move |source| Error(format!("cannot {action} {}: {source}", path.display()))
 }
 
 /// Reads a file.
 ///
 /// # Errors
 /// Names the file when it cannot be read.
-pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
-    fs::read(path).map_err(|source| FileError::new("read", path, source))
+pub fn read(path: &Path) -> Result<Vec<u8>, Error> {
+    fs::read(path).map_err(cannot("read", path))
 }
 
 /// Replaces a file: writes a temporary beside it, then renames, so that no reader sees half of it.
 ///
 /// # Errors
 /// Names the file when it cannot be written; the old one is then untouched.
-pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(format!(".{}.tmp", std::process::id()));
     let temporary = path.with_file_name(name);
@@ -47,7 +32,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
             // Best effort: the error that matters is the first one.
             let _ = fs::remove_file(&temporary);
         })
-        .map_err(|source| FileError::new("write", path, source))
+        .map_err(cannot("write", path))
 }
 
 /// SPIR-V words from the bytes of a file (little endian), or `None` when the length is no multiple of four.

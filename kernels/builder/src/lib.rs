@@ -26,17 +26,16 @@ pub mod verify;
 #[cfg(feature = "compile")]
 pub mod compile;
 
-/// Reads SPIR-V words into a module.
-fn load(words: &[u32]) -> Result<rspirv::dr::Module, Unreadable> {
-    rspirv::dr::load_words(words).map_err(|state| Unreadable {
-        reason: state.to_string(),
-    })
-}
-
-/// Words that are not a SPIR-V module.
+/// Why modules cannot be built or do not belong together: a sentence that says what, where and what to do.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("not a readable SPIR-V module: {reason}; rebuild it with build-kernels")]
-pub struct Unreadable {
-    /// What the parser found.
-    pub reason: String,
+#[error("{0}")]
+pub struct Error(pub String);
+
+/// Reads SPIR-V words into a module.
+fn load(words: &[u32]) -> Result<rspirv::dr::Module, Error> {
+    rspirv::dr::load_words(words).map_err(|state| {
+        Error(format!(
+            "not a readable SPIR-V module: {state}; rebuild it with build-kernels"
+        ))
+    })
 }

@@ -1,10 +1,11 @@
 //! `build-kernels`: compiles every entry point of `kernels` to `kernels/gpu/spirv` and `host/spirv`, writes the manifest and the tables; or
 //! those of another crate, to modules under the same rules.
 
+use lightbvh_kernels_builder::Error;
 use lightbvh_kernels_builder::choice;
 use lightbvh_kernels_builder::compile::{Built, compile, compile_crate, install};
 use lightbvh_kernels_builder::files;
-use lightbvh_kernels_builder::manifest::{self, DIRECTORY, ManifestError, ModuleRecord, place};
+use lightbvh_kernels_builder::manifest::{self, DIRECTORY, ModuleRecord, place};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
@@ -92,9 +93,9 @@ fn with_stack() -> ExitCode {
 }
 
 /// Builds lightbvh's own kernels.
-fn kernels(check: bool) -> Result<(), String> {
+fn kernels(check: bool) -> Result<(), Error> {
     let root = repository()?;
-    let built = compile(&root).map_err(|error| error.to_string())?;
+    let built = compile(&root)?;
     if check {
         compare(&root, &built)
     } else {
@@ -103,11 +104,11 @@ fn kernels(check: bool) -> Result<(), String> {
 }
 
 /// Builds another crate's kernels, and says what they take.
-fn another(path: &Path, out: &Path) -> Result<(), String> {
-    let modules = compile_crate(path, out).map_err(|error| error.to_string())?;
+fn another(path: &Path, out: &Path) -> Result<(), Error> {
+    let modules = compile_crate(path, out)?;
     for (record, words) in &modules {
-        println!("{}", describe(record, words).map_err(|error| error.to_string())?);
-        let interface = record.interface(words).map_err(|error| error.to_string())?;
+        println!("{}", describe(record, words)?);
+        let interface = record.interface(words)?;
         for (binding, (name, buffer)) in interface.buffers.iter().enumerate() {
             println!(
                 "  binding {binding}: {name}, {:?}, {} bytes an element",
@@ -120,26 +121,26 @@ fn another(path: &Path, out: &Path) -> Result<(), String> {
 }
 
 /// Builds the kernels of another choice.
-fn another_choice([layout, width, share]: [&str; 3], out: &Path) -> Result<(), String> {
-    let choice = choice::parse(layout, width, share).map_err(|error| error.to_string())?;
-    let folder = choice::write_crate(&choice, &repository()?, out).map_err(|error| error.to_string())?;
+fn another_choice([layout, width, share]: [&str; 3], out: &Path) -> Result<(), Error> {
+    let choice = choice::parse(layout, width, share)?;
+    let folder = choice::write_crate(&choice, &repository()?, out)?;
     another(&folder, out)
 }
 
 /// The directory above the current one that holds the kernels.
-fn repository() -> Result<PathBuf, String> {
-    let here = std::env::current_dir().map_err(|error| format!("no current directory: {error}"))?;
+fn repository() -> Result<PathBuf, Error> {
+    let here = std::env::current_dir().map_err(|error| Error(format!("no current directory: {error}")))?;
     let root = here
         .ancestors()
         .find(|dir| dir.join("kernels/builder/Cargo.toml").is_file());
     root.map(Path::to_owned)
-        .ok_or_else(|| format!("{} is not inside the repository", here.display()))
+        .ok_or_else(|| Error(format!("{} is not inside the repository", here.display())))
 }
 
-fn write(root: &Path, built: &Built) -> Result<(), String> {
-    install(root, built).map_err(|error| error.to_string())?;
+fn write(root: &Path, built: &Built) -> Result<(), Error> {
+    install(root, built)?;
     for (record, (_, words)) in built.manifest.modules.iter().zip(&built.modules) {
-        println!("{}", describe(record, words).map_err(|error| error.to_string())?);
+        println!("{}", describe(record, words)?);
         validate(&root.join(place(&record.file)))?;
     }
     println!(
@@ -151,12 +152,12 @@ fn write(root: &Path, built: &Built) -> Result<(), String> {
 }
 
 /// Fails unless the committed modules have the bytes just built and the manifest agrees with the sources.
-fn compare(root: &Path, built: &Built) -> Result<(), String> {
-    let committed = manifest::check(root).map_err(|error| error.to_string())?;
+fn compare(root: &Path, built: &Built) -> Result<(), Error> {
+    let committed = manifest::check(root)?;
     for (file, words) in &built.modules {
         let path = root.join(place(file));
-        if files::read(&path).map_err(|error| error.to_string())? != files::bytes(words) {
-            return Err(format!(
+        if files::read(&path)? != files::bytes(words) {
+            return Err(Error(format!(
                 "{} differs from what the sources give; rebuild and commit it\n  \
                  committed: {} with {}\n  now:       {} with {}",
                 place(file),
@@ -164,14 +165,14 @@ fn compare(root: &Path, built: &Built) -> Result<(), String> {
                 committed.compiler,
                 built.manifest.backend,
                 built.manifest.compiler
-            ));
+            )));
         }
     }
     if committed.modules != built.manifest.modules || committed.source_files != built.manifest.source_files {
-        return Err(format!(
+        return Err(Error(format!(
             "{DIRECTORY}/{} lists other modules or sources; rebuild it",
             manifest::FILE
-        ));
+        )));
     }
     println!(
         "{} modules are what the sources give, byte for byte",
@@ -180,7 +181,7 @@ fn compare(root: &Path, built: &Built) -> Result<(), String> {
     Ok(())
 }
 
-fn describe(record: &ModuleRecord, words: &[u32]) -> Result<String, ManifestError> {
+fn describe(record: &ModuleRecord, words: &[u32]) -> Result<String, Error> {
     let interface = record.interface(words)?;
     let [x, y, z] = interface.workgroup;
     Ok(format!(
@@ -193,18 +194,18 @@ fn describe(record: &ModuleRecord, words: &[u32]) -> Result<String, ManifestErro
 }
 
 /// Lets `spirv-val` look at the finished module where it is installed; the backend has validated it before decoration.
-fn validate(path: &Path) -> Result<(), String> {
+fn validate(path: &Path) -> Result<(), Error> {
     match Command::new("spirv-val")
         .args(["--target-env", "vulkan1.2"])
         .arg(path)
         .output()
     {
         Ok(output) if output.status.success() => Ok(()),
-        Ok(output) => Err(format!(
+        Ok(output) => Err(Error(format!(
             "spirv-val refuses {}: {}",
             path.display(),
             String::from_utf8_lossy(&output.stderr)
-        )),
+        ))),
         Err(_) => {
             println!("  spirv-val is not installed: not validated after decoration");
             Ok(())

@@ -1,10 +1,10 @@
 //! `kernels/gpu/spirv/manifest.json`: where the committed modules come from, and what they are.
 
-use crate::files::{self, FileError};
-use crate::reflect::{KernelInterface, ReflectError, reflect};
-use crate::{sources, table};
+use crate::files::{self, cannot};
+use crate::reflect::{KernelInterface, reflect};
+use crate::{Error, sources, table};
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Version of the manifest's format.
 pub const FORMAT: u32 = 2;
@@ -21,8 +21,7 @@ const FOLDERS: [(&str, &str, &str); 2] = [
 /// The folder of a module: those of the reference renderer are the host's.
 #[must_use]
 pub fn folder(file: &str) -> &'static str {
-    let is_renderer = file.starts_with("render") || file.starts_with("restir");
-    FOLDERS[usize::from(is_renderer)].0
+    FOLDERS[usize::from(file.starts_with("render"))].0
 }
 
 /// Name of the manifest in [`DIRECTORY`].
@@ -62,69 +61,6 @@ pub struct ModuleRecord {
     pub sha256: String,
 }
 
-/// Why sources, manifest and modules do not belong together.
-#[derive(Debug, thiserror::Error)]
-pub enum ManifestError {
-    /// A file that cannot be read or written.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// A manifest that is none.
-    #[error("{}: not a manifest: {source}; {REBUILD}", path.display())]
-    Json {
-        /// The manifest.
-        path: PathBuf,
-        /// Where it breaks.
-        source: serde_json::Error,
-    },
-    /// A manifest of another time.
-    #[error("manifest format {found}, this program knows {FORMAT}; {REBUILD}")]
-    Format {
-        /// The format found.
-        found: u32,
-    },
-    /// The sources were edited after the modules were built.
-    #[error(
-        "the kernels' sources changed since {DIRECTORY} was built: hash {found}, recorded {recorded}; {REBUILD}"
-    )]
-    Sources {
-        /// The hash now.
-        found: String,
-        /// The hash in the manifest.
-        recorded: String,
-    },
-    /// A module that is not the recorded one.
-    #[error(
-        "{}/{file} is not the module that the manifest records ({what}); {REBUILD}",
-        folder(file)
-    )]
-    Module {
-        /// The file.
-        file: String,
-        /// What differs.
-        what: &'static str,
-    },
-    /// A module that the manifest does not know.
-    #[error("{file} is not in the manifest; remove it, or {REBUILD}")]
-    Unlisted {
-        /// The file, below the root.
-        file: String,
-    },
-    /// A table of kernels that is not that of the modules.
-    #[error("{file} is not the table of its modules; {REBUILD}")]
-    Table {
-        /// The file, below the root.
-        file: &'static str,
-    },
-    /// A module whose interface the host cannot offer.
-    #[error("{file}: {source}")]
-    Interface {
-        /// The file.
-        file: String,
-        /// What is wrong.
-        source: ReflectError,
-    },
-}
-
 impl ModuleRecord {
     /// Describes a finished module whose buffers have these names.
     #[must_use]
@@ -141,21 +77,20 @@ impl ModuleRecord {
     ///
     /// # Errors
     /// When its interface is not one that the host offers.
-    pub fn interface(&self, words: &[u32]) -> Result<KernelInterface, ManifestError> {
-        let file = self.file.clone();
-        let interface =
-            reflect(words, &self.buffers).map_err(|source| ManifestError::Interface { file, source })?;
+    pub fn interface(&self, words: &[u32]) -> Result<KernelInterface, Error> {
+        let interface = reflect(words, &self.buffers);
+        let interface = interface.map_err(|error| Error(format!("{}: {error}", self.file)))?;
         match self.file.strip_suffix(".spv") {
             Some(name) if name == interface.entry_point => Ok(interface),
             _ => Err(self.wrong("entry point")),
         }
     }
 
-    fn wrong(&self, what: &'static str) -> ManifestError {
-        ManifestError::Module {
-            file: self.file.clone(),
-            what,
-        }
+    fn wrong(&self, what: &str) -> Error {
+        Error(format!(
+            "{} is not the module that the manifest records ({what}); {REBUILD}",
+            place(&self.file)
+        ))
     }
 }
 
@@ -163,13 +98,15 @@ impl ModuleRecord {
 ///
 /// # Errors
 /// When there is none, or none that this program understands.
-pub fn read(root: &Path) -> Result<Manifest, ManifestError> {
+pub fn read(root: &Path) -> Result<Manifest, Error> {
     let path = root.join(DIRECTORY).join(FILE);
     let manifest: Manifest = serde_json::from_slice(&files::read(&path)?)
-        .map_err(|source| ManifestError::Json { path, source })?;
+        .map_err(|error| Error(format!("{}: not a manifest: {error}; {REBUILD}", path.display())))?;
     match manifest.format {
         FORMAT => Ok(manifest),
-        found => Err(ManifestError::Format { found }),
+        found => Err(Error(format!(
+            "manifest format {found}, this program knows {FORMAT}; {REBUILD}"
+        ))),
     }
 }
 
@@ -177,7 +114,7 @@ pub fn read(root: &Path) -> Result<Manifest, ManifestError> {
 ///
 /// # Errors
 /// When the file cannot be read or is not whole words.
-pub fn read_module(root: &Path, record: &ModuleRecord) -> Result<Vec<u32>, ManifestError> {
+pub fn read_module(root: &Path, record: &ModuleRecord) -> Result<Vec<u32>, Error> {
     let bytes = files::read(&root.join(folder(&record.file)).join(&record.file))?;
     files::words(&bytes).ok_or_else(|| record.wrong("not whole words"))
 }
@@ -186,14 +123,14 @@ pub fn read_module(root: &Path, record: &ModuleRecord) -> Result<Vec<u32>, Manif
 ///
 /// # Errors
 /// The first disagreement between sources, manifest, modules and table.
-pub fn check(root: &Path) -> Result<Manifest, ManifestError> {
+pub fn check(root: &Path) -> Result<Manifest, Error> {
     let manifest = read(root)?;
     let found = sources::hash(root, &manifest.source_files)?;
     if found != manifest.source_sha256 {
-        return Err(ManifestError::Sources {
-            found,
-            recorded: manifest.source_sha256,
-        });
+        return Err(Error(format!(
+            "the kernels' sources changed since {DIRECTORY} was built: hash {found}, recorded {}; {REBUILD}",
+            manifest.source_sha256
+        )));
     }
     let mut interfaces = Vec::new();
     for record in &manifest.modules {
@@ -205,7 +142,9 @@ pub fn check(root: &Path) -> Result<Manifest, ManifestError> {
     }
     for (file, text) in tables(&interfaces) {
         if files::read(&root.join(file))? != text.as_bytes() {
-            return Err(ManifestError::Table { file });
+            return Err(Error(format!(
+                "{file} is not the table of its modules; {REBUILD}"
+            )));
         }
     }
     let listed: Vec<String> = manifest
@@ -217,7 +156,9 @@ pub fn check(root: &Path) -> Result<Manifest, ManifestError> {
         .into_iter()
         .find(|file| !listed.contains(file))
     {
-        Some(file) => Err(ManifestError::Unlisted { file }),
+        Some(file) => Err(Error(format!(
+            "{file} is not in the manifest; remove it, or {REBUILD}"
+        ))),
         None => Ok(manifest),
     }
 }
@@ -240,7 +181,7 @@ fn tables(kernels: &[KernelInterface]) -> [(&'static str, String); 2] {
 ///
 /// # Errors
 /// Names the file that could not be written, or the module whose interface is not one that the host offers.
-pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -> Result<(), ManifestError> {
+pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -> Result<(), Error> {
     let interfaces = manifest.modules.iter().zip(modules);
     let interfaces: Result<Vec<_>, _> = interfaces
         .map(|(record, (_, words))| record.interface(words))
@@ -248,7 +189,7 @@ pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -
     let tables = tables(&interfaces?);
     for (directory, ..) in FOLDERS {
         let directory = root.join(directory);
-        std::fs::create_dir_all(&directory).map_err(|source| FileError::new("create", &directory, source))?;
+        std::fs::create_dir_all(&directory).map_err(cannot("create", &directory))?;
     }
     for (file, words) in modules {
         files::replace(&root.join(place(file)), &files::bytes(words))?;
@@ -256,27 +197,25 @@ pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -
     for file in module_files(root)? {
         if modules.iter().all(|(kept, _)| place(kept) != file) {
             let path = root.join(&file);
-            std::fs::remove_file(&path).map_err(|source| FileError::new("remove", &path, source))?;
+            std::fs::remove_file(&path).map_err(cannot("remove", &path))?;
         }
     }
     for (file, text) in tables {
         files::replace(&root.join(file), text.as_bytes())?;
     }
     let path = root.join(DIRECTORY).join(FILE);
-    let mut json = serde_json::to_string_pretty(manifest).map_err(|source| ManifestError::Json {
-        path: path.clone(),
-        source,
-    })?;
+    let mut json = serde_json::to_string_pretty(manifest)
+        .map_err(|error| Error(format!("{}: {error}", path.display())))?;
     json.push('\n');
-    Ok(files::replace(&path, json.as_bytes())?)
+    files::replace(&path, json.as_bytes())
 }
 
 /// The `.spv` files that are there, below the root, sorted.
-fn module_files(root: &Path) -> Result<Vec<String>, FileError> {
+fn module_files(root: &Path) -> Result<Vec<String>, Error> {
     let mut found = Vec::new();
     for (directory, ..) in FOLDERS {
         let path = root.join(directory);
-        let entries = std::fs::read_dir(&path).map_err(|source| FileError::new("list", &path, source))?;
+        let entries = std::fs::read_dir(&path).map_err(cannot("list", &path))?;
         let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
         let modules = names.filter(|name| name.ends_with(".spv"));
         found.extend(modules.map(|name| format!("{directory}/{name}")));

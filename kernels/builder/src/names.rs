@@ -5,14 +5,14 @@ use std::collections::{BTreeMap, HashMap};
 use rspirv::dr::Operand;
 use rspirv::spirv::{Decoration, Op};
 
-use crate::{Unreadable, load};
+use crate::{Error, load};
 
 /// The names of each entry point's buffers, by binding, from a module that has its debug names still. An entry point's list ends
 /// before the first binding without a name.
 ///
 /// # Errors
 /// When the words are not a SPIR-V module.
-pub fn buffer_names(words: &[u32]) -> Result<BTreeMap<String, Vec<String>>, Unreadable> {
+pub fn buffer_names(words: &[u32]) -> Result<BTreeMap<String, Vec<String>>, Error> {
     let module = load(words)?;
     let names: HashMap<u32, &String> = module
         .debug_names

@@ -4,7 +4,8 @@
 //! this crate that choose options and rewrite modules. Of `Cargo.lock` and the workspace's `Cargo.toml` only what
 //! concerns the kernels counts, so that a new dependency of the host needs no kernel compiler.
 
-use crate::files::{FileError, read};
+use crate::Error;
+use crate::files::read;
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -25,7 +26,7 @@ pub const KERNELS: &str = "lightbvh-kernels";
 ///
 /// # Errors
 /// Names the first file that cannot be read.
-pub fn hash(root: &Path, files: &[String]) -> Result<String, FileError> {
+pub fn hash(root: &Path, files: &[String]) -> Result<String, Error> {
     let mut digest = Sha256::new();
     for file in files {
         feed(&mut digest, file, &read(&root.join(file))?);
@@ -64,7 +65,7 @@ fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-fn text(path: &Path) -> Result<String, FileError> {
+fn text(path: &Path) -> Result<String, Error> {
     read(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
 }
 

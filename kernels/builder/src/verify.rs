@@ -9,65 +9,12 @@ mod permitted;
 mod search;
 
 use crate::decorate::{float_operations, float_types, uncontracted};
-use crate::{Unreadable, load};
+use crate::{Error, load};
 use permitted::{extended_instruction, operation, vulkan_everywhere};
 use rspirv::binary::Disassemble;
 use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{AddressingModel, ExecutionMode, ExecutionModel, MemoryModel, Op};
 use std::collections::HashSet;
-use std::fmt;
-
-/// One thing that a shipped module must not contain.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Violation {
-    /// The instruction as text.
-    pub instruction: String,
-    /// Its result id, if it has one.
-    pub id: Option<u32>,
-    /// The rule it breaks.
-    pub rule: &'static str,
-    /// What to do about it.
-    pub remedy: &'static str,
-}
-
-impl fmt::Display for Violation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}`", self.instruction)?;
-        if let Some(id) = self.id {
-            write!(f, " (result %{id})")?;
-        }
-        write!(f, ": {}; {}", self.rule, self.remedy)
-    }
-}
-
-/// Why a module is refused.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum VerifyError {
-    /// The words are no module.
-    #[error("{module}: {source}")]
-    Unreadable {
-        /// Name of the module.
-        module: String,
-        /// What the parser said.
-        source: Unreadable,
-    },
-    /// The module breaks rules.
-    #[error("{module}: {} violation(s)\n  {}", violations.len(), lines(violations))]
-    Refused {
-        /// Name of the module.
-        module: String,
-        /// All of them, in the order of the module.
-        violations: Vec<Violation>,
-    },
-}
-
-fn lines(violations: &[Violation]) -> String {
-    violations
-        .iter()
-        .map(ToString::to_string)
-        .collect::<Vec<_>>()
-        .join("\n  ")
-}
 
 /// Why an instruction is refused, and what to write instead.
 #[derive(Clone, Copy)]
@@ -80,11 +27,8 @@ struct Refusal {
 ///
 /// # Errors
 /// When the words are no module, or with every violation found.
-pub fn verify(name: &str, words: &[u32]) -> Result<(), VerifyError> {
-    let module = load(words).map_err(|source| VerifyError::Unreadable {
-        module: name.to_owned(),
-        source,
-    })?;
+pub fn verify(name: &str, words: &[u32]) -> Result<(), Error> {
+    let module = load(words).map_err(|error| Error(format!("{name}: {error}")))?;
     let mut findings = Findings::default();
     preamble(&module, &mut findings);
     types_and_constants(&module, &mut findings);
@@ -92,24 +36,22 @@ pub fn verify(name: &str, words: &[u32]) -> Result<(), VerifyError> {
     bodies(&module, &mut findings);
     match findings.0 {
         violations if violations.is_empty() => Ok(()),
-        violations => Err(VerifyError::Refused {
-            module: name.to_owned(),
-            violations,
-        }),
+        violations => Err(Error(format!(
+            "{name}: {} violation(s)\n  {}",
+            violations.len(),
+            violations.join("\n  ")
+        ))),
     }
 }
 
 #[derive(Default)]
-struct Findings(Vec<Violation>);
+struct Findings(Vec<String>);
 
 impl Findings {
     fn refuse(&mut self, inst: &Instruction, rule: &'static str, remedy: &'static str) {
-        self.0.push(Violation {
-            instruction: inst.disassemble(),
-            id: inst.result_id,
-            rule,
-            remedy,
-        });
+        let id = inst.result_id.map(|id| format!(" (result %{id})"));
+        let (text, id) = (inst.disassemble(), id.unwrap_or_default());
+        self.0.push(format!("`{text}`{id}: {rule}; {remedy}"));
     }
 }
 

@@ -112,7 +112,6 @@ impl Kernel {
 mod tests {
     use alloc::vec::Vec;
 
-    use super::*;
     use crate::spirv::Interface;
     use crate::{KERNELS, Kernel};
 
@@ -152,58 +151,5 @@ mod tests {
             assert_eq!(Kernel::named(kernel.name), Some(kernel));
         }
         assert_eq!(Kernel::named("no_such_kernel"), None);
-    }
-
-    #[test]
-    fn a_pass_writes_its_results_and_no_input() {
-        let access = |kernel, name| Kernel::named(kernel).unwrap().binding(name).unwrap().access;
-        for kernel in ["sample", "pmf", "sample_eq4", "pmf_eq4"] {
-            assert_eq!(access(kernel, "results"), Access::Write, "{kernel}");
-        }
-        for kernel in ["refit_bottom", "refit_top", "refit_bottom_eq4", "refit_top_eq4"] {
-            assert_eq!(access(kernel, "nodes"), Access::Read, "{kernel}");
-            assert_eq!(access(kernel, "children"), Access::Write, "{kernel}");
-            assert_eq!(access(kernel, "list"), Access::Read, "{kernel}");
-        }
-        for kernel in ["refit_nodes", "refit_nodes_eq4"] {
-            assert_eq!(access(kernel, "nodes"), Access::ReadWrite, "{kernel}");
-            assert_eq!(access(kernel, "children"), Access::Read, "{kernel}");
-            assert_eq!(access(kernel, "list"), Access::Read, "{kernel}");
-        }
-        assert_eq!(access("refit_roots", "roots"), Access::ReadWrite);
-    }
-
-    /// An array has one stride, whichever kernel of a choice of layout takes it.
-    #[test]
-    fn equal_names_are_arrays_of_equal_strides() {
-        let mut seen: Vec<(&str, &str, u32)> = Vec::new();
-        for kernel in KERNELS {
-            let suffix = ["_eq4", "_any", "_linked"]
-                .into_iter()
-                .find(|suffix| kernel.name.ends_with(suffix));
-            for binding in kernel.bindings {
-                // Each pass has results of its own; nodes and lights have the layout of the choice.
-                if binding.name != "results" {
-                    let is_own = match suffix {
-                        Some("_any") => {
-                            matches!(binding.name, "nodes" | "children" | "triangles")
-                        }
-                        Some("_linked") => {
-                            matches!(binding.name, "nodes" | "children" | "triangles" | "queries")
-                        }
-                        _ => matches!(binding.name, "nodes" | "children"),
-                    };
-                    let layout = suffix.filter(|_| is_own).unwrap_or("");
-                    seen.push((binding.name, layout, binding.stride));
-                }
-            }
-        }
-        seen.sort_unstable();
-        seen.dedup();
-        assert!(
-            seen.windows(2)
-                .all(|pair| (pair[0].0, pair[0].1) != (pair[1].0, pair[1].1)),
-            "{seen:?}"
-        );
     }
 }

@@ -21,13 +21,23 @@ pub(super) const NEAREST_SQUARED: f32 = pow2(-60);
 
 /// Densities over solid angle are cut to this: only their ratios count, and those of a light seen under so small an angle
 /// are decided.
-const MAX_DENSITY: f32 = pow2(100);
+pub(super) const MAX_DENSITY: f32 = pow2(100);
 
 /// Relative luminance of linear RGB (Rec. ITU-R BT.709-6).
 #[inline]
 #[must_use]
 pub fn luminance(rgb: [f32; 3]) -> f32 {
     (0.2126 * rgb[0] + 0.7152 * rgb[1]) + 0.0722 * rgb[2]
+}
+
+/// What of `radiance` a surface of reflectance `f` reflects, times `scale`, by components.
+#[inline]
+pub(super) fn reflected(f: Vec3, scale: f32, radiance: [f32; 3]) -> Vec3 {
+    Vec3::new(
+        bounded_product(bounded_product(f.x, scale), radiance[0]),
+        bounded_product(bounded_product(f.y, scale), radiance[1]),
+        bounded_product(bounded_product(f.z, scale), radiance[2]),
+    )
 }
 
 /// The distance by which rays start off, and end before, a triangle with these vertices, metres.
@@ -132,12 +142,7 @@ pub fn connect(
         let weight = flush(div(receiving, squared) * div(emitting, squared), TINY);
         let scale = bounded_quotient(0.5 * weight, pmf);
         let scattering = material.scatter(n, d * rsqrt(squared), wo);
-        let f = scattering.reflectance;
-        contribution = Vec3::new(
-            bounded_product(bounded_product(f.x, scale), light.radiance[0]),
-            bounded_product(bounded_product(f.y, scale), light.radiance[1]),
-            bounded_product(bounded_product(f.z, scale), light.radiance[2]),
-        );
+        contribution = reflected(scattering.reflectance, scale, light.radiance);
         scattering_density = scattering.density;
     }
 

@@ -1,5 +1,5 @@
 //! One light out of several candidates, in proportion to what each would contribute if nothing were between: resampled importance
-//! sampling (J. Talbot, D. Cline, P. Egbert, "Importance Resampling for Global Illumination", 2005; ReSTIR Algorithm 3).
+//! sampling (J. Talbot, D. Cline, P. Egbert, "Importance Resampling for Global Illumination", 2005).
 
 use lightbvh::exact::{hash, max, min, rsqrt, unit_f32};
 use lightbvh::reservoir::{LightSample, MAX_WEIGHT, MIN_PMF, Resampling, Reservoir};
@@ -9,10 +9,9 @@ use super::emitter::Emitter;
 use super::grid::{STEP, bounded_quotient, flush_vector};
 use super::pick::PickLight;
 use super::picks::Picks;
-use super::pixel::{Scene, load_material};
+use super::pixel::{Scene, Seen, load_material};
 use super::ray::{FAR, Ray};
-use super::restir::surface::Surface;
-use super::restir::target::{Lit, lit, visible};
+use super::target::{Lit, lit, visible};
 use super::trace::{LANES, NONE, closest_hit};
 
 /// Most directions of a sample.
@@ -31,7 +30,7 @@ pub struct Candidates {
     pub scattered: u32,
 }
 
-/// One of the candidates of `picker` for `surface`. `picks` are all of the pixel, `seed` draws the one among these.
+/// One of the candidates of `picker` for what is `seen`. `picks` are all of the pixel, `seed` draws the one among these.
 ///
 /// Each candidate's own distribution is that of a single pick, and the expectation of a sum does not ask how its terms depend on
 /// each other, so the weight is that of independent candidates.
@@ -46,7 +45,7 @@ pub struct Candidates {
 pub fn resampled<L: Emitter, P: PickLight>(
     scene: &Scene<'_, L>,
     picker: &P,
-    surface: &Surface,
+    seen: &Seen,
     picks: &mut Picks,
     which: Candidates,
     seed: u32,
@@ -62,7 +61,7 @@ pub fn resampled<L: Emitter, P: PickLight>(
     for candidate in 0..which.count.wrapping_add(scattered) {
         let found = if candidate < which.count {
             let k = which.first.wrapping_add(candidate);
-            let picked = picks.next(picker, &surface.point, k);
+            let picked = picks.next(picker, &seen.point, k);
             Found {
                 sample: LightSample {
                     light: picked.light,
@@ -73,9 +72,9 @@ pub fn resampled<L: Emitter, P: PickLight>(
                 counts: picked.pmf > 0.0,
             }
         } else {
-            mirrored(scene, picker, surface, seed.wrapping_add(DIRECTIONS * candidate))
+            mirrored(scene, picker, seen, seed.wrapping_add(DIRECTIONS * candidate))
         };
-        let arriving = lit(scene.materials, &scene.emitters, surface, &found.sample);
+        let arriving = lit(scene, seen, &found.sample);
         let mut density = found.pmf;
         let mut alone = 1.0;
         if scattered > 0 {
@@ -124,19 +123,19 @@ impl Chosen {
     /// lies in its plane hides nothing. Directions then leave out what the balance heuristic left to them, so the pick takes all.
     #[inline]
     #[must_use]
-    pub fn arrives<L: Emitter>(&self, scene: &Scene<'_, L>, surface: &Surface, arriving: &Lit) -> f32 {
+    pub fn arrives<L: Emitter>(&self, scene: &Scene<'_, L>, seen: &Seen, arriving: &Lit) -> f32 {
         let light = self.reservoir.sample.light;
         let mut factor = 1.0;
         if self.unfound > 0.0 {
             let mut found = NONE;
             if self.unfound > 1.0 {
                 // Of length 1 as those of directions: rounding decides alike among surfaces at one distance.
-                let origin = surface.point.position();
+                let origin = seen.point.position();
                 let d = flush_vector(arriving.on - origin, STEP);
                 found = along(scene, &Ray::new(origin, d * rsqrt(length_squared(d)), FAR)).light;
             }
             if found != light {
-                factor = if visible(&scene.surfaces, surface, arriving.end, light) {
+                factor = if visible(scene, seen, arriving.end, light) {
                     self.unfound
                 } else {
                     0.0
@@ -156,27 +155,22 @@ struct Found {
     counts: bool,
 }
 
-/// The light in a direction that `surface` would reflect into, chosen by `numbers` and the two after it.
+/// The light in a direction that what is `seen` would reflect into, chosen by `numbers` and the two after it.
 #[inline]
-fn mirrored<L: Emitter, P: PickLight>(
-    scene: &Scene<'_, L>,
-    picker: &P,
-    surface: &Surface,
-    numbers: u32,
-) -> Found {
+fn mirrored<L: Emitter, P: PickLight>(scene: &Scene<'_, L>, picker: &P, seen: &Seen, numbers: u32) -> Found {
     let mut found = Found {
         sample: LightSample::NONE,
         pmf: 0.0,
         counts: false,
     };
-    let material = load_material(scene.materials, surface.material);
-    let n = flush_vector(surface.point.normal(), STEP);
+    let material = load_material(scene.materials, seen.material);
+    let n = flush_vector(seen.point.normal(), STEP);
     let u = [
         draw(numbers),
         draw(numbers.wrapping_add(1)),
         draw(numbers.wrapping_add(2)),
     ];
-    let ray = Ray::new(surface.point.position(), material.sample(n, surface.wo(), u), FAR);
+    let ray = Ray::new(seen.point.position(), material.sample(n, seen.wo, u), FAR);
     let Met { light, instance } = along(scene, &ray);
     if light != NONE {
         let own = scene.emitters.light(light, instance);
@@ -187,7 +181,7 @@ fn mirrored<L: Emitter, P: PickLight>(
                     instance,
                     uv: own.coordinates(&ray),
                 },
-                pmf: picker.pmf(&surface.point, light, instance),
+                pmf: picker.pmf(&seen.point, light, instance),
                 counts: true,
             };
         }

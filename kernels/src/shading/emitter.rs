@@ -2,12 +2,14 @@
 //! triangles pays for no other.
 
 use glam::Vec3;
-use lightbvh::exact::{abs, clamp, flush, max, min, pow2, rsqrt};
+use lightbvh::exact::{abs, clamp, flush, max, min, rsqrt};
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::vector::{dot, length_squared};
 use lightbvh::{EmissiveTriangle, LightPoint, ShadingPoint};
 
-use super::area::{Connection, NEAREST_SQUARED, OFFSET, connect, largest_component, light_density};
+use super::area::{
+    Connection, MAX_DENSITY, NEAREST_SQUARED, OFFSET, connect, largest_component, light_density, reflected,
+};
 use super::grid::{
     STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, div, flush_vector, snap_point, sqrt,
 };
@@ -18,9 +20,6 @@ use super::sky::{NoSky, Sky, SkyView};
 
 /// A light that points are lit by, and that rays may meet.
 pub trait Emitter: Light {
-    /// What the names of passes over such lights end in.
-    const SUFFIX: &'static str;
-
     /// What scenes lit by such lights have beyond all surfaces.
     type Sky<'a>: Sky;
 
@@ -63,7 +62,6 @@ pub trait Emitter: Light {
 }
 
 impl Emitter for EmissiveTriangle {
-    const SUFFIX: &'static str = "";
     type Sky<'a> = NoSky;
     type Skin<'a> = NoSkin;
 
@@ -143,7 +141,6 @@ fn shown(radiance: [f32; 3], is_seen: bool) -> Vec3 {
 /// Triangles and rectangles are met. A sphere and a disc are seen as facets within them, which hold some of their points and not others, so
 /// no ray but the camera's counts; points, spots and boxes are not seen.
 impl Emitter for AnyLight {
-    const SUFFIX: &'static str = "_any";
     type Sky<'a> = SkyView<'a>;
     type Skin<'a> = SkinView<'a>;
 
@@ -249,9 +246,6 @@ fn connect_triangle(
     connect(&point, wo, &material, &light, pmf, uv)
 }
 
-/// Densities over solid angle are cut to this, as in [`area`](super::area).
-const MAX_DENSITY: f32 = pow2(100);
-
 #[inline]
 fn place(at: &LightPoint) -> Vec3 {
     Vec3::new(at.p[0], at.p[1], at.p[2])
@@ -311,12 +305,7 @@ pub fn connect_point(
         let weight = flush(div(receiving, squared) * div(facing, squared), TINY);
         let scale = bounded_quotient(bounded_quotient(weight, at.density), pmf);
         let scattering = material.scatter(n, d * rsqrt(squared), wo);
-        let f = scattering.reflectance;
-        contribution = Vec3::new(
-            bounded_product(bounded_product(f.x, scale), at.radiance[0]),
-            bounded_product(bounded_product(f.y, scale), at.radiance[1]),
-            bounded_product(bounded_product(f.z, scale), at.radiance[2]),
-        );
+        contribution = reflected(scattering.reflectance, scale, at.radiance);
         scattering_density = if is_met { scattering.density } else { 0.0 };
     }
 

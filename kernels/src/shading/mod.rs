@@ -13,12 +13,11 @@
 //! | [`skin`], [`picture`], [`tangent`] | textures: colours, glow, what is cut out, what light goes through, bent normals |
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
 //! | [`picks`] | the lights of a pixel's samples |
-//! | [`candidates`] | one light out of several, by what they would contribute |
+//! | [`candidates`], [`target`] | one light out of several, by what they would contribute |
 //! | [`numbers`] | the numbers that lights and points on them are drawn by |
 //! | [`pixel`] | all of it together, for one pixel |
 //! | [`lobe`], [`mis`] | directions with a known density; weights of two ways to find a light |
 //! | [`path`] | light along whole paths |
-//! | [`restir`] | reservoirs in place of independent samples |
 //!
 //! Results agree to the bit between processors in this domain: coordinates at most [`grid::MAX_COORDINATE`] in magnitude
 //! and on the grid (the host's ray-BVH builder sees to both), radiances as in [`lightbvh::light`], albedo and specular
@@ -40,8 +39,8 @@ pub mod picks;
 pub mod picture;
 pub mod pixel;
 pub mod ray;
-pub mod restir;
 pub mod skin;
 pub mod sky;
 pub mod tangent;
+pub mod target;
 pub mod trace;

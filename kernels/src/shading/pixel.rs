@@ -16,10 +16,9 @@ use super::numbers::{Numbers, Part};
 use super::pick::PickLight;
 use super::picks::Picks;
 use super::ray::Ray;
-use super::restir::surface::Surface;
-use super::restir::target::{as_painted, lit, weighted};
 use super::skin::{GLASS, SHADOW, Skin, Spot, Through};
 use super::sky::{Sky, sky_sample};
+use super::target::{as_painted, lit, weighted};
 use super::trace::{LANES, NONE, RayNode, Surfaces, TriangleBlock, seen_hit, through, vertex};
 
 /// Most candidates of a sample.
@@ -333,9 +332,8 @@ fn one_of_many<L: Emitter, P: PickLight>(
         MAX_CANDIDATES
     };
     let count = if most == 0 { 1 } else { most };
-    let surface = Surface::new(seen, seen.point.position());
     let mut sum = Vec3::ZERO;
-    if surface.is_lit() && surface.material < scene.materials.len() as u32 {
+    if length_squared(seen.point.normal()) > 0.0 && seen.material < scene.materials.len() as u32 {
         let material = scene.material(seen);
         let of_all = |samples: u32| samples.wrapping_mul(count);
         let mut picks = Picks::new(
@@ -352,18 +350,18 @@ fn one_of_many<L: Emitter, P: PickLight>(
             };
             let number = samples.part.number(samples.first.wrapping_add(sample));
             let random = hash(seed.wrapping_add(Numbers::USED).wrapping_add(number));
-            let chosen = resampled(scene, picker, &surface, &mut picks, which, random);
+            let chosen = resampled(scene, picker, seen, &mut picks, which, random);
             let Reservoir { sample, weight, .. } = chosen.reservoir;
             if weight > 0.0 {
-                let arriving = lit(scene.materials, &scene.emitters, &surface, &sample);
-                let factor = chosen.arrives(scene, &surface, &arriving);
+                let arriving = lit(scene, seen, &sample);
+                let factor = chosen.arrives(scene, seen, &arriving);
                 if factor > 0.0 {
-                    let contribution = as_painted(scene, &surface, &material, &sample, &arriving);
+                    let contribution = as_painted(scene, seen, &material, &sample, &arriving);
                     sum += weighted(contribution, min(weight * factor, MAX_WEIGHT));
                 }
             }
             if <L::Sky<'_> as Sky>::IS_SAMPLED {
-                sum += sky_sample(scene, &surface.point, seen.wo, &material, seed, number);
+                sum += sky_sample(scene, &seen.point, seen.wo, &material, seed, number);
             }
         }
     }

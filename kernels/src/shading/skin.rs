@@ -22,8 +22,6 @@ pub const FIND: u32 = 1;
 pub const SHADOW: u32 = 2;
 /// Mode: what clear surfaces leave of the light that comes to an eye. Nothing stops the ray.
 pub const GLASS: u32 = 3;
-/// Mode: what surface a point is on. All that is not cut out or clear stops the ray.
-pub const TOUCH: u32 = 4;
 
 /// What is left of light on its way.
 pub trait Through: Copy {
@@ -78,13 +76,13 @@ pub struct Spot {
 
 /// What surfaces are painted with.
 pub trait Skin: Copy + Send + Sync {
-    /// Whether there is such paint.
+    /// Whether there is such paint; without, what follows the first method is that of an opaque surface of one material.
     const IS_PAINTED: bool;
     /// What is left of light behind surfaces.
     type Through: Through;
 
     /// Whether the triangle, which the ray meets, stops it, and what is left of `through` if not. The modes are [`SEE`], [`FIND`],
-    /// [`SHADOW`], [`GLASS`] and [`TOUCH`].
+    /// [`SHADOW`] and [`GLASS`].
     fn meets<const MODE: u32>(
         &self,
         blocks: &[TriangleBlock],
@@ -94,26 +92,41 @@ pub trait Skin: Copy + Send + Sync {
     ) -> (bool, Self::Through);
 
     /// Whether any surface is clear, so that [`GLASS`] has something to find.
-    fn has_glass(&self) -> bool;
+    #[inline(always)]
+    fn has_glass(&self) -> bool {
+        false
+    }
 
     /// Whether any surface lets a part of the light through, so that [`SHADOW`] rays may bring less than all.
-    fn has_veils(&self) -> bool;
+    #[inline(always)]
+    fn has_veils(&self) -> bool {
+        false
+    }
 
     /// How material `index` reflects at a spot.
-    fn material(&self, materials: &[Material], index: u32, spot: &Spot) -> Material;
+    #[inline(always)]
+    fn material(&self, materials: &[Material], index: u32, _spot: &Spot) -> Material {
+        load_material(materials, index)
+    }
 
     /// The normal there, for the geometric `n` on the side of the viewer, who is at `wo`.
-    fn normal(&self, blocks: &[TriangleBlock], spot: &Spot, n: Vec3, wo: Vec3) -> Vec3;
+    #[inline(always)]
+    fn normal(&self, _blocks: &[TriangleBlock], _spot: &Spot, n: Vec3, _wo: Vec3) -> Vec3 {
+        n
+    }
 
     /// The radiance of `light` where the parts of its edges are `at`; `emission` is its mean, which it has where nothing is painted on it.
     /// What is cut out does not glow; with `COVERED` what is blended glows as far as it is there.
+    #[inline(always)]
     fn glow<const COVERED: bool>(
         &self,
-        blocks: &[TriangleBlock],
-        light: u32,
-        at: [f32; 2],
+        _blocks: &[TriangleBlock],
+        _light: u32,
+        _at: [f32; 2],
         emission: [f32; 3],
-    ) -> [f32; 3];
+    ) -> [f32; 3] {
+        emission
+    }
 }
 
 /// No paint: every surface is opaque, and of one material.
@@ -127,37 +140,6 @@ impl Skin for NoSkin {
     #[inline(always)]
     fn meets<const MODE: u32>(&self, _: &[TriangleBlock], _: &Ray, _: u32, through: bool) -> (bool, bool) {
         (true, through)
-    }
-
-    #[inline(always)]
-    fn has_glass(&self) -> bool {
-        false
-    }
-
-    #[inline(always)]
-    fn has_veils(&self) -> bool {
-        false
-    }
-
-    #[inline(always)]
-    fn material(&self, materials: &[Material], index: u32, _: &Spot) -> Material {
-        load_material(materials, index)
-    }
-
-    #[inline(always)]
-    fn normal(&self, _: &[TriangleBlock], _: &Spot, n: Vec3, _: Vec3) -> Vec3 {
-        n
-    }
-
-    #[inline(always)]
-    fn glow<const COVERED: bool>(
-        &self,
-        _: &[TriangleBlock],
-        _: u32,
-        _: [f32; 2],
-        emission: [f32; 3],
-    ) -> [f32; 3] {
-        emission
     }
 }
 
@@ -379,11 +361,9 @@ impl Skin for SkinView<'_> {
                 let d = ray.direction;
                 let words = hash(d.x.to_bits() ^ hash(d.y.to_bits() ^ hash(d.z.to_bits() ^ hash(triangle))));
                 stops = unit_f32(words) < cover;
-            } else if MODE == FIND {
+            } else {
                 // A light is found wherever there is any of it.
                 stops = if is_light { cover > 0.0 } else { cover >= 1.0 };
-            } else {
-                stops = cover > 0.0;
             }
         }
         (stops, left)

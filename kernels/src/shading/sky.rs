@@ -6,9 +6,9 @@ use lightbvh::light::infinite::{DistantLight, EnvironmentMap, Split};
 use lightbvh::vector::dot;
 use lightbvh::{Random64, ShadingPoint};
 
-use super::area::luminance;
+use super::area::{luminance, reflected};
 use super::emitter::Emitter;
-use super::grid::{STEP, bounded_product, bounded_quotient, flush_vector};
+use super::grid::{STEP, bounded_quotient, flush_vector};
 use super::material::Material;
 use super::pixel::Scene;
 use super::ray::{FAR, Ray};
@@ -39,36 +39,21 @@ pub trait Sky: Copy + Send + Sync {
     const IS_SAMPLED: bool;
 
     /// What a ray sees that meets nothing; `background` where there is no map.
-    fn seen(&self, direction: Vec3, background: Vec3) -> Vec3;
-
-    /// One direction that light comes from, chosen by three numbers.
-    fn connect(
-        &self,
-        point: &ShadingPoint,
-        wo: Vec3,
-        material: &Material,
-        random: u32,
-        uv: [f32; 2],
-    ) -> Arriving;
-
-    /// The density over solid angle with which [`connect`](Self::connect) finds a direction at `point`, 1/sr; 0 where there is no map.
-    fn density(&self, point: &ShadingPoint, direction: Vec3) -> f32;
-}
-
-/// Nothing but a background.
-#[derive(Clone, Copy, Debug)]
-pub struct NoSky;
-
-impl Sky for NoSky {
-    const IS_SAMPLED: bool = false;
-
     #[inline]
     fn seen(&self, _direction: Vec3, background: Vec3) -> Vec3 {
         background
     }
 
+    /// One direction that light comes from, chosen by three numbers.
     #[inline]
-    fn connect(&self, _: &ShadingPoint, _: Vec3, _: &Material, _: u32, _: [f32; 2]) -> Arriving {
+    fn connect(
+        &self,
+        _point: &ShadingPoint,
+        _wo: Vec3,
+        _material: &Material,
+        _random: u32,
+        _uv: [f32; 2],
+    ) -> Arriving {
         Arriving {
             direction: Vec3::ZERO,
             contribution: Vec3::ZERO,
@@ -77,10 +62,19 @@ impl Sky for NoSky {
         }
     }
 
+    /// The density over solid angle with which [`connect`](Self::connect) finds a direction at `point`, 1/sr; 0 where there is no map.
     #[inline]
-    fn density(&self, _: &ShadingPoint, _: Vec3) -> f32 {
+    fn density(&self, _point: &ShadingPoint, _direction: Vec3) -> f32 {
         0.0
     }
+}
+
+/// Nothing but a background.
+#[derive(Clone, Copy, Debug)]
+pub struct NoSky;
+
+impl Sky for NoSky {
+    const IS_SAMPLED: bool = false;
 }
 
 /// A map and suns, as buffers hold them.
@@ -183,13 +177,8 @@ impl Sky for SkyView<'_> {
         };
         if receiving > STEP && divisor > 0.0 {
             let scattering = material.scatter(n, direction, wo);
-            let f = scattering.reflectance;
             let scale = bounded_quotient(receiving, divisor);
-            arriving.contribution = Vec3::new(
-                bounded_product(bounded_product(f.x, scale), radiance[0]),
-                bounded_product(bounded_product(f.y, scale), radiance[1]),
-                bounded_product(bounded_product(f.z, scale), radiance[2]),
-            );
+            arriving.contribution = reflected(scattering.reflectance, scale, radiance);
             arriving.scattering_density = if is_map { scattering.density } else { 0.0 };
         }
         arriving

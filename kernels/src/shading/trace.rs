@@ -185,10 +185,8 @@ pub fn seen_hit<S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray) -> Hit {
     nearest::<SEE, S>(surfaces, ray)
 }
 
-/// The nearest hit of the ray, for a mode of [`Skin::meets`].
 #[inline]
-#[must_use]
-pub fn nearest<const MODE: u32, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray) -> Hit {
+fn nearest<const MODE: u32, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray) -> Hit {
     widest(
         #[inline(always)]
         || walk::<MODE, S>(surfaces, ray, NONE).hit,

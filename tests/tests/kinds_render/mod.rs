@@ -13,10 +13,9 @@ use lightbvh::BuildParams;
 use lightbvh::light::AnyLight;
 use lightbvh::light::infinite::Environment;
 use lightbvh_host::backend::{
-    Backend, Bvh, Combination, CpuBackend, DeviceBackend, Integrator, PIXEL_RECORD, Restir, RestirFrame,
-    RestirOptions, Sampler, SceneArrays,
+    Backend, Bvh, CpuBackend, DeviceBackend, Integrator, PIXEL_RECORD, Sampler, SceneArrays,
 };
-use lightbvh_host::method::{Method, Step, Target};
+use lightbvh_host::method::{Importance, Method, Step, Target};
 use lightbvh_host::scene::{
     AnalyticKind, AnalyticLight, Camera, Instances, Material, Node, Scene, SceneData, Transform,
 };

@@ -5,8 +5,8 @@ use lightbvh_kernels::query::QueryPush;
 use lightbvh_kernels::refit::RefitPush;
 use lightbvh_kernels::{ROW_GROUPS, WORKGROUP};
 use lightbvh_kernels_builder::decorate::decorate;
-use lightbvh_kernels_builder::manifest::{self, ManifestError};
-use lightbvh_kernels_builder::verify::{VerifyError, verify};
+use lightbvh_kernels_builder::manifest;
+use lightbvh_kernels_builder::verify::verify;
 use std::path::Path;
 
 pub fn root() -> &'static Path {
@@ -86,13 +86,12 @@ fn shipped_modules_name_no_file_of_the_machine_that_built_them() {
 
 #[test]
 fn words_that_are_no_module_are_refused() {
-    assert!(matches!(
-        verify("x.spv", &[1, 2, 3]),
-        Err(VerifyError::Unreadable { .. })
-    ));
+    let error = verify("x.spv", &[1, 2, 3]).unwrap_err().to_string();
+    assert!(
+        error.starts_with("x.spv: not a readable SPIR-V module"),
+        "{error}"
+    );
     assert!(decorate(&[]).is_err());
-    assert!(matches!(
-        manifest::read(Path::new("/nowhere")),
-        Err(ManifestError::File(_))
-    ));
+    let error = manifest::read(Path::new("/nowhere")).unwrap_err().to_string();
+    assert!(error.starts_with("cannot read /nowhere/"), "{error}");
 }

@@ -13,9 +13,7 @@ use std::sync::Arc;
 
 use lightbvh::BuildParams;
 use lightbvh::exact::hash;
-use lightbvh_host::backend::{
-    Backend, Bvh, Combination, CpuBackend, Integrator, Restir, RestirFrame, RestirOptions, Sampler,
-};
+use lightbvh_host::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler};
 use lightbvh_host::scene::{
     AnalyticKind, AnalyticLight, Camera, IN_PLACE, Instances, Material, Mesh, Node, Opacity, Paint, Picture,
     Primitive, Scene, SceneData, Texture, Transform, Wrap,
@@ -139,7 +137,7 @@ pub fn along(d: [f64; 3]) -> Transform {
 
 /// Every way to render the scene: the mean of each channel, and its standard error.
 fn images(scene: &Scene) -> Vec<(String, [f64; 3], [f64; 3])> {
-    let arrays = Arc::new(arrays(scene, &SETTINGS));
+    let arrays = arrays(scene, &SETTINGS);
     let mut found = Vec::new();
     let mut keep = |what: String, image: &[[f32; 3]]| {
         // Of each channel alone.
@@ -171,36 +169,6 @@ fn images(scene: &Scene) -> Vec<(String, [f64; 3], [f64; 3])> {
                 &image.value,
             );
         }
-        if sampler == Sampler::Uniform {
-            continue;
-        }
-        let options = RestirOptions {
-            // Pixels that share samples have no standard error of their own.
-            history: 0,
-            spatial_passes: 0,
-            ..RestirOptions::new(sampler, Combination::Unbiased)
-        };
-        let mut sum = vec![[0.0_f32; 3]; (SETTINGS.width * SETTINGS.height) as usize];
-        let images = 64;
-        for seed in 0..images {
-            let frame = RestirFrame {
-                scene: &arrays,
-                width: SETTINGS.width,
-                height: SETTINGS.height,
-                seed,
-                jitter: seed,
-                background: [0.0; 3],
-                remap: None,
-            };
-            let image = cpu
-                .restir(&mut Restir::new(options), &frame)
-                .expect("an image")
-                .value;
-            for (sum, pixel) in sum.iter_mut().zip(&image) {
-                *sum = [0, 1, 2].map(|k| sum[k] + pixel[k] / images as f32);
-            }
-        }
-        keep(format!("{} restir", sampler.name()), &sum);
     }
     found
 }

@@ -1,7 +1,6 @@
 //! Frames of a scene, each made once for all who ask.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use lightbvh::Lights;
 
@@ -16,7 +15,7 @@ pub(super) struct Frames<'a> {
     scene: &'a Scene,
     size: (u32, u32),
     lights: BTreeMap<u32, Lights>,
-    arrays: BTreeMap<u32, Arc<SceneArrays>>,
+    arrays: BTreeMap<u32, SceneArrays>,
 }
 
 impl<'a> Frames<'a> {
@@ -40,7 +39,7 @@ impl<'a> Frames<'a> {
         }
         if to_render && !self.arrays.contains_key(&frame) {
             let arrays = arrays_at(self.scene, frame, self.size.0, self.size.1)?;
-            self.arrays.insert(frame, Arc::new(arrays));
+            self.arrays.insert(frame, arrays);
         }
         Ok(())
     }
@@ -55,7 +54,7 @@ impl<'a> Frames<'a> {
     }
 
     /// The arrays of a frame, once prepared to render.
-    pub fn arrays(&self, frame: u32) -> &Arc<SceneArrays> {
+    pub fn arrays(&self, frame: u32) -> &SceneArrays {
         &self.arrays[&frame]
     }
 

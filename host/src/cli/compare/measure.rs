@@ -12,7 +12,7 @@ use super::plan::{BLOCK, Plan};
 use crate::cli::measure::reference::Reference;
 use crate::cli::measure::times::ms;
 use crate::error::HostError;
-use crate::method::{Method, Runner, SequenceId, Target, UpdateTimes, runner};
+use crate::method::{Method, Runner, Target, UpdateTimes, runner};
 use crate::metrics::Quality;
 use crate::render::Film;
 use crate::workload::RenderSettings;
@@ -99,10 +99,8 @@ impl<'d> Job<'_, 'd> {
                     none.insert(runner(lane.method, &frames.step(frame), self.target)?)
                 }
             };
-            let history = runner.history();
-            let counts = |at: &&u32| (at.saturating_sub(history)..=**at).contains(&frame);
-            let shown: Vec<u32> = self.plan.frames.iter().filter(counts).copied().collect();
-            let idle = shown.is_empty() && !is_timed;
+            let is_shown = self.plan.frames.contains(&frame);
+            let idle = !is_shown && !is_timed;
             if idle && (frame == 0 || runner.may_skip()) {
                 continue;
             }
@@ -124,33 +122,20 @@ impl<'d> Job<'_, 'd> {
             ));
             let arrays = frames.arrays(frame);
             if is_timed {
-                let image =
-                    runner.image(&step, arrays, &self.settings(frame, TIMING_SEED), SequenceId::MAX)?;
+                let image = runner.image(&step, arrays, &self.settings(frame, TIMING_SEED))?;
                 self.progress.inc(self.plan.work(self.plan.samples));
                 // The first frame of a block follows other methods' work, see `BLOCK`.
                 if frame > block * BLOCK {
                     times.push(FrameTimes::new(&update, image.time));
                 }
             }
-            for (at, seed) in shown
-                .into_iter()
-                .flat_map(|at| (0..self.seeds).map(move |seed| (at, seed)))
-            {
-                let chain = u64::from(at) << 32 | u64::from(seed);
-                let image = runner.image(&step, arrays, &self.settings(frame, seed), chain)?;
+            for seed in 0..if is_shown { self.seeds } else { 0 } {
+                let image = runner.image(&step, arrays, &self.settings(frame, seed))?;
                 self.progress.inc(self.plan.work(self.plan.samples));
-                if frame == at {
-                    runner.end(chain);
-                    self.keep((lane.method, at, seed), image.value, results)?;
-                } else {
-                    self.progress.inc_length(self.plan.work(self.plan.samples));
-                }
+                self.keep((lane.method, frame, seed), image.value, results)?;
             }
         }
         if is_timed {
-            if let Some(runner) = &mut lane.runner {
-                runner.end(SequenceId::MAX);
-            }
             results.times.entry(lane.method).or_default().extend(times);
         }
         Ok(())

@@ -23,7 +23,7 @@ pub(in crate::cli) struct Args {
     /// Frames to measure; the animation runs from 0 to the last of them [default: 0,50,100,150].
     #[arg(long, value_delimiter = ',', value_name = "N,N,...")]
     frames: Vec<u32>,
-    /// Shadow rays per pixel; ReSTIR takes as many histories of six as that allows [default: 6].
+    /// Shadow rays per pixel [default: 6].
     #[arg(long)]
     samples: Option<u32>,
     /// Images of each frame, each with its own random numbers [default: 8].

@@ -36,9 +36,8 @@ pub(super) struct SceneReport {
 
 /// What the tables say that numbers cannot.
 pub(super) const NOTES: [&str; 8] = [
-    "All methods trace the same number of shadow rays per pixel at most, through the same camera rays: what differs is the \
-     light that each ray goes to. ReSTIR is unbiased; a history costs up to six (visibility of the candidate, of the frame \
-     before and of three neighbours, and the final one), fewer where a sample is known to be hidden.",
+    "All methods trace the same number of shadow rays per pixel, through the same camera rays: what differs is the light that \
+     each ray goes to.",
     "Methods with moments in their names choose lights by the default importance, over trees of 8 children to a node built \
      by Ward's criterion; the other light BVHs by the paper's Eq. 4, over trees of 4 children to a node built by SAH or SAOH.",
     "MSE, SSIM, PSNR and FLIP are of tone-mapped 8-bit sRGB at one exposure per scene (MSE in steps squared, 0 to 255²), as \

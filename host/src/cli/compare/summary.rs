@@ -81,11 +81,10 @@ pub(super) struct Change {
 }
 
 /// Methods that others are held against.
-const BASELINES: [Method; 4] = [
+const BASELINES: [Method; 3] = [
     Method::SingleLevelRefit,
     Method::SingleLevelRebuilt,
     Method::TwoLevelSaoh,
-    Method::Restir,
 ];
 
 impl Errors {

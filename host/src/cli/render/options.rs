@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use super::view::{CameraName, Up, camera};
-use crate::backend::{Combination, Integrator};
+use crate::backend::Integrator;
 use crate::cli::frames;
 use crate::cli::reading::Reading;
 use crate::error::HostError;
@@ -32,9 +32,9 @@ pub struct Args {
     /// Rows, 1 to 16384.
     #[arg(long, default_value_t = 360)]
     pub(super) height: u32,
-    /// Light samples per pixel, 1 to 65536; of ReSTIR, histories, 1 to 64 [default: 16; of ReSTIR, 1].
-    #[arg(long)]
-    pub(super) spp: Option<u32>,
+    /// Light samples per pixel, 1 to 65536.
+    #[arg(long, default_value_t = 16)]
+    pub(super) spp: u32,
     /// Number of the scene's camera, from 0; `auto`: chosen by what is lit.
     #[arg(long, default_value = "0", value_name = "N|auto", value_parser = camera)]
     pub(super) camera: CameraName,
@@ -62,7 +62,7 @@ pub struct Args {
     /// Show the mean of each texture, and neither glass nor cut-outs.
     #[arg(long)]
     pub(super) no_textures: bool,
-    /// How lights are chosen; ReSTIR starts up to 8 frames before the first one shown.
+    /// How lights are chosen.
     #[arg(long, value_enum, default_value_t = Method::TwoLevelMoments)]
     pub(super) sampler: Method,
     /// Candidates of each light sample, 1 to 256 [default: 1; of two-level-moments-resampled, 8].
@@ -71,9 +71,6 @@ pub struct Args {
     /// Reflected rays, 0 to 16, whose lights join the candidates: for lights seen in glossy surfaces.
     #[arg(long, default_value_t = 0)]
     pub(super) scattered: u32,
-    /// Reuse without bias, or biased (darker, with fewer shadow rays) [default: unbiased].
-    #[arg(long, value_enum)]
-    pub(super) restir_mode: Option<Combination>,
     /// Light reflected once, or along whole paths.
     #[arg(long, value_enum, default_value_t = IntegratorName::Direct)]
     pub(super) integrator: IntegratorName,
@@ -147,26 +144,9 @@ pub(super) fn recipe(args: &Args) -> Result<Recipe, HostError> {
         (recipe.importance, recipe.builder) = (importance, importance.builder());
     }
     recipe.builder = args.heuristic.unwrap_or(recipe.builder);
-    if let Some(combination) = args.restir_mode {
-        if recipe.reuse.is_none() {
-            return Err(HostError::Usage {
-                option: "--restir-mode",
-                needs: "--sampler restir, two-level-restir or two-level-moments-restir",
-            });
-        }
-        recipe.reuse = Some(combination);
-    }
     let usage = |option, needs| Err(HostError::Usage { option, needs });
-    if let Some(candidates) = args.candidates {
-        if recipe.reuse.is_some() {
-            return usage("--candidates", "a --sampler without ReSTIR");
-        }
-        recipe.candidates = candidates;
-    }
+    recipe.candidates = args.candidates.unwrap_or(recipe.candidates);
     if args.scattered > 0 {
-        if recipe.reuse.is_some() {
-            return usage("--scattered", "a --sampler without ReSTIR");
-        }
         if args.integrator == IntegratorName::Path {
             return usage(
                 "--scattered",
@@ -176,9 +156,6 @@ pub(super) fn recipe(args: &Args) -> Result<Recipe, HostError> {
         recipe.scattered = args.scattered;
     }
     if args.integrator == IntegratorName::Path {
-        if recipe.reuse.is_some() {
-            return usage("--integrator path", "a --sampler without ReSTIR");
-        }
         if recipe.candidates > 1 {
             return usage(
                 "--integrator path",

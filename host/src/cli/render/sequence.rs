@@ -1,7 +1,5 @@
 //! The frames of `lightbvh render`, one after the other.
 
-use std::sync::Arc;
-
 use lightbvh::EmissiveTriangle;
 use lightbvh::light::AnyLight;
 use serde_json::{Value, json};
@@ -12,22 +10,16 @@ use crate::backend::SceneArrays;
 use crate::cli::table::{news, say};
 use crate::cli::{Context, frames};
 use crate::error::HostError;
-use crate::method::{MethodLight, Recipe, SequenceId, Step, Target};
+use crate::method::{MethodLight, Recipe, Step, Target};
 use crate::render::Film;
 use crate::scene::{Scene, SceneLight};
 use crate::vulkan::Device;
 use crate::workload::{RenderSettings, arrays_lit_by};
 
-/// Frames that ReSTIR runs through before the first one shown, where there are as many before it.
-const WARM_UP: u32 = 8;
-/// All images are of one sequence.
-const SEQUENCE: SequenceId = 0;
-
 /// What is to be rendered.
 pub(super) struct Sequence<'a> {
     pub(super) args: &'a Args,
     pub(super) recipe: Recipe,
-    pub(super) samples: u32,
     pub(super) scene: &'a Scene,
 }
 
@@ -48,12 +40,10 @@ impl Sequence<'_> {
     ) -> Result<Vec<Value>, HostError> {
         let args = self.args;
         // With its end: the last frame of all has none after it.
-        let (first_shown, last) = match &args.animate {
+        let (start, last) = match &args.animate {
             Some(frames) => (frames.start, frames.end - 1),
             None => (args.frame, args.frame),
         };
-        let warm_up = if self.recipe.reuse.is_some() { WARM_UP } else { 0 };
-        let start = first_shown.saturating_sub(warm_up);
         let first = self.arrays::<L>(start)?;
         let target = device.map_or(Target::Cpu, Target::Device);
         let mut runner = self.recipe.runner(&self.step(start, &first), target)?;
@@ -70,17 +60,14 @@ impl Sequence<'_> {
                 frame,
                 width: args.width,
                 height: args.height,
-                samples: self.samples,
+                samples: args.spp,
                 seed: args.seed,
             };
             let step = self.step(frame, &arrays);
             if frame > start {
                 runner.advance(&step)?;
             }
-            let image = runner.image(&step, &arrays, &settings, SEQUENCE)?;
-            if frame < first_shown {
-                continue;
-            }
+            let image = runner.image(&step, &arrays, &settings)?;
             let film = Film::new(args.width, args.height, image.value)?;
             // What the greatest exposure shows as black fixes none.
             let is_black = match args.exposure {
@@ -119,14 +106,9 @@ impl Sequence<'_> {
             {
                 say!("  camera chosen: {words}")?;
             }
-            let mut report = json!({
+            reports.push(json!({
                 "frame": frame, "render_ms": ms, "exposure": exposure, "output": output,
-            });
-            if let Some(rays) = runner.shadow_rays(SEQUENCE) {
-                let pixels = f64::from(args.width) * f64::from(args.height);
-                report["shadow_rays_per_pixel"] = (rays as f64 / pixels).into();
-            }
-            reports.push(report);
+            }));
         }
         Ok(reports)
     }
@@ -152,8 +134,7 @@ impl Sequence<'_> {
         }
     }
 
-    fn arrays<L: SceneLight>(&self, frame: u32) -> Result<Arc<SceneArrays<L>>, HostError> {
-        let arrays = arrays_lit_by(self.scene, frame, self.args.width, self.args.height)?;
-        Ok(Arc::new(arrays))
+    fn arrays<L: SceneLight>(&self, frame: u32) -> Result<SceneArrays<L>, HostError> {
+        arrays_lit_by(self.scene, frame, self.args.width, self.args.height)
     }
 }

@@ -145,7 +145,7 @@ impl With<'_> {
         Ok(Box::new(self.built::<Paper, I, 4>(importance)?))
     }
 
-    pub fn built<C, I, const W: usize>(self, importance: &'static str) -> Result<Built<C, W>, HostError>
+    fn built<C, I, const W: usize>(self, importance: &'static str) -> Result<Built<C, W>, HostError>
     where
         C: TriangleChoice<W>,
         I: ImportanceModel<C::Node, W> + Sync + 'static,
@@ -168,13 +168,6 @@ impl With<'_> {
             followed,
             chooser: Box::new(By::<I>(PhantomData)),
         })
-    }
-}
-
-impl<C: TriangleChoice<W>, const W: usize> Built<C, W> {
-    /// As of the frame last advanced to.
-    pub fn bvh(&self) -> &Bvh<C, W> {
-        &self.bvh
     }
 }
 

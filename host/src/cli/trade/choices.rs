@@ -1,13 +1,11 @@
-//! The configurations that are measured: by importance, builder, levels, update, candidates, integrator and arithmetic, one
+//! The configurations that are measured: by importance, builder, levels, update, candidates and arithmetic, one
 //! axis at a time from the default.
 
 use lightbvh::importance::{DefaultImportance, NativeMath};
 use lightbvh::{Defensive, Eq4, Flux, FluxOverDistance, Moments};
-use lightbvh_kernels::bvh::{Standard, WIDTH};
 use lightbvh_peers::{Falcor, Pbrt};
 
 use super::built::With;
-use super::reservoirs::Reservoirs;
 use super::subject::{Axis, Subject};
 use super::update::{Frame, Update};
 use crate::backend::Sampler;
@@ -89,12 +87,6 @@ pub(super) fn all(
                 ..with(A::Candidates)
             };
             subjects.push(own.of::<D>(DEFAULT)?);
-        }
-    }
-    if is_wanted(A::Integrator) {
-        for source in [Sampler::Power, two] {
-            let tree = with(A::Integrator).built::<Standard, D, WIDTH>(DEFAULT)?;
-            subjects.push(Box::new(Reservoirs::new(source, tree, first)?));
         }
     }
     if is_wanted(A::Arithmetic) {

@@ -107,8 +107,7 @@ pub(super) struct Images {
     /// The error over the default's, seed by seed.
     pub error_ratio: Interval,
     /// The error by as many shadow rays as fit into the default's frame beside the update: between the errors of images by the
-    /// whole numbers beside that. ReSTIR takes whole histories, of six rays at most: between the errors of so many; where less
-    /// than one fits, the error of one by what fits of it.
+    /// whole numbers beside that; where less than one fits, the error of one by what fits of it.
     pub error_equal_time: f64,
     /// The same over the default's, seed by seed; as unsure as the ratio of the frames, which says how many fit, is besides.
     pub equal_time_ratio: Interval,
@@ -195,9 +194,8 @@ impl Measured {
         for ((subject, of), &update) in subjects.iter_mut().zip(&mut self.of_each).zip(updates_ms) {
             let left: Vec<f64> = default.iter().map(|frame| frame - update).collect();
             // An update that leaves no time at all has no image.
-            let least = subject.least_rays();
-            let of_all = f64::from((budget.samples / least).max(1));
-            let fits = (of_all * Interval::of_ratios(&left, &of.times[begin..]).median).max(LEAST_SAMPLES);
+            let fits = (f64::from(budget.samples) * Interval::of_ratios(&left, &of.times[begin..]).median)
+                .max(LEAST_SAMPLES);
             let fewer = (fits.floor() as u32).max(1);
             // Errors fall by powers of the samples between them; by their inverse below one.
             let share =
@@ -211,16 +209,16 @@ impl Measured {
             for seed in budget.seeds..budget.seeds + budget.seeds.div_ceil(2) {
                 let mut beside = [0.0; 2];
                 for (error, samples) in beside.iter_mut().zip([fewer, fewer + 1]) {
-                    let film = budget.film(subject.render(arrays, params(samples * least, seed))?.value)?;
+                    let film = budget.film(subject.render(arrays, params(samples, seed))?.value)?;
                     *error = error_of(&reference, &film).max(1e-9);
                     if samples == nearest && of.shown.is_none() {
-                        of.shown = Some((film, samples * least));
+                        of.shown = Some((film, samples));
                     }
                 }
                 let [a, b] = beside;
                 of.equal_time.push(a * (b / a).powf(share) / fits.min(1.0));
             }
-            of.fits.push(fits * f64::from(least));
+            of.fits.push(fits);
         }
         self.judge = Some(reference.judge);
         Ok(())

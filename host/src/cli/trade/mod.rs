@@ -11,7 +11,6 @@ mod pick;
 mod point;
 mod prepare;
 pub(super) mod report;
-mod reservoirs;
 mod steps;
 mod structure;
 mod subject;
@@ -235,7 +234,6 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
             default: subject.config().axis == Axis::Default,
             structure,
             images,
-            least_rays: subject.least_rays(),
             pareto: false,
         })
         .collect();

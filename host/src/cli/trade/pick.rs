@@ -9,7 +9,7 @@ use crate::cli::measure::interval::Interval;
 /// Squared steps of a byte below which the reference cannot tell errors apart.
 const LEAST_ERROR: f64 = 1e-3;
 
-/// Most shadow rays of a pixel, in the least image of a choice: times and errors are not extrapolated further.
+/// Most shadow rays of a pixel: times and errors are not extrapolated further.
 const MOST_IMAGES: f64 = 256.0;
 
 /// A gain below this is none.
@@ -32,8 +32,6 @@ struct Costs {
     ray_ms: f64,
     /// Squared error by one shadow ray of a pixel.
     of_one: f64,
-    /// Shadow rays of a pixel in the least image.
-    least: f64,
 }
 
 impl Costs {
@@ -43,7 +41,6 @@ impl Costs {
             update_ms: point.structure.update_ms,
             ray_ms: point.images.image_ms / f64::from(samples),
             of_one: point.images.error.max(LEAST_ERROR) * f64::from(samples),
-            least: f64::from(point.least_rays),
         }
     }
 }
@@ -89,10 +86,8 @@ impl Goal {
             update_ms,
             ray_ms,
             of_one,
-            least,
         } = *costs;
         let error = |rays: f64| (of_one / rays).sqrt() / 255.0;
-        let most = MOST_IMAGES * least;
         let found = |rays: f64, error| Found {
             frame_ms: update_ms + rays * ray_ms,
             error,
@@ -100,9 +95,9 @@ impl Goal {
         };
         match self {
             Self::Time(frame_ms) => {
-                let rays = ((frame_ms - update_ms) / ray_ms).min(most);
-                if rays < least {
-                    return Err(update_ms + least * ray_ms);
+                let rays = ((frame_ms - update_ms) / ray_ms).min(MOST_IMAGES);
+                if rays < 1.0 {
+                    return Err(update_ms + ray_ms);
                 }
                 let own = found(rays, error(rays));
                 // Divided and multiplied again, a budget may come out one rounding above itself.
@@ -112,8 +107,8 @@ impl Goal {
                 })
             }
             Self::Error(wanted) => match of_one / (255.0 * wanted).powi(2) {
-                rays if rays > most => Err(error(most)),
-                rays if rays < least => Ok(found(least, error(least))),
+                rays if rays > MOST_IMAGES => Err(error(MOST_IMAGES)),
+                rays if rays < 1.0 => Ok(found(1.0, error(1.0))),
                 rays => Ok(found(rays, wanted)),
             },
         }
@@ -223,7 +218,6 @@ mod tests {
         update_ms: 2.0,
         ray_ms: 4.0,
         of_one: 1200.0,
-        least: 1.0,
     };
 
     fn steps(squared: f64) -> f64 {

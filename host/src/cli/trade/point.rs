@@ -18,9 +18,6 @@ pub(super) struct Point {
     pub structure: Structure,
     #[serde(flatten)]
     pub images: Images,
-    /// Shadow rays of a pixel in its least image.
-    #[serde(skip)]
-    pub least_rays: u32,
     /// Whether it is on the front: nothing else takes less time for an update or an image of the same rays, or has less error
     /// in it, at no greater cost of the others, and it differs from the default beyond the spread.
     pub pareto: bool,

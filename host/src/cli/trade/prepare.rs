@@ -1,12 +1,9 @@
 //! From a scene to configurations that have followed its lights to the frame that is measured.
 
-use std::sync::Arc;
-
 use lightbvh::ShadingPoint;
 
 use super::choices::all;
 use super::image::Budget;
-use super::reservoirs::HISTORY;
 use super::subject::{Axis, Subject};
 use super::update::{Frame, Updates};
 use crate::backend::SceneArrays;
@@ -22,10 +19,8 @@ pub(super) struct Prepared {
     pub points: Vec<ShadingPoint>,
     pub subjects: Vec<Box<dyn Subject>>,
     pub updates: Vec<Updates>,
-    pub arrays: Arc<SceneArrays>,
+    pub arrays: SceneArrays,
 }
-
-type Shown = Option<Arc<SceneArrays>>;
 
 /// A frame whose images are measured: the configurations as they are in it, their updates so far, what to render and its
 /// background.
@@ -48,46 +43,32 @@ pub(super) fn prepare(
     scene.require_lights()?;
     let last = measured.last().copied().unwrap_or(0);
     let points = points::on_surfaces(&scene, last, budget.points);
-    // ReSTIR looks back from the frames that are measured.
-    let looks_back = is_wanted(Axis::Integrator);
-    let arrays = |number: u32| {
-        let back = if looks_back { HISTORY } else { 0 };
-        let wanted = measured.iter().any(|&at| number <= at && number + back >= at);
-        let made = wanted.then(|| arrays_at(&scene, number, budget.width, budget.height));
-        made.transpose().map(|arrays| arrays.map(Arc::new))
-    };
+    let arrays_at = |number: u32| arrays_at(&scene, number, budget.width, budget.height);
     let first = lights_at(&scene, 0)?;
-    let mut shown = arrays(0)?;
-    let first = Frame::new(&scene, 0, &first).rendered_from(shown.as_ref());
-    let mut subjects = all(&first, is_wanted)?;
+    let mut subjects = all(&Frame::new(&scene, 0, &first), is_wanted)?;
     news!(
         "{name}: {} choices follow its lights to frame {last}",
         subjects.len()
     );
     let mut updates = vec![Updates::default(); subjects.len()];
-    let mut measure =
-        |number: u32, subjects: &mut [Box<dyn Subject>], updates: &[Updates], shown: &Shown| match shown {
-            Some(arrays) if measured.contains(&number) => {
-                news!("{name}: frame {number}, images by {} choices", subjects.len());
-                in_frame(subjects, updates, arrays, scene.frame(number).background)
-            }
-            _ => Ok(()),
-        };
-    measure(0, &mut subjects, &updates, &shown)?;
+    let mut measure = |number: u32, subjects: &mut [Box<dyn Subject>], updates: &[Updates]| {
+        if !measured.contains(&number) {
+            return Ok(());
+        }
+        let arrays = arrays_at(number)?;
+        news!("{name}: frame {number}, images by {} choices", subjects.len());
+        in_frame(subjects, updates, &arrays, scene.frame(number).background)
+    };
+    measure(0, &mut subjects, &updates)?;
     for number in 1..=last {
         let lights = lights_at(&scene, number)?;
-        shown = arrays(number)?;
         for k in 0..subjects.len() {
             let at = (k + number as usize) % subjects.len();
-            let frame = Frame::new(&scene, number, &lights).rendered_from(shown.as_ref());
-            updates[at].push(subjects[at].advance(&frame)?);
+            updates[at].push(subjects[at].advance(&Frame::new(&scene, number, &lights))?);
         }
-        measure(number, &mut subjects, &updates, &shown)?;
+        measure(number, &mut subjects, &updates)?;
     }
-    let arrays = match shown {
-        Some(arrays) => arrays,
-        None => Arc::new(arrays_at(&scene, last, budget.width, budget.height)?),
-    };
+    let arrays = arrays_at(last)?;
     Ok(Prepared {
         scene,
         points,

@@ -17,7 +17,7 @@ use crate::method::Builder;
 pub(super) struct Config {
     /// What differs from the default.
     pub axis: Axis,
-    /// What becomes of samples: `direct`, each counts by itself; `restir`, pixels and frames share them.
+    /// What becomes of samples: `direct`, each counts by itself.
     pub integrator: &'static str,
     pub levels: Sampler,
     pub importance: &'static str,
@@ -46,8 +46,6 @@ pub(super) enum Axis {
     Update,
     /// Candidates of a sample.
     Candidates,
-    /// Whether pixels and frames share samples.
-    Integrator,
     /// Operations that every processor computes alike, or its own.
     Arithmetic,
 }
@@ -73,11 +71,6 @@ pub(super) trait Subject {
     /// The probability of a light.
     fn pmf(&self, lights: &Lights, point: &ShadingPoint, light: u32) -> f32;
 
-    /// Shadow rays of a pixel in the least image; images have multiples of it.
-    fn least_rays(&self) -> u32 {
-        1
-    }
-
     fn render(
         &mut self,
         arrays: &SceneArrays,
@@ -99,13 +92,6 @@ impl fmt::Display for Config {
             Axis::Builder => write!(f, "built by {builder}"),
             Axis::Levels => write!(f, "{}, {}", self.levels.name(), self.importance),
             Axis::Update => write!(f, "{}, {}", self.levels.name(), self.update.name()),
-            Axis::Integrator => write!(
-                f,
-                "{}, {} of {}",
-                self.integrator,
-                self.candidates,
-                self.levels.name()
-            ),
             Axis::Arithmetic => write!(f, "native operations"),
             Axis::Candidates => write!(f, "1 of {} candidates", self.candidates),
         }

@@ -1,13 +1,12 @@
 //! How trees follow the animation: built at its first frame, brought to each one after that by a policy, and timed.
 
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use lightbvh::{BuildParams, Bvh, LightNode, Lights};
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-use crate::backend::{BackendError, Sampler, SceneArrays};
+use crate::backend::{BackendError, Sampler};
 use crate::cli::measure::interval::Interval;
 use crate::cli::measure::times::ms;
 use crate::error::HostError;
@@ -59,8 +58,6 @@ pub(super) struct Frame<'a> {
     pub scene: &'a Scene,
     pub number: u32,
     pub lights: &'a Lights,
-    /// To render it from, of the frames that images depend on.
-    pub arrays: Option<&'a Arc<SceneArrays>>,
 }
 
 impl<'a> Frame<'a> {
@@ -69,12 +66,7 @@ impl<'a> Frame<'a> {
             scene,
             number,
             lights,
-            arrays: None,
         }
-    }
-
-    pub fn rendered_from(self, arrays: Option<&'a Arc<SceneArrays>>) -> Self {
-        Self { arrays, ..self }
     }
 }
 

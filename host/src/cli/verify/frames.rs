@@ -2,7 +2,6 @@
 //! everything that it computes compared in each frame.
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use indicatif::ProgressBar;
 use lightbvh::exact::hash;
@@ -12,15 +11,13 @@ use super::side::Side;
 use super::tally::{Kind, Tallies};
 use crate::backend::{Sampler, SceneArrays};
 use crate::error::HostError;
-use crate::method::{Importance, Method, MethodLight, Recipe, Runner, SequenceId, Step, Target};
+use crate::method::{Importance, Method, MethodLight, Recipe, Runner, Step, Target};
 use crate::scene::{Scene, SceneLight};
 use crate::words::Record;
 use crate::workload::{RenderSettings, arrays_lit_by, queries};
 
 /// Images are small: an animation has thousands of them, and SwiftShader takes a millisecond for a pixel of some.
 const SIZE: (u32, u32) = (16, 9);
-/// All images of a method are of one animation.
-const SEQUENCE: SequenceId = 0;
 
 /// What is compared in each frame.
 pub(super) struct Plan {
@@ -49,7 +46,7 @@ pub(super) fn compare<L: MethodLight>(
 ) -> Result<(), HostError> {
     let mut lanes = Vec::new();
     for frame in plan.frames.clone() {
-        let arrays = Arc::new(arrays_lit_by::<L>(scene, frame, SIZE.0, SIZE.1)?);
+        let arrays = arrays_lit_by::<L>(scene, frame, SIZE.0, SIZE.1)?;
         let step = Step {
             scene,
             frame,
@@ -110,7 +107,7 @@ impl<L: MethodLight> Lane<'_, L> {
     fn compare(
         &mut self,
         step: &Step<'_, L>,
-        arrays: &Arc<SceneArrays<L>>,
+        arrays: &SceneArrays<L>,
         asked: &[Query],
         seed: u32,
         tallies: &mut Tallies,
@@ -121,18 +118,15 @@ impl<L: MethodLight> Lane<'_, L> {
             format!("{scene} {} frame {frame} {kernel}", recipe.name)
         };
         // Candidates change the image alone.
-        let has_own_tree = recipe.is_light_bvh() && recipe.candidates == 1;
-        if has_own_tree && let Some((record, expected)) = nodes(&mut *self.cpu)? {
+        if recipe.lights.needs_bvh() && recipe.candidates == 1 {
+            let (record, expected) = nodes(&mut *self.cpu)?;
             for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
-                if let Some((_, found)) = nodes(&mut **device)? {
-                    tally.take(Kind::Nodes, &what("refit"), &record, &expected, &found)?;
-                }
+                let (_, found) = nodes(&mut **device)?;
+                tally.take(Kind::Nodes, &what("refit"), &record, &expected, &found)?;
             }
-        }
-        if has_own_tree && let Some(cpu) = self.cpu.backend() {
-            let devices = self.devices.iter_mut().filter_map(|device| device.backend());
+            let devices = self.devices.iter_mut().map(|device| device.backend());
             let mut side = Side {
-                cpu,
+                cpu: self.cpu.backend(),
                 devices: devices.collect(),
             };
             let lights = (arrays.lights.triangles(), recipe.lights == Sampler::SingleLevel);
@@ -146,26 +140,20 @@ impl<L: MethodLight> Lane<'_, L> {
             samples: 1,
             seed: seed.wrapping_add(step.frame),
         };
-        let expected = self.cpu.image(step, arrays, &settings, SEQUENCE)?.value;
-        let histories = self.cpu.histories(SEQUENCE)?;
+        let expected = self.cpu.image(step, arrays, &settings)?.value;
         for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
-            let found = device.image(step, arrays, &settings, SEQUENCE)?.value;
+            let found = device.image(step, arrays, &settings)?.value;
             tally.take_pixels(&what("render"), &expected, &found)?;
-            for (cpu, device) in histories.iter().zip(&device.histories(SEQUENCE)?) {
-                tally.take_history([&what("restir_initial"), &what("restir")], cpu, device)?;
-            }
         }
         Ok(())
     }
 }
 
-/// The words of the nodes of a method that are in use, if it has a tree.
-fn nodes<L: MethodLight>(runner: &mut dyn Runner<L>) -> Result<Option<(Record, Vec<u32>)>, HostError> {
-    let Some(backend) = runner.backend() else {
-        return Ok(None);
-    };
+/// The words of the nodes of a method that are in use.
+fn nodes<L: MethodLight>(runner: &mut dyn Runner<L>) -> Result<(Record, Vec<u32>), HostError> {
+    let backend = runner.backend();
     let (record, words) = (backend.node_record(), backend.nodes()?);
-    Ok(Some((record, runner.words_in_use(words))))
+    Ok((record, runner.words_in_use(words)))
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use bytemuck::cast_slice;
 use serde::Serialize;
 
 use super::subject::Tree;
-use crate::backend::{History, PIXEL_RECORD, RESERVOIR_RECORD, SURFACE_RECORD};
+use crate::backend::PIXEL_RECORD;
 use crate::error::HostError;
 use crate::words::{Record, compare_words};
 
@@ -19,8 +19,6 @@ pub(in crate::cli) enum Kind {
     Samples,
     Pmfs,
     Pixels,
-    Surfaces,
-    Reservoirs,
 }
 
 impl Kind {
@@ -78,7 +76,6 @@ impl Tally {
             Kind::Samples => self.samples += records,
             Kind::Pmfs => self.pmfs += records,
             Kind::Pixels => self.pixels += records,
-            Kind::Surfaces | Kind::Reservoirs => {}
         }
         self.compared += comparison.compared;
         self.different += comparison.different;
@@ -100,18 +97,5 @@ impl Tally {
     ) -> Result<(), HostError> {
         let (cpu, device) = (cast_slice(cpu), cast_slice(device));
         self.take(Kind::Pixels, what, &PIXEL_RECORD, cpu, device)
-    }
-
-    /// Compares what ReSTIR keeps of a frame: its G-buffer, then its reservoirs.
-    pub fn take_history(
-        &mut self,
-        what: [&str; 2],
-        cpu: &History,
-        device: &History,
-    ) -> Result<(), HostError> {
-        let (surfaces, found) = (cast_slice(&cpu.0), cast_slice(&device.0));
-        self.take(Kind::Surfaces, what[0], &SURFACE_RECORD, surfaces, found)?;
-        let (reservoirs, found) = (cast_slice(&cpu.1), cast_slice(&device.1));
-        self.take(Kind::Reservoirs, what[1], &RESERVOIR_RECORD, reservoirs, found)
     }
 }

@@ -10,6 +10,13 @@ use super::Result;
 /// How long the device may take for one frame, ns. A software device compiles a kernel at its first dispatch.
 const TIME_LIMIT: u64 = 120_000_000_000;
 
+/// Vulkan itself.
+struct Instance {
+    raw: ash::Instance,
+    // Unloads the library, so it goes last.
+    _entry: ash::Entry,
+}
+
 /// An open device with one queue and one command buffer.
 pub struct Gpu {
     pub name: String,
@@ -21,9 +28,7 @@ pub struct Gpu {
     commands: vk::CommandBuffer,
     pool: vk::CommandPool,
     fence: vk::Fence,
-    instance: ash::Instance,
-    // Unloads the library, so it goes last.
-    _entry: ash::Entry,
+    _instance: Rc<Instance>,
 }
 
 impl Gpu {
@@ -35,47 +40,28 @@ impl Gpu {
                 "this thread rounds or flushes otherwise than Rust does; open devices on a new thread".into(),
             );
         }
+        // SAFETY: the loader's library may be loaded at any time, and stays loaded as long as `entry`.
+        let entry = unsafe { ash::Entry::load() }?;
+        let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_2);
+        let info = vk::InstanceCreateInfo::default().application_info(&application);
+        // SAFETY: `info` and what it points to outlive the call.
+        let raw = unsafe { entry.create_instance(&info, None) }?;
+        let instance = Rc::new(Instance { raw, _entry: entry });
+        // SAFETY: the instance is alive.
+        let physicals = unsafe { instance.raw.enumerate_physical_devices() }?;
         let mut all = Vec::new();
-        // Each has an instance of its own, which keeps their lifetimes apart.
-        while let Some(gpu) = Self::open(all.len())? {
-            all.push(gpu);
+        for physical in physicals {
+            all.extend(Self::open(&instance, physical)?.map(Rc::new));
         }
-        let all: Vec<_> = all.into_iter().flatten().collect();
         if all.is_empty() {
             return Err("no Vulkan 1.2 device with vulkanMemoryModel; install mesa-vulkan-drivers for one in software".into());
         }
         Ok(all)
     }
 
-    /// Opens device `index`: `None` beyond the last one, `Some(None)` for one that cannot run the kernels.
-    fn open(index: usize) -> Result<Option<Option<Rc<Self>>>> {
-        // SAFETY: the loader's library may be loaded at any time, and stays loaded as long as `entry`.
-        let entry = unsafe { ash::Entry::load() }?;
-        let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_2);
-        let info = vk::InstanceCreateInfo::default().application_info(&application);
-        // SAFETY: `info` and what it points to outlive the call.
-        let instance = unsafe { entry.create_instance(&info, None) }?;
-        // SAFETY: the instance is alive.
-        let physicals = unsafe { instance.enumerate_physical_devices() }?;
-        let opened = match physicals.get(index) {
-            None => Ok(None),
-            Some(&physical) => Self::open_physical(&entry, &instance, physical).map(Some),
-        };
-        match opened {
-            Ok(Some(Some(gpu))) => Ok(Some(Some(Rc::new(gpu)))),
-            other => {
-                // SAFETY: nothing made from the instance is left.
-                unsafe { instance.destroy_instance(None) };
-                Ok(other?.map(|_| None))
-            }
-        }
-    }
-
-    fn open_physical(
-        entry: &ash::Entry,
-        instance: &ash::Instance,
-        physical: vk::PhysicalDevice,
-    ) -> Result<Option<Self>> {
+    /// Opens a device, if it can run the kernels.
+    fn open(vulkan: &Rc<Instance>, physical: vk::PhysicalDevice) -> Result<Option<Self>> {
+        let instance = &vulkan.raw;
         let mut floats = vk::PhysicalDeviceFloatControlsProperties::default();
         let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut floats);
         let mut vulkan12 = vk::PhysicalDeviceVulkan12Features::default();
@@ -139,8 +125,7 @@ impl Gpu {
             commands,
             pool,
             fence,
-            instance: instance.clone(),
-            _entry: entry.clone(),
+            _instance: Rc::clone(vulkan),
         }))
     }
 
@@ -186,6 +171,13 @@ impl Gpu {
     }
 }
 
+impl Drop for Instance {
+    fn drop(&mut self) {
+        // SAFETY: devices hold this structure, so they are gone.
+        unsafe { self.raw.destroy_instance(None) };
+    }
+}
+
 impl Drop for Gpu {
     fn drop(&mut self) {
         // SAFETY: buffers and pipelines hold this structure, so they are gone. Nothing runs, but after an error.
@@ -194,7 +186,6 @@ impl Drop for Gpu {
             self.device.destroy_fence(self.fence, None);
             self.device.destroy_command_pool(self.pool, None);
             self.device.destroy_device(None);
-            self.instance.destroy_instance(None);
         }
     }
 }

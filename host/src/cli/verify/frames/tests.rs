@@ -5,9 +5,7 @@ use lightbvh_kernels::bvh::Paper;
 use lightbvh_kernels::render::RenderParams;
 
 use super::*;
-use crate::backend::{
-    Backend, BackendError, Bvh, CpuBackend, History, Integrator, Restir, RestirFrame, Timed,
-};
+use crate::backend::{Backend, BackendError, Bvh, CpuBackend, Integrator, Timed};
 use crate::cli::verify::tally::Tally;
 use crate::method::{UpdateTimes, runner};
 use crate::workload::arrays_at;
@@ -47,30 +45,24 @@ impl Runner for Corrupt {
     fn image(
         &mut self,
         step: &Step<'_>,
-        arrays: &Arc<SceneArrays>,
+        arrays: &SceneArrays,
         settings: &RenderSettings,
-        chain: SequenceId,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
-        let mut image = self.inner.image(step, arrays, settings, chain)?;
+        let mut image = self.inner.image(step, arrays, settings)?;
         turn(Kind::Pixels, self.wrong, &mut image.value);
         Ok(image)
     }
 
-    fn backend(&mut self) -> Option<&mut dyn Backend> {
-        Some(&mut self.backend)
+    fn backend(&mut self) -> &mut dyn Backend {
+        &mut self.backend
     }
 
     fn words_in_use(&self, nodes: Vec<u32>) -> Vec<u32> {
         self.inner.words_in_use(nodes)
     }
 
-    fn histories(&self, chain: SequenceId) -> Result<Vec<History>, HostError> {
-        let mut histories = self.inner.histories(chain)?;
-        for (surfaces, reservoirs) in &mut histories {
-            turn(Kind::Surfaces, self.wrong, surfaces);
-            turn(Kind::Reservoirs, self.wrong, reservoirs);
-        }
-        Ok(histories)
+    fn may_skip(&self) -> bool {
+        self.inner.may_skip()
     }
 }
 
@@ -106,18 +98,12 @@ impl Backend for CorruptBackend {
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         self.inner.render(scene, params, sampler, integrator)
     }
-
-    fn restir(
-        &mut self,
-        restir: &mut Restir,
-        frame: &RestirFrame<'_>,
-    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
-        self.inner.restir(restir, frame)
-    }
 }
 
-/// What is found in two frames of `method`, the second of which is corrupt where `wrong` says.
-fn found(method: Method, wrong: Option<Kind>) -> Tally {
+const METHOD: Method = Method::SingleLevelRefit;
+
+/// What is found in two frames of the method, the second of which is corrupt where `wrong` says.
+fn found(wrong: Option<Kind>) -> Tally {
     let scene = Scene::open("street").expect("built in");
     let mut tallies = Tallies {
         devices: vec![Tally::default()],
@@ -126,7 +112,7 @@ fn found(method: Method, wrong: Option<Kind>) -> Tally {
     };
     let mut lane = None;
     for frame in [0, 1] {
-        let arrays = Arc::new(arrays_at(&scene, frame, SIZE.0, SIZE.1).expect("a frame"));
+        let arrays = arrays_at(&scene, frame, SIZE.0, SIZE.1).expect("a frame");
         let step = Step {
             scene: &scene,
             frame,
@@ -137,7 +123,7 @@ fn found(method: Method, wrong: Option<Kind>) -> Tally {
                 let params = BuildParams::paper(Heuristic::Saoh);
                 let bvh: Bvh<Paper, 4> = build(step.lights, Sampler::SingleLevel, &params);
                 let corrupt = Corrupt {
-                    inner: runner(method, &step, Target::Cpu).expect("a runner"),
+                    inner: runner(METHOD, &step, Target::Cpu).expect("a runner"),
                     backend: CorruptBackend {
                         inner: CpuBackend::new(bvh),
                         wrong: None,
@@ -146,8 +132,8 @@ fn found(method: Method, wrong: Option<Kind>) -> Tally {
                     wrong: None,
                 };
                 lane.insert(Lane {
-                    recipe: method.recipe(),
-                    cpu: runner(method, &step, Target::Cpu).expect("a runner"),
+                    recipe: METHOD.recipe(),
+                    cpu: runner(METHOD, &step, Target::Cpu).expect("a runner"),
                     devices: vec![Box::new(corrupt)],
                 })
             }
@@ -166,39 +152,29 @@ fn found(method: Method, wrong: Option<Kind>) -> Tally {
 
 #[test]
 fn equal_results_are_equal() {
-    for method in [Method::SingleLevelRefit, Method::Restir] {
-        let tally = found(method, None);
-        assert_eq!(tally.different, 0, "{:?}", tally.first_difference);
-        let words: u64 = tally.words.values().map(|words| words.compared).sum();
-        assert_eq!(words, tally.compared);
-        assert!(tally.pixels >= 2 * u64::from(SIZE.0 * SIZE.1));
-    }
+    let tally = found(None);
+    assert_eq!(tally.different, 0, "{:?}", tally.first_difference);
+    let words: u64 = tally.words.values().map(|words| words.compared).sum();
+    assert_eq!(words, tally.compared);
+    assert!(tally.pixels >= 2 * u64::from(SIZE.0 * SIZE.1));
 }
 
 #[test]
 fn a_wrong_bit_of_anything_is_found_and_named() {
-    use Method::{Restir, SingleLevelRefit};
-    for (method, kind, said) in [
-        (SingleLevelRefit, Kind::Nodes, "refit: node "),
-        (
-            SingleLevelRefit,
-            Kind::Samples,
-            "sample: sampled light 32, light: ",
-        ),
-        (SingleLevelRefit, Kind::Pmfs, "pmf: pmf 32, pmf: "),
-        (SingleLevelRefit, Kind::Pixels, "render: pixel 72, radiance[0]: "),
-        (Restir, Kind::Pixels, "render: pixel 72, radiance[0]: "),
-        (Restir, Kind::Surfaces, "restir_initial: surface 72, p[0]: "),
-        (Restir, Kind::Reservoirs, "restir: reservoir 72, light: "),
+    for (kind, said) in [
+        (Kind::Nodes, "refit: node "),
+        (Kind::Samples, "sample: sampled light 32, light: "),
+        (Kind::Pmfs, "pmf: pmf 32, pmf: "),
+        (Kind::Pixels, "render: pixel 72, radiance[0]: "),
     ] {
-        let tally = found(method, Some(kind));
+        let tally = found(Some(kind));
         assert_eq!(
             (tally.different, tally.words[&kind].different),
             (1, 1),
             "{kind:?}"
         );
         let first = tally.first_difference.expect("a difference");
-        let begins = format!("street {} frame 1 {said}", method.name());
+        let begins = format!("street {} frame 1 {said}", METHOD.name());
         assert!(first.starts_with(&begins), "{first}");
         assert!(
             first.contains("expected 0x") && first.contains("got 0x"),

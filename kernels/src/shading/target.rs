@@ -1,19 +1,18 @@
-//! p̂, the target that samples are resampled by: the luminance of the unshadowed contribution (ReSTIR section 3).
+//! p̂, the target that candidates are resampled by: the luminance of the unshadowed contribution (B. Bitterli et al.,
+//! "Spatiotemporal reservoir resampling", 2020, section 3).
 
 use glam::Vec3;
 use lightbvh::exact::{flush, min, pow2};
 use lightbvh::reservoir::{LightSample, target};
 
-use super::super::area::{Connection, luminance};
-use super::super::emitter::Emitter;
-use super::super::emitters::Emitters;
-use super::super::grid::{TINY, bounded_quotient};
-use super::super::material::Material;
-use super::super::pixel::{Scene, load_material};
-use super::super::ray::Ray;
-use super::super::skin::{SHADOW, Skin, Through};
-use super::super::trace::{NONE, Surfaces, any_hit, through};
-use super::surface::Surface;
+use super::area::{Connection, luminance};
+use super::emitter::Emitter;
+use super::grid::{TINY, bounded_quotient};
+use super::material::Material;
+use super::pixel::{Scene, Seen, load_material};
+use super::ray::Ray;
+use super::skin::{SHADOW, Skin, Through};
+use super::trace::{NONE, any_hit, through};
 
 /// Contributions count as at most this, W/(m² sr), so that their product with any weight is finite.
 const MAX_CONTRIBUTION: f32 = pow2(60);
@@ -36,16 +35,11 @@ pub struct Lit {
     pub on: Vec3,
 }
 
-/// The light of `sample` at `surface`; nothing for a light or material that is not there. Both have the means of what is painted on them: a
-/// target need not be exact, and [`as_painted`] is.
+/// The light of `sample` at what is `seen`, whose material is there; nothing for a light that is not there. Both have the means of
+/// their textures: a target need not be exact, and [`as_painted`] is.
 #[inline]
 #[must_use]
-pub fn lit<L: Emitter>(
-    materials: &[Material],
-    emitters: &Emitters<'_, L>,
-    surface: &Surface,
-    sample: &LightSample,
-) -> Lit {
+pub fn lit<L: Emitter>(scene: &Scene<'_, L>, seen: &Seen, sample: &LightSample) -> Lit {
     let mut lit = Lit {
         contribution: Vec3::ZERO,
         target: 0.0,
@@ -53,16 +47,11 @@ pub fn lit<L: Emitter>(
         end: Vec3::ZERO,
         on: Vec3::ZERO,
     };
-    if sample.light != NONE && surface.material < materials.len() as u32 && surface.is_lit() {
-        let material = load_material(materials, surface.material);
-        let light = emitters.light(sample.light, sample.instance);
-        let connection = light.connect(
-            &surface.point,
-            surface.wo(),
-            &material,
-            1.0,
-            [sample.uv[0], sample.uv[1]],
-        );
+    if sample.light != NONE {
+        let material = load_material(scene.materials, seen.material);
+        let light = scene.emitters.light(sample.light, sample.instance);
+        let uv = [sample.uv[0], sample.uv[1]];
+        let connection = light.connect(&seen.point, seen.wo, &material, 1.0, uv);
         let c = connection.contribution;
         lit.contribution = c;
         lit.target = target(luminance([c.x, c.y, c.z]));
@@ -84,21 +73,21 @@ fn scattered(connection: &Connection) -> f32 {
     scattered
 }
 
-/// Whether nothing lies between the surface and the point of `light` that `end` is just before: one shadow ray.
+/// Whether nothing lies between what is `seen` and the point of `light` that `end` is just before: one shadow ray.
 #[inline]
 #[must_use]
-pub fn visible<S: Skin>(surfaces: &Surfaces<'_, S>, surface: &Surface, end: Vec3, light: u32) -> bool {
-    let origin = surface.point.position();
-    let ray = Ray::new(origin, end - origin, 1.0);
-    !any_hit(surfaces, &ray, light)
+pub fn visible<L: Emitter>(scene: &Scene<'_, L>, seen: &Seen, end: Vec3, light: u32) -> bool {
+    let origin = seen.point.position();
+    !any_hit(&scene.surfaces, &Ray::new(origin, end - origin, 1.0), light)
 }
 
-/// What `sample` contributes to `surface`, which it is seen from: as painted, through what lets light through. `mean` is what [`lit`] says.
+/// What `sample` contributes to what is `seen`: by the textures themselves, through what lets light through. `mean` is what [`lit`]
+/// returns.
 #[inline]
 #[must_use]
 pub fn as_painted<L: Emitter>(
     scene: &Scene<'_, L>,
-    surface: &Surface,
+    seen: &Seen,
     material: &Material,
     sample: &LightSample,
     mean: &Lit,
@@ -107,12 +96,12 @@ pub fn as_painted<L: Emitter>(
     if <L::Skin<'_> as Skin>::IS_PAINTED {
         let uv = [sample.uv[0], sample.uv[1]];
         let light = scene.emitters.light(sample.light, sample.instance);
-        let light = scene.glowing(light, sample.light, surface.point.position(), uv);
+        let light = scene.glowing(light, sample.light, seen.point.position(), uv);
         contribution = light
-            .connect(&surface.point, surface.wo(), material, 1.0, uv)
+            .connect(&seen.point, seen.wo, material, 1.0, uv)
             .contribution;
         if scene.surfaces.skin.has_veils() {
-            let origin = surface.point.position();
+            let origin = seen.point.position();
             let ray = Ray::new(origin, mean.end - origin, 1.0);
             contribution = through::<SHADOW, _>(&scene.surfaces, &ray, sample.light).of(contribution);
         }
