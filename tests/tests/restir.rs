@@ -287,69 +287,6 @@ fn dispatches_in_parts_are_whole_and_corners_of_the_options_agree() {
     });
 }
 
-/// What differs from the frame before is written, in the submission of the passes, and the host waits for the pixels alone.
-#[test]
-fn a_frame_uploads_what_changed() {
-    let scene = Scene::open("street").expect("a built-in scene");
-    let at = |frame| arrays_at(&scene, frame, WIDTH, HEIGHT).expect("a frame");
-    let mut turned = at(0);
-    turned.camera.origin[1] += 0.5;
-    let mut brighter = turned.clone();
-    let mut lights = brighter.lights.triangles().to_vec();
-    lights[5].radiance = lights[5].radiance.map(|channel| 2.0 * channel);
-    brighter = SceneArrays::new(
-        brighter.rays,
-        brighter.materials,
-        Lights::new(lights).expect("lights"),
-        brighter.camera,
-    );
-    let arrays = [at(0), at(0), turned, brighter, at(1), at(2)];
-    let shots = arrays.map(|arrays| Shot::new(arrays, None));
-    for force_staging in [false, true] {
-        let options = Options {
-            force_staging,
-            ..Options::default()
-        };
-        on_each_device(options, |device| {
-            // The same words go either way; by staging buffers one source is enough.
-            for source in SOURCES.into_iter().skip(usize::from(force_staging)) {
-                let mut cpu = Restir::new(small(source, Combination::Unbiased));
-                let mut restir = Restir::new(small(source, Combination::Unbiased));
-                // The lights of the first shot, so that what is uploaded is the scene alone.
-                let bvh = &shots[0].bvh;
-                let mut on_cpu = CpuBackend::<Standard, 8>::new(bvh.clone());
-                let mut backend = DeviceBackend::<Standard, 8>::new(device, bvh).expect("an upload");
-                let mut all = 0;
-                for (number, shot) in (0..).zip(&shots) {
-                    let frame = shot.frame(WIDTH, HEIGHT, number);
-                    let before = device.counts();
-                    let found = backend.restir(&mut restir, &frame).expect("a frame").value;
-                    let counts = device.counts() - before;
-                    assert!(found == on_cpu.restir(&mut cpu, &frame).expect("a frame").value);
-                    let what = format!("{} {source:?} frame {number}: {counts:?}", device.name());
-                    let reads = u64::from(force_staging || !device.probe().unified_memory);
-                    assert_eq!(counts.submissions, 1 + reads, "{what}");
-                    assert!(counts.waits <= 1, "{what}");
-                    all = all.max(counts.bytes);
-                    let of_lights = match source {
-                        // A light and its share of the table, in which later ones come after it.
-                        Sampler::Power => (56 + 4)..=(56 + 4 * shot.arrays.thresholds.len() as u64),
-                        _ => 0..=0,
-                    };
-                    match number {
-                        0 => assert!(all > 100_000, "{what}"),
-                        1 => assert_eq!(counts.bytes, 0, "{what}"),
-                        2 => assert_eq!(counts.bytes, 48, "{what}: the camera"),
-                        3 => assert!(of_lights.contains(&counts.bytes), "{what}"),
-                        // Things move, and the ray BVH is built anew; many of its blocks are known all the same.
-                        _ => assert!(counts.bytes > 0 && 4 * counts.bytes < 3 * all, "{what}"),
-                    }
-                }
-            }
-        });
-    }
-}
-
 #[test]
 fn a_history_that_cannot_be_used_is_dropped() {
     let scene = Scene::open("street").expect("a built-in scene");

@@ -1,12 +1,10 @@
 //! A frame of a scene, and what its lights are chosen by, on a device.
 
-use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::Pod;
 use lightbvh::Instance;
-use lightbvh::TreeWords;
 use lightbvh::light::infinite::DistantLight;
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::material::Material;
@@ -14,10 +12,11 @@ use lightbvh_kernels::shading::pick::by;
 use lightbvh_kernels::shading::skin::Corner;
 use lightbvh_kernels::shading::trace::{RayNode, TriangleBlock};
 
+use super::follow::DeviceTree;
 use super::held::Held;
 use super::{Sampler, SceneArrays};
 use crate::scene::SceneLight;
-use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
+use crate::vulkan::{Binding, Buffer, Device, Timings, VulkanError};
 
 /// Lights on the device: triangles in the spaces of their meshes, and where the meshes stand. Who shares them reads them as they
 /// were when it took them.
@@ -35,23 +34,17 @@ pub(super) struct DeviceScene<L> {
     pub camera: Arc<Buffer<Camera>>,
     /// Empty where lights are not chosen by power.
     thresholds: Arc<Buffer<u32>>,
-    /// What is beyond all surfaces, for kernels that know of it.
-    sky: Option<DeviceSky>,
-    /// What is painted on them, for the same.
-    skin: Option<DeviceSkin>,
+    /// What is beyond all surfaces and painted on them, for kernels that know of it.
+    surroundings: Option<Surroundings>,
 }
 
-/// Paint on the device.
-struct DeviceSkin {
-    corners: Arc<Buffer<Corner>>,
-    words: Arc<Buffer<u32>>,
-}
-
-/// A map and suns on the device.
-struct DeviceSky {
+/// A map, suns and paint on the device.
+struct Surroundings {
     suns: Arc<Buffer<DistantLight>>,
     counts: Arc<Buffer<u32>>,
     radiance: Arc<Buffer<[f32; 3]>>,
+    corners: Arc<Buffer<Corner>>,
+    words: Arc<Buffer<u32>>,
 }
 
 /// The arrays of the scene that was rendered last.
@@ -99,54 +92,45 @@ impl<L> Default for HeldScene<L> {
 }
 
 impl<L: SceneLight> HeldScene<L> {
-    /// A frame's arrays for a kernel that chooses lights by `sampler`, once `pass` has run, which writes what differs from
-    /// those of the frame before. They are lit by `emitters` or, without, by the lights that the frame lists. Where `pass` does
-    /// not run, what is held is not known any more: make it new then.
-    pub fn bring<'a>(
+    /// A frame's arrays for a kernel that chooses lights by `sampler`; what differs from the frame before is uploaded. They are
+    /// lit by `emitters` or, without, by the lights that the frame lists.
+    pub fn bring(
         &mut self,
         device: &Device,
-        scene: &'a SceneArrays<L>,
+        scene: &SceneArrays<L>,
         sampler: Sampler,
         emitters: Option<DeviceEmitters<L>>,
-        pass: &mut Pass<'a>,
     ) -> Result<DeviceScene<L>, VulkanError> {
         let listed = scene.emitters();
+        let thresholds = match sampler {
+            Sampler::Power => &scene.thresholds[..],
+            _ => &[],
+        };
+        let sky = scene.sky.view();
+        let surroundings = match L::IS_ANY {
+            true => Some(Surroundings {
+                suns: self.suns.bring(device, sky.suns)?,
+                counts: self.sky_counts.bring(device, sky.counts)?,
+                radiance: self.sky_radiance.bring(device, sky.radiance)?,
+                corners: self.corners.bring(device, &scene.skin.corners)?,
+                words: self.paint.bring(device, &scene.skin.words)?,
+            }),
+            false => None,
+        };
         Ok(DeviceScene {
-            ray_nodes: self.ray_nodes.bring(device, &scene.rays.nodes, pass)?,
-            surfaces: self.surfaces.bring_known(device, &scene.rays.blocks, pass)?,
-            materials: self.materials.bring(device, &scene.materials, pass)?,
+            ray_nodes: self.ray_nodes.bring(device, &scene.rays.nodes)?,
+            surfaces: self.surfaces.bring(device, &scene.rays.blocks)?,
+            materials: self.materials.bring(device, &scene.materials)?,
             emitters: match emitters {
                 Some(emitters) => emitters,
                 None => DeviceEmitters {
-                    triangles: self.triangles.bring(device, listed.triangles, pass)?,
-                    instances: self.instances.bring(device, listed.instances, pass)?,
+                    triangles: self.triangles.bring(device, listed.triangles)?,
+                    instances: self.instances.bring(device, listed.instances)?,
                 },
             },
-            camera: self
-                .camera
-                .bring(device, std::slice::from_ref(&scene.camera), pass)?,
-            thresholds: match sampler {
-                Sampler::Power => self.thresholds.bring(device, &scene.thresholds, pass)?,
-                _ => self.thresholds.bring(device, &[], pass)?,
-            },
-            sky: match L::IS_ANY {
-                true => {
-                    let sky = scene.sky.view();
-                    Some(DeviceSky {
-                        suns: self.suns.bring(device, sky.suns, pass)?,
-                        counts: self.sky_counts.bring(device, sky.counts, pass)?,
-                        radiance: self.sky_radiance.bring(device, sky.radiance, pass)?,
-                    })
-                }
-                false => None,
-            },
-            skin: match L::IS_ANY {
-                true => Some(DeviceSkin {
-                    corners: self.corners.bring(device, &scene.skin.corners, pass)?,
-                    words: self.paint.bring(device, &scene.skin.words, pass)?,
-                }),
-                false => None,
-            },
+            camera: self.camera.bring(device, std::slice::from_ref(&scene.camera))?,
+            thresholds: self.thresholds.bring(device, thresholds)?,
+            surroundings,
         })
     }
 }
@@ -154,7 +138,7 @@ impl<L: SceneLight> HeldScene<L> {
 impl<L: SceneLight> DeviceScene<L> {
     /// The last buffers of kernels that know what is beyond all surfaces, and painted on them.
     pub fn surroundings(&self) -> Vec<Binding> {
-        let sky = self.sky.as_ref();
+        let sky = self.surroundings.as_ref();
         let mut bindings = sky.map_or(Vec::new(), |sky| {
             vec![sky.suns.bind(), sky.counts.bind(), sky.radiance.bind()]
         });
@@ -164,7 +148,7 @@ impl<L: SceneLight> DeviceScene<L> {
 
     /// The last buffers of kernels that know what is painted on surfaces alone.
     pub fn skin(&self) -> Vec<Binding> {
-        let skin = self.skin.as_ref();
+        let skin = self.surroundings.as_ref();
         skin.map_or(Vec::new(), |skin| vec![skin.corners.bind(), skin.words.bind()])
     }
 
@@ -194,51 +178,6 @@ impl<L: SceneLight> DeviceScene<L> {
     }
 }
 
-/// The arrays of a light BVH on the device.
-pub(super) struct DeviceTree<N, L> {
-    pub nodes: Arc<Buffer<N>>,
-    /// How many of them are of bottom levels, and which are of the top level.
-    pub bottoms: usize,
-    pub top: Range<usize>,
-    pub emitters: DeviceEmitters<L>,
-    pub trails: Arc<Buffer<u32>>,
-    pub push: TreeWords,
-}
-
-impl<N: Pod, L: Pod> DeviceTree<N, L> {
-    /// Empty arrays on `device`.
-    pub fn new(device: &Device) -> Result<Self, VulkanError> {
-        Ok(Self {
-            nodes: Arc::new(device.buffer(0, 1)?),
-            bottoms: 0,
-            top: 0..0,
-            emitters: DeviceEmitters {
-                triangles: Arc::new(device.buffer(0, 1)?),
-                instances: Arc::new(device.buffer(0, 1)?),
-            },
-            trails: Arc::new(device.buffer(0, 1)?),
-            push: TreeWords::default(),
-        })
-    }
-
-    /// The words of all nodes: those of bottom levels, then of the top level.
-    pub fn node_words(&self) -> Result<Vec<u32>, VulkanError> {
-        let words = self.nodes.read_words()?;
-        let own = size_of::<N>() / size_of::<u32>();
-        let top = &words[self.top.start * own..self.top.end * own];
-        Ok([&words[..self.bottoms * own], top].concat())
-    }
-
-    /// What the passes of queries take.
-    pub fn bindings(&self) -> [Binding; 3] {
-        [
-            self.nodes.bind(),
-            self.emitters.instances.bind(),
-            self.trails.bind(),
-        ]
-    }
-}
-
 /// What says in kernels that lights are chosen by `sampler`.
 pub(super) fn choosing(sampler: Sampler) -> u32 {
     match sampler {
@@ -250,8 +189,5 @@ pub(super) fn choosing(sampler: Sampler) -> u32 {
 
 /// The kernels' own time by the device's clock, or else by ours.
 pub(super) fn device_time(timings: &Timings) -> Duration {
-    match &timings.dispatch_ns {
-        Some(ns) => Duration::from_nanos(ns.iter().sum::<f64>() as u64),
-        None => timings.wall,
-    }
+    timings.kernels.unwrap_or(timings.wall)
 }

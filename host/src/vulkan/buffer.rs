@@ -2,7 +2,7 @@
 
 use super::device::Device;
 use super::error::VulkanError;
-use super::memory::Memory;
+use super::memory::{Memory, region};
 use super::shared::Shared;
 use bytemuck::Pod;
 use gpu_allocator::MemoryLocation;
@@ -46,7 +46,7 @@ impl Device {
     /// [`VulkanError::BufferTooLarge`], [`VulkanError::OutOfMemory`], or those of [`Buffer::write`].
     pub fn upload<T: Pod>(&self, data: &[T]) -> Result<Buffer<T>, VulkanError> {
         let buffer = self.buffer(data.len(), data.len())?;
-        buffer.memory.write_at(0, bytemuck::cast_slice(data), true)?;
+        buffer.write(&[(0, data)])?;
         Ok(buffer)
     }
 
@@ -56,12 +56,11 @@ impl Device {
     /// As [`Device::upload`].
     pub fn output<T: Pod>(&self, len: usize) -> Result<Buffer<T>, VulkanError> {
         let buffer = self.buffer(len, len)?;
-        buffer.memory.fill_new(UNWRITTEN)?;
+        buffer.memory.fill(UNWRITTEN)?;
         Ok(buffer)
     }
 
-    /// A buffer of `len` elements with room for `room`, no fewer. What it holds is not known until it is written, by a
-    /// [`Pass`](super::Pass) or otherwise.
+    /// A buffer of `len` elements with room for `room`, no fewer. What it holds is not known until it is written.
     ///
     /// # Errors
     /// [`VulkanError::BufferTooLarge`], [`VulkanError::OutOfMemory`] or [`VulkanError::Call`].
@@ -131,31 +130,39 @@ impl<T: Pod> Buffer<T> {
         }
     }
 
-    /// Replaces all elements.
+    /// Replaces elements by those of each part, from its first one on.
     ///
     /// # Errors
-    /// [`VulkanError::WrongLength`], [`VulkanError::Busy`], or those of a copy to the device.
-    pub fn write(&mut self, data: &[T]) -> Result<(), VulkanError> {
-        if data.len() != self.len {
-            return Err(VulkanError::WrongLength {
-                given: data.len(),
-                held: self.len,
-            });
+    /// [`VulkanError::WrongLength`] if the buffer has fewer, [`VulkanError::Busy`], or those of a copy to the device.
+    pub fn write(&self, parts: &[(usize, &[T])]) -> Result<(), VulkanError> {
+        for (first, data) in parts {
+            if *first > self.len || data.len() > self.len - first {
+                return Err(VulkanError::WrongLength {
+                    given: first.saturating_add(data.len()),
+                    held: self.len,
+                });
+            }
         }
-        self.memory.write_at(0, bytemuck::cast_slice(data), false)
+        let mut bytes: Vec<(u64, &[u8])> = Vec::with_capacity(parts.len());
+        for (first, data) in parts {
+            bytes.push(((first * Self::ELEMENT_BYTES) as u64, bytemuck::cast_slice(data)));
+        }
+        self.memory.write(&bytes)
+    }
+
+    /// Copies what `from` holds to the start of this one, as far as both reach.
+    ///
+    /// # Errors
+    /// [`VulkanError::Busy`], or those of a copy on the device.
+    pub(crate) fn copy_from(&self, from: &Self) -> Result<(), VulkanError> {
+        let bytes = self.byte_len().min(from.byte_len()) as u64;
+        let whole = (bytes > 0).then(|| region(0, 0, bytes));
+        self.memory.copy(&from.memory, whole.as_slice())
     }
 
     /// Whether it was made on `device`.
     pub fn is_on(&self, device: &Device) -> bool {
         self.memory.shared.id == device.shared.id
-    }
-
-    /// Sets every word to [`UNWRITTEN`] again.
-    ///
-    /// # Errors
-    /// As [`Buffer::write`].
-    pub fn mark_unwritten(&mut self) -> Result<(), VulkanError> {
-        self.memory.fill(UNWRITTEN)
     }
 
     /// A copy of all elements.

@@ -121,25 +121,13 @@ pub enum VulkanError {
         /// Its value, bytes.
         limit: u64,
     },
-    /// A write does not have the length of the buffer it goes to.
-    #[error("{given} elements written to a buffer of {held}; the lengths must be equal")]
+    /// A write goes beyond the buffer's end.
+    #[error("elements up to {given} written to a buffer of {held}; write no more than it holds")]
     WrongLength {
-        /// Elements given.
+        /// Where the elements given would end.
         given: usize,
         /// Elements of the buffer.
         held: usize,
-    },
-    /// A pass writes the same bytes twice.
-    #[error(
-        "a pass for {device} writes bytes {first} to {end} of a buffer twice; write each once, or in two passes"
-    )]
-    OverlappingWrites {
-        /// Name of the device.
-        device: String,
-        /// The first of them.
-        first: u64,
-        /// Where what was written first ends.
-        end: u64,
     },
     /// No module of that name is built in.
     #[error("no kernel `{name}` in this program; there are: {known}")]

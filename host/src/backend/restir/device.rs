@@ -13,10 +13,10 @@ use lightbvh_kernels::shading::restir::surface::Surface;
 use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
 
 use super::{History, Restir, RestirFrame, params};
-use crate::backend::device_arrays::{DeviceScene, HeldScene, choosing, device_time};
+use crate::backend::device_arrays::{DeviceScene, choosing, device_time};
 use crate::backend::{BackendError, DeviceBackend, Timed};
 use crate::scene::SceneLight;
-use crate::vulkan::{Binding, Buffer, Device, Kernel, Pass, Submission};
+use crate::vulkan::{Binding, Buffer, Kernel, Pass};
 
 /// Candidates or neighbours per submission: keeps one well below the seconds after which a driver gives up on it.
 const WORK_PER_PASS: usize = 1 << 21;
@@ -36,22 +36,8 @@ impl<L> Left<L> {
     }
 }
 
-/// The next frame, with candidates from `backend`'s light BVH where the options say so. What was followed, what of the scene
-/// changed and the passes are one submission, where they are few enough, and the host waits for nothing but the pixels.
+/// The next frame, with candidates from `backend`'s light BVH where the options say so.
 pub(in crate::backend) fn resample<C: Choice<W, Light: SceneLight>, const W: usize>(
-    restir: &mut Restir<C::Light>,
-    frame: &RestirFrame<'_, C::Light>,
-    backend: &mut DeviceBackend<'_, C, W>,
-) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
-    let image = render(restir, frame, backend);
-    if image.is_err() {
-        // What the device holds is not known.
-        backend.scene = HeldScene::default();
-    }
-    image
-}
-
-fn render<C: Choice<W, Light: SceneLight>, const W: usize>(
     restir: &mut Restir<C::Light>,
     frame: &RestirFrame<'_, C::Light>,
     backend: &mut DeviceBackend<'_, C, W>,
@@ -59,26 +45,34 @@ fn render<C: Choice<W, Light: SceneLight>, const W: usize>(
     let (device, options) = (backend.device, restir.options);
     let mut params = params(&options, frame);
     let pixels = frame.width as usize * frame.height as usize;
-    let mut pass = backend.led();
-    let followed = pass.len();
     let emitters = backend.emitters(options.source);
     let scene = backend
         .scene
-        .bring(device, frame.scene, options.source, emitters, &mut pass)?;
-    let gbuffer = device.buffer::<Surface>(pixels, 0)?;
-    let mut reservoirs = device.buffer::<PixelReservoir>(pixels, 0)?;
-    pass.clear(&gbuffer).clear(&reservoirs);
+        .bring(device, frame.scene, options.source, emitters)?;
+    let gbuffer = device.output::<Surface>(pixels)?;
+    let mut reservoirs = device.output::<PixelReservoir>(pixels)?;
     let tree = backend.tree.push;
-    let mut passes = Passes {
-        pass,
-        work: 0,
-        submitted: Vec::new(),
+    let mut time = Duration::ZERO;
+    let mut run = |kernel: &Arc<Kernel>, bindings: &[Binding], params: &RestirParams, tree, work: u32| {
+        let per_pass = (WORK_PER_PASS / work.max(1) as usize).max(64);
+        for first in (0..pixels).step_by(per_pass) {
+            let push = RestirPush {
+                params: *params,
+                first: first as u32,
+                count: usize::min(per_pass, pixels - first) as u32,
+                tree,
+            };
+            let mut pass = Pass::new();
+            pass.dispatch(kernel, bindings, bytes_of(&push), push.count);
+            time += device_time(&device.run(&pass)?);
+        }
+        Ok::<_, BackendError>(())
     };
 
     let inputs = scene.with_lights(&backend.tree);
     let bindings = [inputs.as_slice(), &[gbuffer.bind(), reservoirs.bind()]].concat();
     let kernel = device.kernel_with(&format!("restir_initial{}", C::SUFFIX), choosing(options.source))?;
-    passes.run(backend, &kernel, &bindings, &params, tree, options.candidates)?;
+    run(&kernel, &bindings, &params, tree, options.candidates)?;
 
     let none = TreeWords::default();
     let is_unbiased = u32::from(options.combination.is_unbiased());
@@ -90,8 +84,8 @@ fn render<C: Choice<W, Light: SceneLight>, const W: usize>(
         let (to_current, to_previous) = frame
             .remap
             .map_or((&[][..], &[][..]), |r| (r.to_current(), r.to_previous()));
-        let to_current = passes.upload(device, to_current)?;
-        let to_previous = passes.upload(device, to_previous)?;
+        let to_current = device.upload(to_current)?;
+        let to_previous = device.upload(to_previous)?;
         let [ray_nodes, surfaces, _, triangles, instances] = left.scene.view();
         let then = [ray_nodes, surfaces, triangles, instances, to_previous.bind()];
         let [_, _, materials, triangles, instances] = scene.view();
@@ -108,32 +102,24 @@ fn render<C: Choice<W, Light: SceneLight>, const W: usize>(
         ];
         let bindings = [then.as_slice(), common.as_slice(), &left.scene.skin()].concat();
         let kernel = reusing("restir_temporal")?;
-        passes.run(backend, &kernel, &bindings, &params, none, 4)?;
+        run(&kernel, &bindings, &params, none, 4)?;
     }
     for spatial_pass in 0..options.spatial_passes {
         params.spatial_pass = spatial_pass;
-        let merged = device.buffer::<PixelReservoir>(pixels, 0)?;
-        passes.pass.clear(&merged);
+        let merged = device.output::<PixelReservoir>(pixels)?;
         let pixel_buffers = [gbuffer.bind(), reservoirs.bind(), merged.bind()];
         let bindings = [scene.view().as_slice(), &pixel_buffers, &scene.skin()].concat();
         let work = options.neighbors.saturating_add(1).saturating_mul(2);
         let kernel = reusing("restir_spatial")?;
-        passes.run(backend, &kernel, &bindings, &params, none, work)?;
+        run(&kernel, &bindings, &params, none, work)?;
         reservoirs = merged;
     }
-    let output = device.buffer::<Shaded>(pixels, 0)?;
-    passes.pass.clear(&output);
+    let output = device.output::<Shaded>(pixels)?;
     let pixel_buffers = [gbuffer.bind(), reservoirs.bind(), output.bind()];
     let bindings = [scene.view().as_slice(), &pixel_buffers, &scene.surroundings()].concat();
     let kernel = device.kernel(&format!("restir_shade{}", C::Light::SUFFIX))?;
-    passes.run(backend, &kernel, &bindings, &params, none, 2)?;
-    let submitted = passes.end(backend)?;
+    run(&kernel, &bindings, &params, none, 2)?;
     let shaded = output.read()?;
-    let mut time = Duration::ZERO;
-    for (number, submission) in submitted.into_iter().enumerate() {
-        // The first begins with the refit, which is none of ReSTIR's.
-        time += device_time(&submission.wait()?.after(if number == 0 { followed } else { 0 }));
-    }
     let shadow_rays = shaded.iter().map(|pixel| u64::from(pixel.shadow_rays)).sum();
     let left = Left {
         scene,
@@ -145,73 +131,4 @@ fn render<C: Choice<W, Light: SceneLight>, const W: usize>(
         value: shaded.iter().map(|pixel| pixel.radiance).collect(),
         time,
     })
-}
-
-/// Passes that follow each other.
-struct Passes<'a> {
-    /// What is not yet submitted, and how much work it is.
-    pass: Pass<'a>,
-    work: usize,
-    submitted: Vec<Submission>,
-}
-
-impl<'a> Passes<'a> {
-    /// A buffer with a copy of `data`.
-    fn upload<T: bytemuck::Pod>(
-        &mut self,
-        device: &Device,
-        data: &'a [T],
-    ) -> Result<Buffer<T>, BackendError> {
-        let buffer = device.buffer(data.len(), 0)?;
-        self.pass.write(&buffer, 0, data)?;
-        Ok(buffer)
-    }
-
-    /// Runs a kernel over all pixels, in parts of `work` units of work per pixel.
-    fn run<C: Choice<W>, const W: usize>(
-        &mut self,
-        backend: &mut DeviceBackend<'_, C, W>,
-        kernel: &Arc<Kernel>,
-        bindings: &[Binding],
-        params: &RestirParams,
-        tree: TreeWords,
-        work: u32,
-    ) -> Result<(), BackendError> {
-        let pixels = params.width as usize * params.height as usize;
-        let per_pixel = work.max(1) as usize;
-        let per_pass = (WORK_PER_PASS / per_pixel).max(64);
-        for first in (0..pixels).step_by(per_pass) {
-            let push = RestirPush {
-                params: *params,
-                first: first as u32,
-                count: usize::min(per_pass, pixels - first) as u32,
-                tree,
-            };
-            let more = push.count as usize * per_pixel;
-            if self.work > 0 && self.work + more > WORK_PER_PASS {
-                self.submit(backend)?;
-            }
-            self.pass.dispatch(kernel, bindings, bytes_of(&push), push.count);
-            self.work += more;
-        }
-        Ok(())
-    }
-
-    fn submit<C: Choice<W>, const W: usize>(
-        &mut self,
-        backend: &mut DeviceBackend<'_, C, W>,
-    ) -> Result<(), BackendError> {
-        self.submitted.push(backend.submit(&self.pass)?);
-        (self.pass, self.work) = (Pass::new(), 0);
-        Ok(())
-    }
-
-    /// Submits the rest.
-    fn end<C: Choice<W>, const W: usize>(
-        mut self,
-        backend: &mut DeviceBackend<'_, C, W>,
-    ) -> Result<Vec<Submission>, BackendError> {
-        self.submit(backend)?;
-        Ok(self.submitted)
-    }
 }
