@@ -78,27 +78,7 @@ pub enum HostError {
         /// Why not.
         source: std::io::Error,
     },
-    /// A number on the command line is out of range.
-    #[error("{option} {value} is out of range: expected {expected}")]
-    Range {
-        /// The option.
-        option: &'static str,
-        /// What was given.
-        value: u64,
-        /// What would do.
-        expected: String,
-    },
-    /// A word on the command line names nothing.
-    #[error("{option} {word:?} names nothing: expected {expected}")]
-    Word {
-        /// The option.
-        option: &'static str,
-        /// What was given.
-        word: String,
-        /// What would do.
-        expected: String,
-    },
-    /// What an option names cannot serve.
+    /// What an option names cannot serve, or is not there.
     #[error("{option} {value} {problem}")]
     Refused {
         /// The option.

@@ -9,7 +9,6 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::measure::times::{ms, spread_ms};
-use super::range::{self, MAX_SIDE, given};
 use super::verify::tally::{Kind, Tally};
 use super::{Context, Outcome, devices, table, target};
 use crate::backend::{
@@ -37,10 +36,10 @@ pub(super) struct Args {
     #[arg(long, default_value = "out", value_name = "DIR")]
     out: PathBuf,
     /// Columns of the images, 1 to 16384.
-    #[arg(long, default_value_t = 384)]
+    #[arg(long, default_value_t = 384, value_parser = clap::value_parser!(u32).range(1..=16_384))]
     width: u32,
     /// Rows of the images, 1 to 16384.
-    #[arg(long, default_value_t = 216)]
+    #[arg(long, default_value_t = 216, value_parser = clap::value_parser!(u32).range(1..=16_384))]
     height: u32,
 }
 
@@ -76,10 +75,6 @@ struct Run {
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let (width, height) = (args.width, args.height);
-    range::check(&[
-        given("--width", width, 1..=MAX_SIDE),
-        given("--height", height, 1..=MAX_SIDE),
-    ])?;
     target::folder(&args.out)?;
     let opened = devices::open(context)?;
     let scene = Scene::open(SCENE)?;

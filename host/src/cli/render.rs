@@ -7,15 +7,12 @@ mod view;
 use std::sync::Arc;
 
 use lightbvh::light::AnyLight;
-use lightbvh_kernels::shading::candidates::MAX_SCATTERED;
-use lightbvh_kernels::shading::path::MAX_BOUNCES;
-use lightbvh_kernels::shading::pixel::MAX_CANDIDATES;
 use serde_json::{Value, json};
 
-use self::options::{BackendName, IntegratorName, recipe};
+use self::options::{IntegratorName, recipe};
 use self::sequence::Sequence;
 use self::view::{camera_words, check_places, playing, seen_by};
-use super::range::{self, Given, MAX_SIDE, given};
+use super::reading::BackendName;
 use super::{Context, Outcome, devices, frames, table, target};
 use crate::backend::Integrator;
 use crate::cli::table::news;
@@ -37,22 +34,17 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             needs: "--backend vulkan",
         });
     }
-    let (most, of, default) = match recipe.reuse {
-        None => (65_536, "", 16),
-        Some(_) => (MAX_HISTORIES, " with ReSTIR", 1),
-    };
-    let samples = args.spp.unwrap_or(default);
-    range::check(&[
-        given("--width", args.width, 1..=MAX_SIDE),
-        given("--height", args.height, 1..=MAX_SIDE),
-        Given {
-            of,
-            ..given("--spp", samples, 1..=most.into())
-        },
-        given("--bounces", args.bounces.unwrap_or(1), 1..=MAX_BOUNCES.into()),
-        given("--candidates", recipe.candidates, 1..=MAX_CANDIDATES.into()),
-        given("--scattered", args.scattered, 0..=MAX_SCATTERED.into()),
-    ])?;
+    let samples = args.spp.unwrap_or(match recipe.reuse {
+        None => 16,
+        Some(_) => 1,
+    });
+    if recipe.reuse.is_some() && samples > MAX_HISTORIES {
+        return Err(HostError::Refused {
+            option: "--spp",
+            value: samples.to_string(),
+            problem: format!("is out of range: expected 1 to {MAX_HISTORIES} with ReSTIR"),
+        });
+    }
     // Of a sequence the first: all have one folder and one ending.
     let first = args
         .animate

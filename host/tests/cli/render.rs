@@ -6,29 +6,6 @@ use crate::model;
 use crate::program::{Folder, has_device, json, run};
 
 #[test]
-fn render_gives_the_same_file_on_both_processors() {
-    if !has_device() {
-        return;
-    }
-    let folder = Folder::new("render");
-    let exported = folder.file("carousel.glb");
-    assert!(run(&format!("export carousel -o {exported}")).status.success());
-    for scene in ["carousel", exported.as_str()] {
-        let mut files = Vec::new();
-        for backend in ["cpu", "vulkan"] {
-            let file = folder.file(&format!("{backend}.exr"));
-            let report = json(&format!(
-                "render {scene} --frame 20 --width 64 --height 36 --spp 2 --backend {backend} -o {file} --json"
-            ));
-            assert_eq!(report["width"], 64);
-            files.push(std::fs::read(&file).expect("an image"));
-        }
-        assert!(files[0] == files[1], "{scene}: the images differ");
-        assert!(files[0].len() > 64 * 36 * 3);
-    }
-}
-
-#[test]
 fn paths_render_and_add_what_is_reflected_again() {
     let folder = Folder::new("paths");
     let small = "--width 48 --height 27 --spp 8 --frame 3 --json";

@@ -18,8 +18,8 @@ use crate::error::HostError;
 /// Where probabilities may differ, the mean variance of a sample surely rises by no more than a twentieth.
 pub(super) const MOST_VARIANCE: f64 = 1.05;
 /// Rounds of timing, and about how many samples are taken in one.
-const TURNS: u32 = 21;
-const SAMPLES_IN_A_TURN: u32 = 40_000;
+pub(super) const TURNS: u32 = 21;
+pub(super) const SAMPLES_IN_A_TURN: u32 = 40_000;
 
 /// What a step promises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

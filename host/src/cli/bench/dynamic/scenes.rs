@@ -62,13 +62,9 @@ pub(super) fn scenes(is_quick: bool) -> Vec<Scene> {
         mix(1_000_000, 50),
         toggle(10_000),
         convoy(),
-        road(5_000, 5),
         walk(10_000, 0.42),
         rings(100_000),
-        jump(10_000),
         scatter(10_000),
-        insert_all(100_000),
-        remove_all(100_000),
         clusters(16),
         fade(10_000),
         wall(),
@@ -84,7 +80,7 @@ pub(super) fn scenes(is_quick: bool) -> Vec<Scene> {
             scene.points = scene.points.min(points);
         }
     } else {
-        scenes.extend([jump(100_000), clusters(64)]);
+        scenes.push(clusters(64));
     }
     scenes
 }
@@ -187,24 +183,6 @@ fn convoy() -> Scene {
     Scene::new("convoy of 500 in 20,000", lamps, step).near()
 }
 
-/// Some are removed behind, as many are added in front.
-fn road(count: usize, each: usize) -> Scene {
-    let mut random = Random::new(5);
-    let mut lamp = move |number: usize| {
-        let across = [random.between(3.0, 4.0), random.between(0.0, 8.0)];
-        ([0.8 * number as f32, across[0], across[1]], 1.0)
-    };
-    let lamps = (0..count).map(&mut lamp).collect();
-    let step = move |frame: usize, world: &mut World| {
-        for number in frame * each..(frame + 1) * each {
-            world.remove(number);
-            let (at, radiance) = lamp(count + number);
-            world.add(at, radiance);
-        }
-    };
-    Scene::new("road: 5 removed, 5 added", lamps, step).near()
-}
-
 /// All walk, each its own way.
 fn walk(count: usize, step: f32) -> Scene {
     let (mut random, side) = (Random::new(6), side(count));
@@ -254,23 +232,6 @@ fn rings(count: usize) -> Scene {
     }
 }
 
-/// A tenth goes to one place in the third frame that counts.
-fn jump(count: usize) -> Scene {
-    let (mut random, side) = (Random::new(8), side(count));
-    Scene {
-        frames: 30,
-        look: 1,
-        ..Scene::new("10 % jump at once", scattered(count), move |frame, world| {
-            if frame == 22 {
-                for lamp in (0..count).step_by(10) {
-                    let [x, z] = [(); 2].map(|()| side * random.between(0.5, 0.6));
-                    world.place(lamp, [x, 4.0, z]);
-                }
-            }
-        })
-    }
-}
-
 /// Half of all jump in each frame.
 fn scatter(count: usize) -> Scene {
     let (mut random, side) = (Random::new(9), side(count));
@@ -281,36 +242,6 @@ fn scatter(count: usize) -> Scene {
         ..Scene::new("half jump in each frame", scattered(count), move |_, world| {
             for lamp in (0..count).step_by(2) {
                 world.place(lamp, anywhere(&mut random, side));
-            }
-        })
-    }
-}
-
-/// All are added in one batch.
-fn insert_all(count: usize) -> Scene {
-    Scene {
-        frames: 1,
-        warm: 0,
-        look: 1,
-        points: 4,
-        side: Some(side(count)),
-        ..Scene::new("all added in one batch", Vec::new(), move |_, world| {
-            for (at, radiance) in scattered(count) {
-                world.add(at, radiance);
-            }
-        })
-    }
-}
-
-/// All are removed in one batch.
-fn remove_all(count: usize) -> Scene {
-    Scene {
-        frames: 1,
-        warm: 0,
-        look: 1,
-        ..Scene::new("all removed in one batch", scattered(count), move |_, world| {
-            for lamp in 0..count {
-                world.remove(lamp);
             }
         })
     }
