@@ -14,7 +14,7 @@ use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use lightbvh_kernels::shading::pick::by;
 
 use super::batches::{all_candidates, in_batches};
-use super::device_arrays::{DeviceEmitters, HeldScene, choosing, device_time};
+use super::device_arrays::{HeldScene, choosing, device_time};
 use super::follow::DeviceTree;
 use super::restir::device::resample;
 use super::{
@@ -22,7 +22,7 @@ use super::{
     node_record,
 };
 use crate::scene::SceneLight;
-use crate::vulkan::{Device, Kernel, Pass};
+use crate::vulkan::{Binding, Device, Kernel, Pass};
 use crate::words::Record;
 
 /// Queries per dispatch: 28 MiB of them, within the smallest storage buffer range seen (128 MiB).
@@ -37,7 +37,7 @@ pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) device: &'d Device,
     pub(super) tree: DeviceTree<C::Node, C::Light>,
     /// The scene rendered last.
-    pub(super) scene: HeldScene<C::Light>,
+    pub(super) scene: HeldScene,
 }
 
 impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
@@ -66,8 +66,11 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     }
 
     /// The lights that `sampler` chooses among, where they are the light BVH's.
-    pub(super) fn emitters(&self, sampler: Sampler) -> Option<DeviceEmitters<C::Light>> {
-        sampler.needs_bvh().then(|| self.tree.emitters.clone())
+    pub(super) fn emitters(&self, sampler: Sampler) -> Option<[Binding; 2]> {
+        let tree = &self.tree;
+        sampler
+            .needs_bvh()
+            .then(|| [tree.triangles.bind(), tree.instances.bind()])
     }
 
     /// Copies the changes in `bvh`, and refits; returns the time of the refit.

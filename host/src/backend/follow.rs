@@ -1,32 +1,28 @@
 //! A BVH and its edits on a device: what changed is copied, the rest is computed there.
 
 use std::ops::Range;
-use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::{Pod, bytes_of, cast_slice};
-use lightbvh::TreeWords;
 use lightbvh::node::Node;
 use lightbvh::refit::BlasRoot;
+use lightbvh::{Instance, TreeWords};
 use lightbvh_gpu::{Buffer as Array, Frame, Mirror, Pass as RefitPass, Refit};
 
-use super::device_arrays::{DeviceEmitters, device_time};
+use super::device_arrays::device_time;
 use crate::vulkan::{Binding, Buffer, Device, Pass, VulkanError};
 
 /// The arrays of a light BVH on a device, which follow its edits.
 pub(super) struct DeviceTree<N, L> {
-    pub nodes: Arc<Buffer<N>>,
+    pub nodes: Buffer<N>,
     /// How many of them are of bottom levels, and which are of the top level.
     pub bottoms: usize,
     pub top: Range<usize>,
-    pub emitters: DeviceEmitters<L>,
-    pub roots: Arc<Buffer<BlasRoot>>,
-    pub trails: Arc<Buffer<u32>>,
+    pub triangles: Buffer<L>,
+    pub instances: Buffer<Instance>,
+    pub roots: Buffer<BlasRoot>,
+    pub trails: Buffer<u32>,
     pub push: TreeWords,
-    /// What refits are listed in.
-    list: Buffer<u32>,
-    /// By which a refit's passes hand over from children to nodes.
-    children: Buffer<u32>,
     mirror: Mirror,
 }
 
@@ -34,18 +30,14 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
     /// Empty arrays on `device`.
     pub fn new(device: &Device) -> Result<Self, VulkanError> {
         Ok(Self {
-            nodes: Arc::new(device.buffer(0, 1)?),
+            nodes: device.buffer(0)?,
             bottoms: 0,
             top: 0..0,
-            emitters: DeviceEmitters {
-                triangles: Arc::new(device.buffer(0, 1)?),
-                instances: Arc::new(device.buffer(0, 1)?),
-            },
-            roots: Arc::new(device.buffer(0, 1)?),
-            trails: Arc::new(device.buffer(0, 1)?),
+            triangles: device.buffer(0)?,
+            instances: device.buffer(0)?,
+            roots: device.buffer(0)?,
+            trails: device.buffer(0)?,
             push: TreeWords::default(),
-            list: device.buffer(0, 1)?,
-            children: device.buffer(0, 1)?,
             mirror: Mirror::default(),
         })
     }
@@ -58,19 +50,15 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
 
     /// What the passes of queries take.
     pub fn bindings(&self) -> [Binding; 3] {
-        [
-            self.nodes.bind(),
-            self.emitters.instances.bind(),
-            self.trails.bind(),
-        ]
+        [self.nodes.bind(), self.instances.bind(), self.trails.bind()]
     }
 
     /// The array that a kernel's binding of this name takes.
     pub fn bind(&self, name: &str) -> Option<Binding> {
         Array::named(name).map(|array| match array {
             Array::Nodes => self.nodes.bind(),
-            Array::Triangles => self.emitters.triangles.bind(),
-            Array::Instances => self.emitters.instances.bind(),
+            Array::Triangles => self.triangles.bind(),
+            Array::Instances => self.instances.bind(),
             Array::Roots => self.roots.bind(),
             Array::Trails => self.trails.bind(),
         })
@@ -100,7 +88,7 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
 
     /// Runs the dispatches of a refit.
     fn refit(
-        &mut self,
+        &self,
         device: &Device,
         refit: &Refit,
         kernel: impl Fn(RefitPass) -> String,
@@ -108,14 +96,9 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
         if refit.dispatches.is_empty() {
             return Ok(Duration::ZERO);
         }
-        if !self.list.set_len(refit.list.len()) {
-            self.list = device.buffer(refit.list.len(), roomy(refit.list.len()))?;
-        }
-        self.list.write(&[(0, &refit.list)])?;
-        let children = refit.children as usize / size_of::<u32>();
-        if !self.children.set_len(children.max(self.children.len())) {
-            self.children = device.buffer(children, roomy(children))?;
-        }
+        let list = device.upload(&refit.list)?;
+        // By which the passes hand over from children to nodes.
+        let children = device.buffer::<u32>(refit.children as usize / size_of::<u32>())?;
         let mut pass = Pass::new();
         for dispatch in &refit.dispatches {
             let kernel = device.kernel(&kernel(dispatch.pass))?;
@@ -123,8 +106,8 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
             let buffers: Vec<_> = known
                 .iter()
                 .map(|binding| match binding.name {
-                    "list" => self.list.bind(),
-                    "children" => self.children.bind().of_elements(binding.stride),
+                    "list" => list.bind(),
+                    "children" => children.bind().of_elements(binding.stride),
                     array => self.bind(array).expect("an array of the tree"),
                 })
                 .collect();
@@ -143,12 +126,11 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
     where
         N: Node<W>,
     {
-        let emitters = &mut self.emitters;
         renew(device, &mut self.nodes, bvh, frame, Array::Nodes)?;
-        renew(device, &mut emitters.instances, bvh, frame, Array::Instances)?;
+        renew(device, &mut self.instances, bvh, frame, Array::Instances)?;
         renew(device, &mut self.trails, bvh, frame, Array::Trails)?;
         renew(device, &mut self.roots, bvh, frame, Array::Roots)?;
-        renew(device, &mut emitters.triangles, bvh, frame, Array::Triangles)?;
+        renew(device, &mut self.triangles, bvh, frame, Array::Triangles)?;
         let top = self.mirror.top::<N>() as usize;
         self.bottoms = bvh.nodes().len();
         self.top = top..top + bvh.top_nodes().len();
@@ -157,11 +139,11 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
     }
 }
 
-/// Does a frame's copies of one buffer. If it needs more capacity, or something else still reads it, another buffer with what it
-/// held replaces it.
+/// Does a frame's copies of one buffer. If its length changes, or something else still reads it, another buffer with what it held
+/// replaces it.
 fn renew<T: Pod, N: Node<W>, I, const W: usize>(
     device: &Device,
-    buffer: &mut Arc<Buffer<T>>,
+    buffer: &mut Buffer<T>,
     bvh: &lightbvh::Bvh<N, I, W>,
     frame: &Frame,
     array: Array,
@@ -178,20 +160,10 @@ fn renew<T: Pod, N: Node<W>, I, const W: usize>(
     if len == buffer.len() && parts.is_empty() {
         return Ok(());
     }
-    if !Arc::get_mut(buffer).is_some_and(|own| own.set_len(len)) {
-        let room = if len > buffer.room() {
-            roomy(len)
-        } else {
-            buffer.room()
-        };
-        let new = device.buffer(len, room)?;
+    if len != buffer.len() || buffer.is_bound() {
+        let new = device.buffer(len)?;
         new.copy_from(buffer)?;
-        *buffer = Arc::new(new);
+        *buffer = new;
     }
     buffer.write(&parts)
-}
-
-/// Room for `len` elements and half as many again: most frames then need no new buffer.
-fn roomy(len: usize) -> usize {
-    len + len / 2
 }

@@ -30,8 +30,8 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
         Ok(DeviceArrays {
             nodes: pod_collect_to_vec(&self.tree.all_nodes()?),
             roots: words(&self.tree.roots)?,
-            instances: words(&self.tree.emitters.instances)?,
-            triangles: words(&self.tree.emitters.triangles)?,
+            instances: words(&self.tree.instances)?,
+            triangles: words(&self.tree.triangles)?,
             trails: words(&self.tree.trails)?,
         })
     }

@@ -17,6 +17,7 @@ use crate::backend::{
 };
 use crate::cli::table::{news, say};
 use crate::error::HostError;
+use crate::metrics::mean_squared_error;
 use crate::render::Film;
 use crate::scene::Scene;
 use crate::workload::{RenderSettings, arrays_at, build, lights_at, queries, words_in_use};
@@ -144,26 +145,24 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     written.push(write(&args.out, &name, &reference, exposure.unwrap_or(1.0))?);
 
     let names = std::iter::once("cpu".to_owned()).chain(opened.iter().map(|o| o.device.name().to_owned()));
-    let rows = names
+    let rows: Vec<Row> = names
         .zip(&records)
-        .map(|(backend, record)| {
-            Ok(Row {
-                backend,
-                scene: SCENE,
-                lights: lights.triangles().len(),
-                triangles: scene.triangle_count(),
-                nodes,
-                depth,
-                build_ms: ms(build_time),
-                refit_ms: spread_ms(&record.refit).median,
-                sample_ms: spread_ms(&record.sample).median,
-                render_ms: spread_ms(&record.render).median,
-                compared: record.tally.compared,
-                different: record.tally.different,
-                mse: Film::new(width, height, record.image.clone())?.mean_squared_error(&reference)?,
-            })
+        .map(|(backend, record)| Row {
+            backend,
+            scene: SCENE,
+            lights: lights.triangles().len(),
+            triangles: scene.triangle_count(),
+            nodes,
+            depth,
+            build_ms: ms(build_time),
+            refit_ms: spread_ms(&record.refit).median,
+            sample_ms: spread_ms(&record.sample).median,
+            render_ms: spread_ms(&record.render).median,
+            compared: record.tally.compared,
+            different: record.tally.different,
+            mse: mean_squared_error(&record.image, reference.pixels()),
         })
-        .collect::<Result<Vec<_>, HostError>>()?;
+        .collect();
     drop(on_devices);
     devices::close(opened)?;
     print(context, &rows, &records, &written)?;

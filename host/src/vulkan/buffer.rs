@@ -45,7 +45,7 @@ impl Device {
     /// # Errors
     /// [`VulkanError::BufferTooLarge`], [`VulkanError::OutOfMemory`], or those of [`Buffer::write`].
     pub fn upload<T: Pod>(&self, data: &[T]) -> Result<Buffer<T>, VulkanError> {
-        let buffer = self.buffer(data.len(), data.len())?;
+        let buffer = self.buffer(data.len())?;
         buffer.write(&[(0, data)])?;
         Ok(buffer)
     }
@@ -55,17 +55,17 @@ impl Device {
     /// # Errors
     /// As [`Device::upload`].
     pub fn output<T: Pod>(&self, len: usize) -> Result<Buffer<T>, VulkanError> {
-        let buffer = self.buffer(len, len)?;
+        let buffer = self.buffer(len)?;
         buffer.memory.fill(UNWRITTEN)?;
         Ok(buffer)
     }
 
-    /// A buffer of `len` elements with room for `room`, no fewer. What it holds is not known until it is written.
+    /// A buffer of `len` elements. What it holds is not known until it is written.
     ///
     /// # Errors
     /// [`VulkanError::BufferTooLarge`], [`VulkanError::OutOfMemory`] or [`VulkanError::Call`].
-    pub fn buffer<T: Pod>(&self, len: usize, room: usize) -> Result<Buffer<T>, VulkanError> {
-        Buffer::new(&self.shared, len, room.max(len))
+    pub fn buffer<T: Pod>(&self, len: usize) -> Result<Buffer<T>, VulkanError> {
+        Buffer::new(&self.shared, len)
     }
 }
 
@@ -78,8 +78,8 @@ impl<T: Pod> Buffer<T> {
         size_of::<T>()
     };
 
-    fn new(shared: &Arc<Shared>, len: usize, room: usize) -> Result<Self, VulkanError> {
-        let bytes = (room as u64).saturating_mul(Self::ELEMENT_BYTES as u64);
+    fn new(shared: &Arc<Shared>, len: usize) -> Result<Self, VulkanError> {
+        let bytes = (len as u64).saturating_mul(Self::ELEMENT_BYTES as u64);
         let location = match shared.probe.unified_memory && !shared.options.force_staging {
             true => MemoryLocation::GpuToCpu,
             false => MemoryLocation::GpuOnly,
@@ -103,22 +103,14 @@ impl<T: Pod> Buffer<T> {
         self.len == 0
     }
 
-    /// Elements that there is room for.
-    pub fn room(&self) -> usize {
-        self.memory.bytes as usize / Self::ELEMENT_BYTES
-    }
-
-    /// Takes so many elements of the room for the array's, and returns whether there are so many. Those that are new are not
-    /// known until they are written.
-    pub fn set_len(&mut self, len: usize) -> bool {
-        let fits = len <= self.room();
-        self.len = if fits { len } else { self.len };
-        fits
-    }
-
     /// Bytes of all elements.
     pub fn byte_len(&self) -> usize {
         self.len * Self::ELEMENT_BYTES
+    }
+
+    /// Whether a binding of it is held.
+    pub(crate) fn is_bound(&self) -> bool {
+        Arc::strong_count(&self.memory) > 1
     }
 
     /// The buffer as an argument of a dispatch.

@@ -98,7 +98,6 @@ fn restir_says_what_it_is_and_gives_the_same_file_on_both_processors() {
     assert!(help.contains("biased (darker"), "{help}");
 }
 
-/// Nobody reads what it says: an error with its own exit code, no panic, and the image is there.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_standard_output_is_an_error() {
@@ -167,7 +166,6 @@ fn a_camera_of_ones_own() {
     }
 }
 
-/// It was cut to three decimals, and a picture of what it said was another.
 #[test]
 fn the_exposure_that_is_printed_gives_the_same_picture() {
     let folder = Folder::new("exposure");

@@ -22,14 +22,14 @@ use crate::vulkan::{Binding, Buffer, Kernel, Pass};
 const WORK_PER_PASS: usize = 1 << 21;
 
 /// What a frame leaves on a device.
-pub(super) struct Left<L> {
+pub(super) struct Left {
     /// The scene as it was, its lights too: where they changed since, the light BVH has copies of its own.
-    scene: DeviceScene<L>,
+    scene: DeviceScene,
     gbuffer: Buffer<Surface>,
     reservoirs: Buffer<PixelReservoir>,
 }
 
-impl<L> Left<L> {
+impl Left {
     /// G-buffer and reservoirs.
     pub fn state(&self) -> Result<History, BackendError> {
         Ok((self.gbuffer.read()?, self.reservoirs.read()?))
@@ -93,14 +93,14 @@ pub(in crate::backend) fn resample<C: Choice<W, Light: SceneLight>, const W: usi
             materials,
             triangles,
             instances,
-            left.scene.camera.bind(),
+            left.scene.camera.clone(),
             left.gbuffer.bind(),
             left.reservoirs.bind(),
             to_current.bind(),
             gbuffer.bind(),
             reservoirs.bind(),
         ];
-        let bindings = [then.as_slice(), common.as_slice(), &left.scene.skin()].concat();
+        let bindings = [then.as_slice(), common.as_slice(), left.scene.skin()].concat();
         let kernel = reusing("restir_temporal")?;
         run(&kernel, &bindings, &params, none, 4)?;
     }
@@ -108,7 +108,7 @@ pub(in crate::backend) fn resample<C: Choice<W, Light: SceneLight>, const W: usi
         params.spatial_pass = spatial_pass;
         let merged = device.output::<PixelReservoir>(pixels)?;
         let pixel_buffers = [gbuffer.bind(), reservoirs.bind(), merged.bind()];
-        let bindings = [scene.view().as_slice(), &pixel_buffers, &scene.skin()].concat();
+        let bindings = [scene.view().as_slice(), &pixel_buffers, scene.skin()].concat();
         let work = options.neighbors.saturating_add(1).saturating_mul(2);
         let kernel = reusing("restir_spatial")?;
         run(&kernel, &bindings, &params, none, work)?;

@@ -137,7 +137,7 @@ struct Last<L> {
 /// What a frame left where it was rendered.
 enum Left<L> {
     Cpu(Arc<cpu::Left<L>>),
-    Device(Arc<device::Left<L>>),
+    Device(Arc<device::Left>),
 }
 
 impl<L> Clone for RestirFrame<'_, L> {

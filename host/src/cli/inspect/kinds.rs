@@ -251,7 +251,6 @@ mod tests {
         check::<Plain>(&scene, [0; 2], &lights, &points).expect("a tree")
     }
 
-    /// "0 lights that send light there are never chosen; variance of one sample 0.0000", of nothing.
     #[test]
     fn what_is_not_measured_has_no_figure() {
         let dark = checked(false);

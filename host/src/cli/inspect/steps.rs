@@ -237,7 +237,6 @@ mod tests {
         check(&requirements.model(), &args, &requirements, &source, &points).expect("trees")
     }
 
-    /// A variance of 0.0000 and a ratio of 1.000 [1.000, 1.000], of nothing.
     #[test]
     fn what_is_not_measured_has_no_figure() {
         for is_lit in [false, true] {

@@ -9,7 +9,7 @@ use crate::backend::{
     Backend, BackendError, Bvh, CpuBackend, History, Integrator, Restir, RestirFrame, Timed,
 };
 use crate::cli::verify::tally::Tally;
-use crate::method::{UpdateTimes, runner};
+use crate::method::UpdateTimes;
 use crate::workload::arrays_at;
 use crate::workload::build;
 
@@ -137,7 +137,7 @@ fn found(method: Method, wrong: Option<Kind>) -> Tally {
                 let params = BuildParams::paper(Heuristic::Saoh);
                 let bvh: Bvh<Paper, 4> = build(step.lights, Sampler::SingleLevel, &params);
                 let corrupt = Corrupt {
-                    inner: runner(method, &step, Target::Cpu).expect("a runner"),
+                    inner: method.recipe().runner(&step, Target::Cpu).expect("a runner"),
                     backend: CorruptBackend {
                         inner: CpuBackend::new(bvh),
                         wrong: None,
@@ -147,7 +147,7 @@ fn found(method: Method, wrong: Option<Kind>) -> Tally {
                 };
                 lane.insert(Lane {
                     recipe: method.recipe(),
-                    cpu: runner(method, &step, Target::Cpu).expect("a runner"),
+                    cpu: method.recipe().runner(&step, Target::Cpu).expect("a runner"),
                     devices: vec![Box::new(corrupt)],
                 })
             }
