@@ -14,6 +14,7 @@ use crate::vulkan::VulkanError;
 use crate::words::CompareError;
 
 /// An error of a command.
+#[allow(missing_docs, reason = "the messages name the fields")]
 #[derive(Debug, thiserror::Error)]
 pub enum HostError {
     /// The scene.
@@ -22,11 +23,8 @@ pub enum HostError {
     /// Its lights, geometry or moving lights in some frame.
     #[error("scene `{scene}`, frame {frame}: {source}")]
     Frame {
-        /// Name of the scene.
         scene: String,
-        /// Number of the frame.
         frame: u32,
-        /// What is wrong there.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// The power sampler has no table for this scene.
@@ -35,11 +33,8 @@ pub enum HostError {
          them has flux; use `--sampler two-level`"
     )]
     Sampler {
-        /// Name of the scene.
         scene: String,
-        /// Name of the sampler.
         sampler: &'static str,
-        /// Number of its lights.
         lights: usize,
     },
     /// A device.
@@ -64,56 +59,21 @@ pub enum HostError {
     #[error(
         "cannot write {path}: {source}; choose another folder with --out, or free space, then run the command again"
     )]
-    Store {
-        /// The file.
-        path: PathBuf,
-        /// Why not.
-        source: std::io::Error,
-    },
+    Store { path: PathBuf, source: std::io::Error },
     /// A folder for output.
     #[error("cannot create the folder {path}: {source}; choose another with --out")]
-    Folder {
-        /// The folder.
-        path: PathBuf,
-        /// Why not.
-        source: std::io::Error,
-    },
-    /// A number on the command line is out of range.
-    #[error("{option} {value} is out of range: expected {expected}")]
-    Range {
-        /// The option.
-        option: &'static str,
-        /// What was given.
-        value: u64,
-        /// What would do.
-        expected: String,
-    },
-    /// A word on the command line names nothing.
-    #[error("{option} {word:?} names nothing: expected {expected}")]
-    Word {
-        /// The option.
-        option: &'static str,
-        /// What was given.
-        word: String,
-        /// What would do.
-        expected: String,
-    },
-    /// What an option names cannot serve.
+    Folder { path: PathBuf, source: std::io::Error },
+    /// What an option names cannot serve, or is not there.
     #[error("{option} {value} {problem}")]
     Refused {
-        /// The option.
         option: &'static str,
-        /// What it names.
         value: String,
-        /// Why not, and what would do.
         problem: String,
     },
     /// An option that means nothing beside the others.
     #[error("{option} needs {needs}")]
     Usage {
-        /// The option.
         option: &'static str,
-        /// What it needs.
         needs: &'static str,
     },
     /// A model without kernels, where a device is to run it.

@@ -87,16 +87,14 @@ impl Record {
 }
 
 /// Why two results cannot be compared.
+#[allow(missing_docs, reason = "the messages name the fields")]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CompareError {
     /// They are not equally long.
     #[error("{record}: {expected} words expected, {actual} came; the two sides did different work")]
     Length {
-        /// The record type.
         record: &'static str,
-        /// Words of the reference.
         expected: usize,
-        /// Words of the result.
         actual: usize,
     },
     /// They do not hold a whole number of records.
@@ -104,11 +102,8 @@ pub enum CompareError {
         "{words} words are not a whole number of `{record}` records of {size} words; the field table is wrong"
     )]
     Ragged {
-        /// The record type.
         record: &'static str,
-        /// Words of both.
         words: usize,
-        /// Words of one record by its field table.
         size: usize,
     },
 }

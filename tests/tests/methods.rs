@@ -2,7 +2,7 @@
 
 use lightbvh::{BuildParams, Heuristic};
 use lightbvh_host::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler};
-use lightbvh_host::method::{Method, Step, Target, runner};
+use lightbvh_host::method::{Method, Step, Target};
 use lightbvh_host::scene::Scene;
 use lightbvh_host::workload::{RenderSettings, arrays_at, build, lights_at};
 use lightbvh_kernels::bvh::Paper;
@@ -24,7 +24,7 @@ fn image(scene: &Scene, method: Method, visits: impl Fn(u32, bool) -> bool) -> V
         frame: 0,
         lights: &lights,
     };
-    let mut runner = runner(method, &first, Target::Cpu).expect("a runner");
+    let mut runner = method.recipe().runner(&first, Target::Cpu).expect("a runner");
     for frame in (1..=LAST)
         .filter(|&frame| visits(frame, runner.may_skip()))
         .collect::<Vec<u32>>()

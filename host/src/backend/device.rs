@@ -3,10 +3,9 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use bytemuck::bytes_of;
+use bytemuck::{bytes_of, pod_collect_to_vec};
 use lightbvh::SampledLight;
-use lightbvh::refit::BlasRoot;
-use lightbvh_gpu::{Buffer as Array, Mirror};
+use lightbvh_gpu::Pass as RefitPass;
 use lightbvh_kernels::WORKGROUP;
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
 use lightbvh_kernels::query::{Query, QueryPush};
@@ -14,11 +13,11 @@ use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::batches::{all_candidates, in_batches};
-use super::device_arrays::{DeviceTree, choosing, device_time, scene_bindings};
-use super::held::Held;
-use super::{Backend, BackendError, Bvh, Integrator, Sampler, SceneArrays, Timed, node_record};
+use super::device_arrays::{HeldScene, choosing, device_time};
+use super::follow::DeviceTree;
+use super::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, node_record};
 use crate::scene::SceneLight;
-use crate::vulkan::{Binding, Buffer, Device, Kernel, Pass};
+use crate::vulkan::{Device, Kernel, Pass};
 use crate::words::Record;
 
 /// Queries per dispatch: 28 MiB of them, within the smallest storage buffer range seen (128 MiB).
@@ -32,17 +31,8 @@ const SURFACES_PER_PASS: usize = 1 << 18;
 pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) device: &'d Device,
     pub(super) tree: DeviceTree<C::Node, C::Light>,
-    pub(super) roots: Buffer<BlasRoot>,
-    /// What refits are listed in.
-    pub(super) list: Buffer<u32>,
-    /// By which a refit's passes hand over from children to nodes.
-    pub(super) children: Buffer<u32>,
-    /// By which edits are followed.
-    pub(super) mirror: Mirror,
-    /// What was followed and is not yet submitted.
-    pub(super) pending: Option<Pass<'static>>,
     /// The scene rendered last.
-    scene: Held,
+    pub(super) scene: HeldScene,
 }
 
 impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
@@ -54,16 +44,10 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         let mut new = Self {
             device,
             tree: DeviceTree::new(device)?,
-            roots: device.buffer(0, 1)?,
-            list: device.buffer(0, 1)?,
-            children: device.buffer(0, 1)?,
-            mirror: Mirror::default(),
-            pending: None,
-            scene: Held::default(),
+            scene: HeldScene::default(),
         };
         // The copies of the first frame are the upload.
-        new.follow_ahead(bvh)?;
-        new.flush()?;
+        new.update(bvh)?;
         Ok(new)
     }
 
@@ -72,34 +56,14 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// # Errors
     /// [`BackendError`] from the device.
     pub fn write_nodes(&mut self, nodes: &[C::Node], top: &[C::Node]) -> Result<(), BackendError> {
-        let mut pass = self.led();
-        pass.write(&self.tree.nodes, 0, nodes)?;
-        pass.write(&self.tree.nodes, self.tree.top.start, top)?;
-        self.submit(&pass)?;
-        Ok(())
+        let parts = [(0, nodes), (self.tree.top.start, top)];
+        Ok(self.tree.nodes.write(&parts)?)
     }
 
-    /// The kernel of this choice.
-    pub(super) fn kernel(&self, name: &str) -> Result<Arc<Kernel>, BackendError> {
-        Ok(self.device.kernel(&format!("{name}{}", C::SUFFIX))?)
-    }
-
-    /// What a kernel of a refit takes, by the names of its bindings.
-    pub(super) fn buffers(&self, kernel: &Kernel) -> Vec<Binding> {
-        let bind = |name: &str, stride: u32| match Array::named(name) {
-            Some(Array::Nodes) => self.tree.nodes.bind(),
-            Some(Array::Triangles) => self.tree.triangles.bind(),
-            Some(Array::Instances) => self.tree.instances.bind(),
-            Some(Array::Roots) => self.roots.bind(),
-            Some(Array::Trails) => self.tree.trails.bind(),
-            None if name == "children" => self.children.bind().of_elements(stride),
-            None => self.list.bind(),
-        };
-        let known = lightbvh_gpu::Kernel::named(kernel.name()).map_or(&[][..], |known| known.bindings);
-        known
-            .iter()
-            .map(|binding| bind(binding.name, binding.stride))
-            .collect()
+    /// Copies the changes in `bvh`, and refits; returns the time of the refit.
+    fn update(&mut self, bvh: &Bvh<C, W>) -> Result<Duration, BackendError> {
+        let kernel = |pass: RefitPass| format!("{}{}", pass.name(), C::SUFFIX);
+        Ok(self.tree.follow(self.device, bvh, kernel)?)
     }
 
     /// Answers queries pass by pass.
@@ -108,11 +72,11 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         kernel: &str,
         queries: &[Query],
     ) -> Result<Timed<Vec<T>>, BackendError> {
-        self.query_by(&self.kernel(kernel)?, queries)
+        let kernel = self.device.kernel(&format!("{kernel}{}", C::SUFFIX))?;
+        self.query_by(&kernel, queries)
     }
 
-    /// Answers queries pass by pass, by a kernel that takes what `sample` takes. A pass is one submission, with what was
-    /// followed before it.
+    /// Answers queries pass by pass, by a kernel that takes what `sample` takes.
     #[doc(hidden)]
     pub fn query_by<T: bytemuck::Pod>(
         &mut self,
@@ -124,22 +88,18 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
             time: Duration::ZERO,
         };
         for part in queries.chunks(QUERIES_PER_PASS) {
-            let input = self.device.buffer(part.len(), 0)?;
-            let output = self.device.buffer::<T>(part.len(), 0)?;
+            let input = self.device.upload(part)?;
+            let output = self.device.output::<T>(part.len())?;
             let push = QueryPush {
                 count: part.len() as u32,
                 tree: self.tree.push,
             };
             let mut bindings = self.tree.bindings().to_vec();
             bindings.extend([input.bind(), output.bind()]);
-            let mut pass = self.led();
-            let followed = pass.len();
-            pass.clear(&output);
-            pass.write(&input, 0, part)?;
+            let mut pass = Pass::new();
             pass.dispatch(kernel, &bindings, bytes_of(&push), push.count);
-            let submitted = self.submit(&pass)?;
+            all.time += device_time(&self.device.run(&pass)?);
             all.value.extend(output.read()?);
-            all.time += device_time(&submitted.wait()?.after(followed));
         }
         Ok(all)
     }
@@ -151,8 +111,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
     }
 
     fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
-        self.flush()?;
-        Ok(self.tree.node_words()?)
+        Ok(pod_collect_to_vec(&self.tree.all_nodes()?))
     }
 
     fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError> {
@@ -190,22 +149,16 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
         };
         let per_pass = per_pass.max(WORKGROUP as usize);
         let kernel = device.kernel_with(&format!("{pass}{}", C::SUFFIX), choosing(sampler))?;
-        let mut pass = self.led();
-        let mut followed = pass.len();
-        let inputs = scene_bindings(device, &mut self.scene, scene, sampler, &self.tree, &mut pass);
-        let inputs = inputs.inspect_err(|_| self.scene = Held::default())?;
+        let inputs = self.scene.bind(device, scene, sampler, &self.tree)?;
         let pixels = params.width as usize * params.height as usize;
-        // The first part comes with the scene.
-        let mut first_pass = Some(pass);
-        let image = in_batches(params, integrator, |&params| {
+        in_batches(params, integrator, |&params| {
             let mut all = Timed {
                 value: Vec::with_capacity(pixels),
                 time: Duration::ZERO,
             };
-            let mut parts = Vec::new();
             for first in (0..pixels).step_by(per_pass) {
                 let count = usize::min(per_pass, pixels - first) as u32;
-                let output = device.buffer::<[f32; 3]>(count as usize, 0)?;
+                let output = device.output::<[f32; 3]>(count as usize)?;
                 let bindings = [inputs.as_slice(), &[output.bind()]].concat();
                 let push = RenderPush {
                     params,
@@ -214,21 +167,19 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
                     count,
                     tree,
                 };
-                let mut pass = first_pass.take().unwrap_or_default();
-                pass.clear(&output);
+                let mut pass = Pass::new();
                 pass.dispatch(&kernel, &bindings, bytes_of(&push), count);
-                parts.push((self.submit(&pass)?, output, std::mem::take(&mut followed)));
-            }
-            for (submitted, output, followed) in parts {
+                all.time += device_time(&device.run(&pass)?);
                 all.value.extend(output.read()?);
-                all.time += device_time(&submitted.wait()?.after(followed));
             }
             Ok(all)
-        });
-        if image.is_err() {
-            // What the device holds is not known.
-            self.scene = Held::default();
-        }
-        image
+        })
+    }
+}
+
+impl<C: Choice<W, Light: SceneLight>, const W: usize> Follow<C, W> for DeviceBackend<'_, C, W> {
+    fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError> {
+        let time = self.update(bvh)?;
+        Ok(Timed { time, value: () })
     }
 }

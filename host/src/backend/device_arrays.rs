@@ -1,103 +1,80 @@
-//! A frame of a scene, and what its lights are chosen by, on a device.
+//! A frame of a scene on a device.
 
-use std::ops::Range;
+use std::collections::BTreeMap;
 use std::time::Duration;
 
-use bytemuck::Pod;
-use lightbvh::Instance;
-use lightbvh::TreeWords;
+use bytemuck::{Pod, cast_slice};
 use lightbvh_kernels::shading::pick::by;
 
-use super::held::Held;
+use super::follow::DeviceTree;
 use super::{Sampler, SceneArrays};
 use crate::scene::SceneLight;
-use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
+use crate::vulkan::{Binding, Device, Timings, VulkanError};
 
-/// The buffers of a frame's arrays, in the order in which the render passes take them, once `pass` has run, which writes what
-/// differs from the frame before. Lights that `sampler` finds in `tree` are the tree's, others those that the frame lists.
-pub(super) fn scene_bindings<'a, N: Pod, L: SceneLight>(
-    device: &Device,
-    held: &mut Held,
-    scene: &'a SceneArrays<L>,
-    sampler: Sampler,
-    tree: &DeviceTree<N, L>,
-    pass: &mut Pass<'a>,
-) -> Result<Vec<Binding>, VulkanError> {
-    let listed = scene.emitters();
-    let thresholds = match sampler {
-        Sampler::Power => &scene.thresholds[..],
-        _ => &[],
-    };
-    let camera = std::slice::from_ref(&scene.camera);
-    let mut bindings = vec![
-        held.bring(device, "ray_nodes", &scene.rays.nodes, pass)?,
-        held.bring(device, "surfaces", &scene.rays.blocks, pass)?,
-        held.bring(device, "materials", &scene.materials, pass)?,
-    ];
-    bindings.extend(match sampler.needs_bvh() {
-        true => [tree.triangles.bind(), tree.instances.bind()],
-        false => [
-            held.bring(device, "triangles", listed.triangles, pass)?,
-            held.bring(device, "instances", listed.instances, pass)?,
-        ],
-    });
-    bindings.extend([
-        held.bring(device, "camera", camera, pass)?,
-        tree.nodes.bind(),
-        tree.trails.bind(),
-        held.bring(device, "thresholds", thresholds, pass)?,
-    ]);
-    if L::IS_ANY {
-        let sky = scene.sky.view();
+/// The arrays of the scene that was rendered last, by name: their bytes, and where they are on the device.
+#[derive(Default)]
+pub(super) struct HeldScene(BTreeMap<&'static str, (Vec<u8>, Binding)>);
+
+impl HeldScene {
+    /// The buffers of a frame's arrays, in the order in which the render passes take them; what differs from the frame before is
+    /// uploaded. Lights that `sampler` finds in `tree` are the tree's, others those that the frame lists.
+    pub fn bind<N: Pod, L: SceneLight>(
+        &mut self,
+        device: &Device,
+        scene: &SceneArrays<L>,
+        sampler: Sampler,
+        tree: &DeviceTree<N, L>,
+    ) -> Result<Vec<Binding>, VulkanError> {
+        let listed = scene.emitters();
+        let thresholds = match sampler {
+            Sampler::Power => &scene.thresholds[..],
+            _ => &[],
+        };
+        let mut bindings = vec![
+            self.array(device, "ray_nodes", &scene.rays.nodes)?,
+            self.array(device, "surfaces", &scene.rays.blocks)?,
+            self.array(device, "materials", &scene.materials)?,
+        ];
+        bindings.extend(match sampler.needs_bvh() {
+            true => [tree.triangles.bind(), tree.instances.bind()],
+            false => [
+                self.array(device, "triangles", listed.triangles)?,
+                self.array(device, "instances", listed.instances)?,
+            ],
+        });
         bindings.extend([
-            held.bring(device, "suns", sky.suns, pass)?,
-            held.bring(device, "sky_counts", sky.counts, pass)?,
-            held.bring(device, "sky_radiance", sky.radiance, pass)?,
-            held.bring(device, "corners", &scene.skin.corners, pass)?,
-            held.bring(device, "paint", &scene.skin.words, pass)?,
+            self.array(device, "camera", &[scene.camera])?,
+            tree.nodes.bind(),
+            tree.trails.bind(),
+            self.array(device, "thresholds", thresholds)?,
         ]);
-    }
-    Ok(bindings)
-}
-
-/// The arrays of a light BVH on the device.
-pub(super) struct DeviceTree<N, L> {
-    pub nodes: Buffer<N>,
-    /// How many of them are of bottom levels, and which are of the top level.
-    pub bottoms: usize,
-    pub top: Range<usize>,
-    /// In the spaces of their meshes.
-    pub triangles: Buffer<L>,
-    pub instances: Buffer<Instance>,
-    pub trails: Buffer<u32>,
-    pub push: TreeWords,
-}
-
-impl<N: Pod, L: Pod> DeviceTree<N, L> {
-    /// Empty arrays on `device`.
-    pub fn new(device: &Device) -> Result<Self, VulkanError> {
-        Ok(Self {
-            nodes: device.buffer(0, 1)?,
-            bottoms: 0,
-            top: 0..0,
-            triangles: device.buffer(0, 1)?,
-            instances: device.buffer(0, 1)?,
-            trails: device.buffer(0, 1)?,
-            push: TreeWords::default(),
-        })
+        if L::IS_ANY {
+            let sky = scene.sky.view();
+            bindings.extend([
+                self.array(device, "suns", sky.suns)?,
+                self.array(device, "sky_counts", sky.counts)?,
+                self.array(device, "sky_radiance", sky.radiance)?,
+                self.array(device, "corners", &scene.skin.corners)?,
+                self.array(device, "paint", &scene.skin.words)?,
+            ]);
+        }
+        Ok(bindings)
     }
 
-    /// The words of all nodes: those of bottom levels, then of the top level.
-    pub fn node_words(&self) -> Result<Vec<u32>, VulkanError> {
-        let words = self.nodes.read_words()?;
-        let own = size_of::<N>() / size_of::<u32>();
-        let top = &words[self.top.start * own..self.top.end * own];
-        Ok([&words[..self.bottoms * own], top].concat())
-    }
-
-    /// What the passes of queries take.
-    pub fn bindings(&self) -> [Binding; 3] {
-        [self.nodes.bind(), self.instances.bind(), self.trails.bind()]
+    /// The array as `data`: the buffer that there is if it holds the same bytes, else a new one.
+    fn array<T: Pod>(
+        &mut self,
+        device: &Device,
+        name: &'static str,
+        data: &[T],
+    ) -> Result<Binding, VulkanError> {
+        let bytes: &[u8] = cast_slice(data);
+        if let Some((_, binding)) = self.0.get(name).filter(|(held, _)| held == bytes) {
+            return Ok(binding.clone());
+        }
+        let binding = device.upload(data)?.bind();
+        self.0.insert(name, (bytes.to_vec(), binding.clone()));
+        Ok(binding)
     }
 }
 
@@ -112,8 +89,5 @@ pub(super) fn choosing(sampler: Sampler) -> u32 {
 
 /// The kernels' own time by the device's clock, or else by ours.
 pub(super) fn device_time(timings: &Timings) -> Duration {
-    match &timings.dispatch_ns {
-        Some(ns) => Duration::from_nanos(ns.iter().sum::<f64>() as u64),
-        None => timings.wall,
-    }
+    timings.kernels.unwrap_or(timings.wall)
 }

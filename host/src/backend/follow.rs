@@ -1,169 +1,169 @@
-//! A BVH and its edits on a device: what changed is copied, the rest is computed there, all in one submission with what is
-//! asked next.
+//! A BVH and its edits on a device: what changed is copied, the rest is computed there.
 
+use std::ops::Range;
 use std::time::Duration;
 
 use bytemuck::{Pod, bytes_of, cast_slice};
 use lightbvh::node::Node;
-use lightbvh_gpu::{Buffer as Array, Frame, Mirror, Refit};
-use lightbvh_kernels::bvh::Choice;
+use lightbvh::refit::BlasRoot;
+use lightbvh::{Instance, TreeWords};
+use lightbvh_gpu::{Buffer as Array, Frame, Mirror, Pass as RefitPass, Refit};
 
-use super::device::DeviceBackend;
 use super::device_arrays::device_time;
-use super::{BackendError, Bvh, Follow, Timed};
-use crate::scene::SceneLight;
-use crate::vulkan::{Buffer, Device, Pass, Submission, VulkanError};
+use crate::vulkan::{Binding, Buffer, Device, Pass, VulkanError};
 
-/// Bytes of a frame that are kept for the submission of what is asked next; more are submitted at once, from where they lie.
-const KEPT: usize = 1 << 20;
-
-impl<C: Choice<W, Light: SceneLight>, const W: usize> Follow<C, W> for DeviceBackend<'_, C, W> {
-    fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError> {
-        let submitted = match self.stage(bvh)? {
-            Some(submitted) => Some(submitted),
-            None => self.flush()?,
-        };
-        let time = match submitted {
-            Some(submitted) => device_time(&submitted.wait()?),
-            None => Duration::ZERO,
-        };
-        Ok(Timed { time, value: () })
-    }
+/// The arrays of a light BVH on a device, which follow its edits.
+pub(super) struct DeviceTree<N, L> {
+    pub nodes: Buffer<N>,
+    /// How many of them are of bottom levels, and which are of the top level.
+    pub bottoms: usize,
+    pub top: Range<usize>,
+    pub triangles: Buffer<L>,
+    pub instances: Buffer<Instance>,
+    pub roots: Buffer<BlasRoot>,
+    pub trails: Buffer<u32>,
+    pub push: TreeWords,
+    mirror: Mirror,
 }
 
-impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
-    /// [`follow`](Follow::follow) without a wait: copies and refit go with the submission of what is asked next, or of
-    /// [`flush`](Self::flush). Where more than 1 MiB is copied they are submitted at once.
-    ///
-    /// Nothing of `bvh` depends on what becomes of the device. What fails here is copied as a whole the next time; where the
-    /// device is lost, another one takes over by [`new`](Self::new).
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
-    pub fn follow_ahead(&mut self, bvh: &Bvh<C, W>) -> Result<(), BackendError> {
-        self.stage(bvh).map(drop)
+impl<N: Pod, L: Pod> DeviceTree<N, L> {
+    /// Empty arrays on `device`.
+    pub fn new(device: &Device) -> Result<Self, VulkanError> {
+        Ok(Self {
+            nodes: device.buffer(0)?,
+            bottoms: 0,
+            top: 0..0,
+            triangles: device.buffer(0)?,
+            instances: device.buffer(0)?,
+            roots: device.buffer(0)?,
+            trails: device.buffer(0)?,
+            push: TreeWords::default(),
+            mirror: Mirror::default(),
+        })
     }
 
-    /// Submits what was followed and is not yet; waits for nothing.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
-    pub fn flush(&mut self) -> Result<Option<Submission>, BackendError> {
-        match &self.pending {
-            None => Ok(None),
-            Some(pending) => {
-                let submitted = self.device.submit(pending)?;
-                self.pending = None;
-                Ok(Some(submitted))
-            }
-        }
+    /// All nodes: those of bottom levels, then of the top level.
+    pub fn all_nodes(&self) -> Result<Vec<N>, VulkanError> {
+        let nodes = self.nodes.read()?;
+        Ok([&nodes[..self.bottoms], &nodes[self.top.clone()]].concat())
     }
 
-    /// A pass that begins with what was followed and is not yet submitted.
-    pub(super) fn led<'a>(&self) -> Pass<'a> {
-        self.pending.clone().unwrap_or_default()
+    /// What the passes of queries take.
+    pub fn bindings(&self) -> [Binding; 3] {
+        [self.nodes.bind(), self.instances.bind(), self.trails.bind()]
     }
 
-    /// Submits a pass that [`led`](Self::led) has begun.
-    pub(super) fn submit(&mut self, pass: &Pass<'_>) -> Result<Submission, BackendError> {
-        let submitted = self.device.submit(pass)?;
-        self.pending = None;
-        Ok(submitted)
+    /// The array that a kernel's binding of this name takes.
+    pub fn bind(&self, name: &str) -> Option<Binding> {
+        Array::named(name).map(|array| match array {
+            Array::Nodes => self.nodes.bind(),
+            Array::Triangles => self.triangles.bind(),
+            Array::Instances => self.instances.bind(),
+            Array::Roots => self.roots.bind(),
+            Array::Trails => self.trails.bind(),
+        })
     }
 
-    /// Makes the frame's work the pending one, or submits it.
-    fn stage(&mut self, bvh: &Bvh<C, W>) -> Result<Option<Submission>, BackendError> {
-        self.flush()?;
+    /// Copies what changed and refits by the kernels of these names; returns the time of the refit. Nothing of `bvh` depends on
+    /// what becomes of the device: if this fails, all is copied the next time, or to another device.
+    pub fn follow<I, const W: usize>(
+        &mut self,
+        device: &Device,
+        bvh: &lightbvh::Bvh<N, I, W>,
+        kernel: impl Fn(RefitPass) -> String,
+    ) -> Result<Duration, VulkanError>
+    where
+        N: Node<W>,
+    {
         let frame = self.mirror.frame(bvh);
-        let staged = self.stage_frame(bvh, &frame);
-        if staged.is_err() {
+        let followed = self
+            .copy_changes(device, bvh, &frame)
+            .and_then(|()| self.refit(device, &frame.refit, kernel));
+        if followed.is_err() {
             // The mirror believes that the frame was followed.
             self.mirror = Mirror::default();
         }
-        staged
+        followed
     }
 
-    fn stage_frame(&mut self, bvh: &Bvh<C, W>, frame: &Frame) -> Result<Option<Submission>, BackendError> {
-        let mut pass = Pass::new();
-        self.copy_changes(bvh, frame, &mut pass)?;
-        self.refit_by(&frame.refit, &mut pass)?;
-        if pass.bytes() > KEPT {
-            return Ok(Some(self.device.submit(&pass)?));
-        }
-        self.pending = (!pass.is_empty()).then(|| pass.into_owned());
-        Ok(None)
-    }
-
-    /// Appends the dispatches of a refit.
-    pub(super) fn refit_by<'a>(&mut self, refit: &'a Refit, pass: &mut Pass<'a>) -> Result<(), BackendError> {
+    /// Runs the dispatches of a refit.
+    fn refit(
+        &self,
+        device: &Device,
+        refit: &Refit,
+        kernel: impl Fn(RefitPass) -> String,
+    ) -> Result<Duration, VulkanError> {
         if refit.dispatches.is_empty() {
-            return Ok(());
+            return Ok(Duration::ZERO);
         }
-        if !self.list.set_len(refit.list.len()) {
-            self.list = self.device.buffer(refit.list.len(), roomy(refit.list.len()))?;
-        }
-        pass.write(&self.list, 0, &refit.list)?;
-        let children = refit.children as usize / size_of::<u32>();
-        if !self.children.set_len(children.max(self.children.len())) {
-            self.children = self.device.buffer(children, roomy(children))?;
-        }
+        let list = device.upload(&refit.list)?;
+        // By which the passes hand over from children to nodes.
+        let children = device.buffer::<u32>(refit.children as usize / size_of::<u32>())?;
+        let mut pass = Pass::new();
         for dispatch in &refit.dispatches {
-            let kernel = self.kernel(dispatch.pass.name())?;
-            let buffers = self.buffers(&kernel);
+            let kernel = device.kernel(&kernel(dispatch.pass))?;
+            let known = lightbvh_gpu::Kernel::named(kernel.name()).map_or(&[][..], |known| known.bindings);
+            let buffers: Vec<_> = known
+                .iter()
+                .map(|binding| match binding.name {
+                    "list" => list.bind(),
+                    "children" => children.bind().of_elements(binding.stride),
+                    array => self.bind(array).expect("an array of the tree"),
+                })
+                .collect();
             pass.dispatch(&kernel, &buffers, bytes_of(&dispatch.push()), dispatch.count);
         }
-        Ok(())
+        Ok(device_time(&device.run(&pass)?))
     }
 
     /// Makes the device's arrays those of `bvh`, but for the summaries that are refitted.
-    pub(super) fn copy_changes<'a>(
+    fn copy_changes<I, const W: usize>(
         &mut self,
-        bvh: &'a Bvh<C, W>,
+        device: &Device,
+        bvh: &lightbvh::Bvh<N, I, W>,
         frame: &Frame,
-        pass: &mut Pass<'a>,
-    ) -> Result<(), BackendError> {
-        let (device, own) = (self.device, &mut self.tree);
-        renew(device, &mut own.nodes, bvh, frame, Array::Nodes, pass)?;
-        renew(device, &mut own.instances, bvh, frame, Array::Instances, pass)?;
-        renew(device, &mut own.trails, bvh, frame, Array::Trails, pass)?;
-        renew(device, &mut self.roots, bvh, frame, Array::Roots, pass)?;
-        renew(device, &mut own.triangles, bvh, frame, Array::Triangles, pass)?;
-        let top = self.mirror.top::<C::Node>() as usize;
-        own.bottoms = bvh.nodes().len();
-        own.top = top..top + bvh.top_nodes().len();
-        own.push = frame.words;
+    ) -> Result<(), VulkanError>
+    where
+        N: Node<W>,
+    {
+        renew(device, &mut self.nodes, bvh, frame, Array::Nodes)?;
+        renew(device, &mut self.instances, bvh, frame, Array::Instances)?;
+        renew(device, &mut self.trails, bvh, frame, Array::Trails)?;
+        renew(device, &mut self.roots, bvh, frame, Array::Roots)?;
+        renew(device, &mut self.triangles, bvh, frame, Array::Triangles)?;
+        let top = self.mirror.top::<N>() as usize;
+        self.bottoms = bvh.nodes().len();
+        self.top = top..top + bvh.top_nodes().len();
+        self.push = frame.words;
         Ok(())
     }
 }
 
-/// Does a frame's copies of one buffer. If it needs more capacity, another buffer replaces it; the device copies the rest.
-fn renew<'a, T: Pod, N: Node<W>, I, const W: usize>(
+/// Does a frame's copies of one buffer. If its length changes, or something else still reads it, another buffer with what it held
+/// replaces it.
+fn renew<T: Pod, N: Node<W>, I, const W: usize>(
     device: &Device,
     buffer: &mut Buffer<T>,
-    bvh: &'a lightbvh::Bvh<N, I, W>,
+    bvh: &lightbvh::Bvh<N, I, W>,
     frame: &Frame,
     array: Array,
-    pass: &mut Pass<'a>,
 ) -> Result<(), VulkanError> {
-    let copies = || frame.copies.iter().filter(|copy| copy.buffer == array);
+    let copies = frame.copies.iter().filter(|copy| copy.buffer == array);
+    let parts: Vec<(usize, &[T])> = copies
+        .map(|copy| {
+            let first = copy.bytes.start as usize / size_of::<T>();
+            (first, cast_slice(copy.source(bvh)))
+        })
+        .collect();
     let resized = frame.resizes.iter().find(|(resized, _)| *resized == array);
     let len = resized.map_or(buffer.len(), |(_, bytes)| *bytes as usize / size_of::<T>());
-    if len == buffer.len() && copies().next().is_none() {
+    if len == buffer.len() && parts.is_empty() {
         return Ok(());
     }
-    if !buffer.set_len(len) {
-        let new = device.buffer(len, roomy(len))?;
-        pass.carry(buffer, &new);
+    if len != buffer.len() || buffer.is_bound() {
+        let new = device.buffer(len)?;
+        new.copy_from(buffer)?;
         *buffer = new;
     }
-    for copy in copies() {
-        let first = copy.bytes.start as usize / size_of::<T>();
-        pass.write(buffer, first, cast_slice(copy.source(bvh)))?;
-    }
-    Ok(())
-}
-
-/// Room for `len` elements and half as many again: most frames then need no new buffer.
-pub(super) fn roomy(len: usize) -> usize {
-    len + len / 2
+    buffer.write(&parts)
 }

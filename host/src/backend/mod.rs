@@ -8,7 +8,6 @@ mod device;
 mod device_arrays;
 mod error;
 mod follow;
-mod held;
 mod mirrored;
 mod record;
 mod scene;

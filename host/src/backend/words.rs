@@ -1,6 +1,6 @@
 //! The arrays of a device as words, for comparing.
 
-use bytemuck::Pod;
+use bytemuck::{Pod, pod_collect_to_vec};
 use lightbvh_kernels::bvh::Choice;
 
 use super::{BackendError, DeviceBackend};
@@ -27,10 +27,9 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     /// # Errors
     /// [`BackendError`] from the device.
     pub fn arrays(&mut self) -> Result<DeviceArrays, BackendError> {
-        self.flush()?;
         Ok(DeviceArrays {
-            nodes: self.tree.node_words()?,
-            roots: words(&self.roots)?,
+            nodes: pod_collect_to_vec(&self.tree.all_nodes()?),
+            roots: words(&self.tree.roots)?,
             instances: words(&self.tree.instances)?,
             triangles: words(&self.tree.triangles)?,
             trails: words(&self.tree.trails)?,

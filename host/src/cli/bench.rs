@@ -14,7 +14,6 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::measure::times::{Spread, ms, spread_ms};
-use super::range::{self, given};
 use super::{Context, Outcome, devices, table};
 use crate::backend::{Bvh, CpuBackend, DeviceBackend, Follow, Sampler};
 use crate::cli::table::news;
@@ -26,10 +25,10 @@ use scene::{random_lights, random_queries};
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// Number of emissive triangles, 1 to 2^24; each takes about 560 bytes of memory.
-    #[arg(long, default_value_t = 100_000)]
+    #[arg(long, default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
     lights: u32,
     /// Samples, and pmfs, of one run, 1 to 10^8.
-    #[arg(long, default_value_t = 200_000)]
+    #[arg(long, default_value_t = 200_000, value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     queries: u32,
     /// Measure frames of moving lights instead: time, variance relative to a fresh build, bytes.
     #[arg(long, conflicts_with_all = ["device", "validation"])]
@@ -72,10 +71,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     if args.dynamic {
         return run_dynamic(context, args.quick);
     }
-    range::check(&[
-        given("--lights", args.lights, 1..=1 << 24),
-        given("--queries", args.queries, 1..=100_000_000),
-    ])?;
     let opened = devices::open(context)?;
     let lights = random_lights(args.lights);
     let queries = random_queries(args.queries);

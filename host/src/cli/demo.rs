@@ -9,7 +9,6 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::measure::times::{ms, spread_ms};
-use super::range::{self, MAX_SIDE, given};
 use super::verify::tally::{Kind, Tally};
 use super::{Context, Outcome, devices, table, target};
 use crate::backend::{
@@ -18,6 +17,7 @@ use crate::backend::{
 };
 use crate::cli::table::{news, say};
 use crate::error::HostError;
+use crate::metrics::mean_squared_error;
 use crate::render::Film;
 use crate::scene::Scene;
 use crate::workload::{RenderSettings, arrays_at, build, lights_at, queries, words_in_use};
@@ -37,10 +37,10 @@ pub(super) struct Args {
     #[arg(long, default_value = "out", value_name = "DIR")]
     out: PathBuf,
     /// Columns of the images, 1 to 16384.
-    #[arg(long, default_value_t = 384)]
+    #[arg(long, default_value_t = 384, value_parser = clap::value_parser!(u32).range(1..=16_384))]
     width: u32,
     /// Rows of the images, 1 to 16384.
-    #[arg(long, default_value_t = 216)]
+    #[arg(long, default_value_t = 216, value_parser = clap::value_parser!(u32).range(1..=16_384))]
     height: u32,
 }
 
@@ -76,10 +76,6 @@ struct Run {
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let (width, height) = (args.width, args.height);
-    range::check(&[
-        given("--width", width, 1..=MAX_SIDE),
-        given("--height", height, 1..=MAX_SIDE),
-    ])?;
     target::folder(&args.out)?;
     let opened = devices::open(context)?;
     let scene = Scene::open(SCENE)?;
@@ -149,26 +145,24 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     written.push(write(&args.out, &name, &reference, exposure.unwrap_or(1.0))?);
 
     let names = std::iter::once("cpu".to_owned()).chain(opened.iter().map(|o| o.device.name().to_owned()));
-    let rows = names
+    let rows: Vec<Row> = names
         .zip(&records)
-        .map(|(backend, record)| {
-            Ok(Row {
-                backend,
-                scene: SCENE,
-                lights: lights.triangles().len(),
-                triangles: scene.triangle_count(),
-                nodes,
-                depth,
-                build_ms: ms(build_time),
-                refit_ms: spread_ms(&record.refit).median,
-                sample_ms: spread_ms(&record.sample).median,
-                render_ms: spread_ms(&record.render).median,
-                compared: record.tally.compared,
-                different: record.tally.different,
-                mse: Film::new(width, height, record.image.clone())?.mean_squared_error(&reference)?,
-            })
+        .map(|(backend, record)| Row {
+            backend,
+            scene: SCENE,
+            lights: lights.triangles().len(),
+            triangles: scene.triangle_count(),
+            nodes,
+            depth,
+            build_ms: ms(build_time),
+            refit_ms: spread_ms(&record.refit).median,
+            sample_ms: spread_ms(&record.sample).median,
+            render_ms: spread_ms(&record.render).median,
+            compared: record.tally.compared,
+            different: record.tally.different,
+            mse: mean_squared_error(&record.image, reference.pixels()),
         })
-        .collect::<Result<Vec<_>, HostError>>()?;
+        .collect();
     drop(on_devices);
     devices::close(opened)?;
     print(context, &rows, &records, &written)?;

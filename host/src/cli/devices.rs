@@ -3,7 +3,7 @@
 use super::Context;
 use crate::cli::table::news;
 use crate::error::HostError;
-use crate::vulkan::{Device, Exactness, Options, cache_directory};
+use crate::vulkan::{Device, Exactness, Options};
 
 /// A device, opened and self-tested.
 pub(super) struct Opened {
@@ -27,7 +27,6 @@ pub(super) fn open(context: &Context) -> Result<Vec<Opened>, HostError> {
     }
     let options = Options {
         validation: context.validation,
-        pipeline_cache: cache_directory(),
         ..Options::default()
     };
     chosen

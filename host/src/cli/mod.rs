@@ -12,7 +12,6 @@ mod info;
 mod inspect;
 mod measure;
 mod progress;
-mod range;
 mod reading;
 mod render;
 mod stability;

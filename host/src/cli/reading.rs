@@ -1,9 +1,25 @@
-//! What scenes may read, and how much memory they may take.
+//! Options that commands share: what scenes may read and how much memory they may take, what runs, numbers.
 
 use std::ffi::OsStr;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use crate::scene::{Limits, Scene, SceneError};
+
+/// What renders or samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum BackendName {
+    Cpu,
+    Vulkan,
+}
+
+/// A finite number above zero.
+pub(super) fn positive<T: FromStr + Into<f64> + Copy>(text: &str) -> Result<T, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|&number: &T| number.into().is_finite() && number.into() > 0.0)
+        .ok_or_else(|| format!("{text} is no finite number above 0"))
+}
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Reading {

@@ -7,15 +7,12 @@ mod view;
 use std::sync::Arc;
 
 use lightbvh::light::AnyLight;
-use lightbvh_kernels::shading::candidates::MAX_SCATTERED;
-use lightbvh_kernels::shading::path::MAX_BOUNCES;
-use lightbvh_kernels::shading::pixel::MAX_CANDIDATES;
 use serde_json::{Value, json};
 
-use self::options::{BackendName, IntegratorName, recipe};
+use self::options::{IntegratorName, recipe};
 use self::sequence::Sequence;
 use self::view::{camera_words, check_places, playing, seen_by};
-use super::range::{self, MAX_SIDE, given};
+use super::reading::BackendName;
 use super::{Context, Outcome, devices, frames, table, target};
 use crate::backend::Integrator;
 use crate::cli::table::news;
@@ -34,14 +31,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             needs: "--backend vulkan",
         });
     }
-    range::check(&[
-        given("--width", args.width, 1..=MAX_SIDE),
-        given("--height", args.height, 1..=MAX_SIDE),
-        given("--spp", args.spp, 1..=65_536),
-        given("--bounces", args.bounces.unwrap_or(1), 1..=MAX_BOUNCES.into()),
-        given("--candidates", recipe.candidates, 1..=MAX_CANDIDATES.into()),
-        given("--scattered", args.scattered, 0..=MAX_SCATTERED.into()),
-    ])?;
     // Of a sequence the first: all have one folder and one ending.
     let first = args
         .animate

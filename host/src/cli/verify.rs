@@ -17,7 +17,6 @@ use lightbvh_kernels::bvh::{Kinds, Paper, Standard, WIDTH};
 use serde::Serialize;
 use serde_json::json;
 
-use super::range::{self, given};
 use super::reading::Reading;
 use super::{Context, Outcome, devices, progress, table};
 use crate::backend::Sampler;
@@ -51,13 +50,13 @@ pub(super) struct Args {
     #[command(flatten)]
     reading: Reading,
     /// Instead of scenes, this number of frames of random edits, 100 to 10^8; memory from 4,000 on.
-    #[arg(long, value_name = "FRAMES", conflicts_with_all = ["queries", "frames", "frame_queries", "importance", "scene"])]
+    #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u32).range(100..=100_000_000), conflicts_with_all = ["queries", "frames", "frame_queries", "importance", "scene"])]
     soak: Option<u32>,
     /// Instances of --soak, about, 10 to 10^6.
-    #[arg(long, requires = "soak", default_value_t = 2_000)]
+    #[arg(long, requires = "soak", default_value_t = 2_000, value_parser = clap::value_parser!(u32).range(10..=1_000_000))]
     instances: u32,
     /// Triangles of the largest mesh of --soak, 10 to 10^6.
-    #[arg(long, requires = "soak", default_value_t = 20_000)]
+    #[arg(long, requires = "soak", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(10..=1_000_000))]
     mesh_triangles: u32,
 }
 
@@ -110,11 +109,6 @@ struct Report {
 }
 
 fn run_soak(context: &Context, args: &Args, frames: u32) -> Result<Outcome, HostError> {
-    range::check(&[
-        given("--soak", frames, 100..=100_000_000),
-        given("--instances", args.instances, 10..=1_000_000),
-        given("--mesh-triangles", args.mesh_triangles, 10..=1_000_000),
-    ])?;
     let plan = soak::Plan {
         frames,
         seed: args.seed,

@@ -22,7 +22,7 @@ use crate::vulkan::Device;
 use crate::workload::RenderSettings;
 
 /// A frame of an animation, as a method learns of it.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Step<'a, L = EmissiveTriangle> {
     /// The scene.
     pub scene: &'a Scene,
@@ -31,14 +31,6 @@ pub struct Step<'a, L = EmissiveTriangle> {
     /// Its lights.
     pub lights: &'a Lights<L>,
 }
-
-impl<L> Clone for Step<'_, L> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<L> Copy for Step<'_, L> {}
 
 impl<L> Step<'_, L> {
     /// The error for lights of this frame that a light BVH does not take.
@@ -137,18 +129,6 @@ impl<'d> Target<'d> {
             Self::Device(device) => Box::new(DeviceBackend::<C, W>::new(device, &bvh)?),
         })
     }
-}
-
-/// Builds what `method` needs at its first frame.
-///
-/// # Errors
-/// [`HostError`] from a device, or for a scene that the method cannot take.
-pub fn runner<'d>(
-    method: Method,
-    first: &Step<'_>,
-    target: Target<'d>,
-) -> Result<Box<dyn Runner + 'd>, HostError> {
-    method.recipe().runner(first, target)
 }
 
 impl Recipe {

@@ -21,36 +21,24 @@ use serde::Serialize;
 use crate::render::Film;
 
 /// Why two images cannot be measured against each other.
+#[allow(missing_docs, reason = "the messages name the fields")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MetricError {
     /// Two images of different sizes.
     #[error("an image of {} x {} cannot be measured against one of {} x {}; render both at one size", .image.0, .image.1, .reference.0, .reference.1)]
     Shapes {
-        /// Columns and rows of the image.
         image: (u32, u32),
-        /// Columns and rows of the reference.
         reference: (u32, u32),
     },
     /// Radiance that is infinite or not a number: no distance from it means anything.
     #[error("pixel {pixel} of the image is not finite; report it as a defect of the renderer")]
-    NotFinite {
-        /// Index by rows from the upper left.
-        pixel: usize,
-    },
+    NotFinite { pixel: usize },
     /// A region that is empty or beyond the image.
     #[error("the region {region} is not within an image of {} x {}; choose one inside, of at least one pixel", .size.0, .size.1)]
-    Region {
-        /// What was asked for.
-        region: Region,
-        /// Columns and rows of the images.
-        size: (u32, u32),
-    },
+    Region { region: Region, size: (u32, u32) },
     /// FLIP refuses the size.
     #[error("an image of {} x {} is beyond what FLIP takes; render a smaller one", .size.0, .size.1)]
-    Flip {
-        /// Columns and rows of the images.
-        size: (u32, u32),
-    },
+    Flip { size: (u32, u32) },
 }
 
 /// An image's distance from a reference by every measure; smaller is better but for SSIM and PSNR.

@@ -18,50 +18,26 @@ const MIN_LIT: f64 = 0.05;
 const BLACK: f64 = 0.5 / 255.0 / 12.92;
 
 /// Why an image cannot be made, compared or written.
+#[allow(missing_docs, reason = "the messages name the fields")]
 #[derive(Debug, thiserror::Error)]
 pub enum FilmError {
     /// The number of pixels does not fit the size.
     #[error(
         "an image of {width} x {height} has not {pixels} pixels; give width times height of them, at least one"
     )]
-    Size {
-        /// Columns.
-        width: u32,
-        /// Rows.
-        height: u32,
-        /// Pixels given.
-        pixels: usize,
-    },
-    /// Two images of different sizes.
-    #[error("an image of {} x {} cannot be compared with one of {} x {}; render both at one size", .left.0, .left.1, .right.0, .right.1)]
-    Shapes {
-        /// Columns and rows of the one.
-        left: (u32, u32),
-        /// Columns and rows of the other.
-        right: (u32, u32),
-    },
+    Size { width: u32, height: u32, pixels: usize },
     /// The extension is neither `.png` nor `.exr`.
     #[error("{}: unknown image format; name a file that ends in .png or .exr", .path.display())]
-    Format {
-        /// The path asked for.
-        path: PathBuf,
-    },
+    Format { path: PathBuf },
     /// The encoder refuses the image.
     #[error("{}: cannot encode the image: {source}; try the other format", .path.display())]
     Encode {
-        /// The path asked for.
         path: PathBuf,
-        /// What the encoder says.
         source: image::ImageError,
     },
     /// The file cannot be written.
     #[error("{}: cannot write the image: {source}; check that its folder exists, may be written to and has room", .path.display())]
-    Write {
-        /// The path asked for.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
+    Write { path: PathBuf, source: std::io::Error },
 }
 
 /// An image of linear RGB radiance, W/(m² sr), by rows from the upper left.
@@ -105,22 +81,6 @@ impl Film {
     /// The pixels by rows from the upper left.
     pub fn pixels(&self) -> &[[f32; 3]] {
         &self.pixels
-    }
-
-    /// Mean of the squared differences over all channels of all pixels.
-    ///
-    /// # Errors
-    /// [`FilmError::Shapes`] for images of different sizes.
-    pub fn mean_squared_error(&self, other: &Self) -> Result<f64, FilmError> {
-        if (self.width, self.height) != (other.width, other.height) {
-            return Err(FilmError::Shapes {
-                left: (self.width, self.height),
-                right: (other.width, other.height),
-            });
-        }
-        let pairs = self.pixels.iter().flatten().zip(other.pixels.iter().flatten());
-        let sum: f64 = pairs.map(|(&a, &b)| (f64::from(a) - f64::from(b)).powi(2)).sum();
-        Ok(sum / (3 * self.pixels.len()) as f64)
     }
 
     /// The factor that brings the image's mean brightness to a middle grey of 0.18: the mean is that of the logarithm,

@@ -2,7 +2,7 @@
 
 use super::device::Device;
 use super::error::VulkanError;
-use super::memory::Memory;
+use super::memory::{Memory, region};
 use super::shared::Shared;
 use bytemuck::Pod;
 use gpu_allocator::MemoryLocation;
@@ -45,8 +45,8 @@ impl Device {
     /// # Errors
     /// [`VulkanError::BufferTooLarge`], [`VulkanError::OutOfMemory`], or those of [`Buffer::write`].
     pub fn upload<T: Pod>(&self, data: &[T]) -> Result<Buffer<T>, VulkanError> {
-        let buffer = self.buffer(data.len(), data.len())?;
-        buffer.memory.write_at(0, bytemuck::cast_slice(data), true)?;
+        let buffer = self.buffer(data.len())?;
+        buffer.write(&[(0, data)])?;
         Ok(buffer)
     }
 
@@ -55,18 +55,17 @@ impl Device {
     /// # Errors
     /// As [`Device::upload`].
     pub fn output<T: Pod>(&self, len: usize) -> Result<Buffer<T>, VulkanError> {
-        let buffer = self.buffer(len, len)?;
-        buffer.memory.fill_new(UNWRITTEN)?;
+        let buffer = self.buffer(len)?;
+        buffer.memory.fill(UNWRITTEN)?;
         Ok(buffer)
     }
 
-    /// A buffer of `len` elements with room for `room`, no fewer. What it holds is not known until it is written, by a
-    /// [`Pass`](super::Pass) or otherwise.
+    /// A buffer of `len` elements. What it holds is not known until it is written.
     ///
     /// # Errors
     /// [`VulkanError::BufferTooLarge`], [`VulkanError::OutOfMemory`] or [`VulkanError::Call`].
-    pub fn buffer<T: Pod>(&self, len: usize, room: usize) -> Result<Buffer<T>, VulkanError> {
-        Buffer::new(&self.shared, len, room.max(len))
+    pub fn buffer<T: Pod>(&self, len: usize) -> Result<Buffer<T>, VulkanError> {
+        Buffer::new(&self.shared, len)
     }
 }
 
@@ -79,8 +78,8 @@ impl<T: Pod> Buffer<T> {
         size_of::<T>()
     };
 
-    fn new(shared: &Arc<Shared>, len: usize, room: usize) -> Result<Self, VulkanError> {
-        let bytes = (room as u64).saturating_mul(Self::ELEMENT_BYTES as u64);
+    fn new(shared: &Arc<Shared>, len: usize) -> Result<Self, VulkanError> {
+        let bytes = (len as u64).saturating_mul(Self::ELEMENT_BYTES as u64);
         let location = match shared.probe.unified_memory && !shared.options.force_staging {
             true => MemoryLocation::GpuToCpu,
             false => MemoryLocation::GpuOnly,
@@ -104,22 +103,14 @@ impl<T: Pod> Buffer<T> {
         self.len == 0
     }
 
-    /// Elements that there is room for.
-    pub fn room(&self) -> usize {
-        self.memory.bytes as usize / Self::ELEMENT_BYTES
-    }
-
-    /// Takes so many elements of the room for the array's, and returns whether there are so many. Those that are new are not
-    /// known until they are written.
-    pub fn set_len(&mut self, len: usize) -> bool {
-        let fits = len <= self.room();
-        self.len = if fits { len } else { self.len };
-        fits
-    }
-
     /// Bytes of all elements.
     pub fn byte_len(&self) -> usize {
         self.len * Self::ELEMENT_BYTES
+    }
+
+    /// Whether a binding of it is held.
+    pub(crate) fn is_bound(&self) -> bool {
+        Arc::strong_count(&self.memory) > 1
     }
 
     /// The buffer as an argument of a dispatch.
@@ -131,31 +122,39 @@ impl<T: Pod> Buffer<T> {
         }
     }
 
-    /// Replaces all elements.
+    /// Replaces elements by those of each part, from its first one on.
     ///
     /// # Errors
-    /// [`VulkanError::WrongLength`], [`VulkanError::Busy`], or those of a copy to the device.
-    pub fn write(&mut self, data: &[T]) -> Result<(), VulkanError> {
-        if data.len() != self.len {
-            return Err(VulkanError::WrongLength {
-                given: data.len(),
-                held: self.len,
-            });
+    /// [`VulkanError::WrongLength`] if the buffer has fewer, [`VulkanError::Busy`], or those of a copy to the device.
+    pub fn write(&self, parts: &[(usize, &[T])]) -> Result<(), VulkanError> {
+        for (first, data) in parts {
+            if *first > self.len || data.len() > self.len - first {
+                return Err(VulkanError::WrongLength {
+                    given: first.saturating_add(data.len()),
+                    held: self.len,
+                });
+            }
         }
-        self.memory.write_at(0, bytemuck::cast_slice(data), false)
+        let mut bytes: Vec<(u64, &[u8])> = Vec::with_capacity(parts.len());
+        for (first, data) in parts {
+            bytes.push(((first * Self::ELEMENT_BYTES) as u64, bytemuck::cast_slice(data)));
+        }
+        self.memory.write(&bytes)
+    }
+
+    /// Copies what `from` holds to the start of this one, as far as both reach.
+    ///
+    /// # Errors
+    /// [`VulkanError::Busy`], or those of a copy on the device.
+    pub(crate) fn copy_from(&self, from: &Self) -> Result<(), VulkanError> {
+        let bytes = self.byte_len().min(from.byte_len()) as u64;
+        let whole = (bytes > 0).then(|| region(0, 0, bytes));
+        self.memory.copy(&from.memory, whole.as_slice())
     }
 
     /// Whether it was made on `device`.
     pub fn is_on(&self, device: &Device) -> bool {
         self.memory.shared.id == device.shared.id
-    }
-
-    /// Sets every word to [`UNWRITTEN`] again.
-    ///
-    /// # Errors
-    /// As [`Buffer::write`].
-    pub fn mark_unwritten(&mut self) -> Result<(), VulkanError> {
-        self.memory.fill(UNWRITTEN)
     }
 
     /// A copy of all elements.

@@ -1,11 +1,9 @@
 //! Devices: list them, pick one, open it, close it.
 
-use super::counts::Counts;
 use super::error::{CallContext, VulkanError};
 use super::instance::Instance;
 use super::options::Options;
 use super::probe::{Candidate, Probe};
-use super::scatter;
 use super::shared::Shared;
 use ash::vk;
 use lightbvh_gpu::FloatEnvironment;
@@ -73,7 +71,7 @@ impl Device {
     /// # Errors
     /// [`VulkanError::FloatEnvironment`] if this thread's float mode is not the default,
     /// [`VulkanError::NoValidationLayer`], [`VulkanError::UnknownDevice`] if the device has gone since it was listed,
-    /// [`VulkanError::Validation`], [`VulkanError::Call`], or those of [`Device::kernel`].
+    /// [`VulkanError::Validation`] or [`VulkanError::Call`].
     pub fn open(info: &DeviceInfo, options: Options) -> Result<Self, VulkanError> {
         let instance = Instance::new(options.validation)?;
         let (candidates, _) = candidates(&instance)?;
@@ -93,10 +91,7 @@ impl Device {
         let raw = create(&instance, &candidate, options)?;
         let shared = Arc::new(Shared::new(instance, raw, candidate, options)?);
         shared.check_validation()?;
-        let device = Self { shared };
-        // Here, so that no frame compiles it.
-        device.kernel(scatter::KERNEL)?;
-        Ok(device)
+        Ok(Self { shared })
     }
 
     /// What the device said about itself.
@@ -107,11 +102,6 @@ impl Device {
     /// Device name as the driver gives it.
     pub fn name(&self) -> &str {
         &self.shared.probe.name
-    }
-
-    /// What it was asked to do since it was opened.
-    pub fn counts(&self) -> Counts {
-        self.shared.counters.now()
     }
 
     /// The device is lost in the call after `calls` more that may find it so: submissions, waits, looks at what has ended,

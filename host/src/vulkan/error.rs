@@ -6,6 +6,7 @@ use lightbvh_gpu::spirv::ModuleError;
 use std::time::Duration;
 
 /// A failure on the Vulkan side: each variant is one cause and says what, where, and what to do about it.
+#[allow(missing_docs, reason = "the messages name the fields")]
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum VulkanError {
@@ -13,37 +14,21 @@ pub enum VulkanError {
     #[error(
         "Vulkan cannot be used here: {reason}; install a driver (Debian: mesa-vulkan-drivers) or use the CPU"
     )]
-    Unavailable {
-        /// What was missing.
-        reason: String,
-    },
+    Unavailable { reason: String },
     /// There is no device at all to choose from.
     #[error(
         "no usable Vulkan device: {notes}; install a driver (Debian: mesa-vulkan-drivers) or use the CPU"
     )]
-    NoDevice {
-        /// Why there is none, device by device where some were passed over.
-        notes: String,
-    },
+    NoDevice { notes: String },
     /// The device asked for is not among those found.
     #[error("no Vulkan device matches `{wanted}`; there are: {available}; give an index or a part of a name")]
-    UnknownDevice {
-        /// What was asked for.
-        wanted: String,
-        /// `index: name` of each device found.
-        available: String,
-    },
+    UnknownDevice { wanted: String, available: String },
     /// The thread's floating-point mode is not the default one.
     #[error(
         "the thread that would open {device} calculates otherwise than a thread begins with ({found:?}): software devices \
          inherit its floating-point mode and would round or flush differently; restore it on this thread first"
     )]
-    FloatEnvironment {
-        /// Name of the device that was not opened.
-        device: String,
-        /// How the thread calculates.
-        found: FloatEnvironment,
-    },
+    FloatEnvironment { device: String, found: FloatEnvironment },
     /// Validation was requested on a machine without the layer.
     #[error(
         "VK_LAYER_KHRONOS_validation is not installed (Debian: vulkan-validationlayers); install it or run without"
@@ -52,59 +37,38 @@ pub enum VulkanError {
     /// The validation layer had something to say: the program misuses Vulkan.
     #[error("{count} validation message(s) on {device}, a bug in this program; the first: {}", first.join(" | "))]
     Validation {
-        /// Name of the device in use.
         device: String,
-        /// Messages so far.
         count: u64,
-        /// The first few of them.
         first: Vec<String>,
     },
     /// A Vulkan call returned an error.
     #[error("{call} failed on {device}: {result}")]
     Call {
-        /// The Vulkan function.
         call: &'static str,
-        /// Name of the device, or `the instance`.
         device: String,
-        /// What it returned.
         result: vk::Result,
     },
     /// The device was lost; nothing it holds can be used any more.
     #[error("{device} was lost in {call}; open it again, and look into the system log if it happens again")]
-    DeviceLost {
-        /// The Vulkan function that noticed.
-        call: &'static str,
-        /// Name of the device.
-        device: String,
-    },
+    DeviceLost { call: &'static str, device: String },
     /// Submitted work did not end in time.
     #[error("{device} did not finish within {after:?} ({work}); give it less work or a longer time limit")]
     Timeout {
-        /// Name of the device.
         device: String,
-        /// The limit that passed.
         after: Duration,
-        /// The kernels or the copy that was under way.
         work: String,
     },
     /// Earlier work that hit its time limit is still running.
     #[error("{device} is still busy with work that ran into its time limit; wait, or open another device")]
-    Busy {
-        /// Name of the device.
-        device: String,
-    },
+    Busy { device: String },
     /// The device memory manager refused.
     #[error(
         "no memory for {bytes} bytes on {device} ({reserved} bytes reserved): {reason}; use a smaller scene or fewer queries"
     )]
     OutOfMemory {
-        /// Name of the device.
         device: String,
-        /// Bytes asked for.
         bytes: u64,
-        /// Bytes this program has already reserved there.
         reserved: u64,
-        /// What the memory manager says.
         reason: String,
     },
     /// A buffer is over a limit of the device.
@@ -112,91 +76,40 @@ pub enum VulkanError {
         "a buffer of {bytes} bytes is over {limit_name} = {limit} bytes of {device}; split the work into smaller parts"
     )]
     BufferTooLarge {
-        /// Name of the device.
         device: String,
-        /// Bytes asked for.
         bytes: u64,
-        /// Vulkan's name of the limit.
         limit_name: &'static str,
-        /// Its value, bytes.
         limit: u64,
     },
-    /// A write does not have the length of the buffer it goes to.
-    #[error("{given} elements written to a buffer of {held}; the lengths must be equal")]
-    WrongLength {
-        /// Elements given.
-        given: usize,
-        /// Elements of the buffer.
-        held: usize,
-    },
-    /// A pass writes the same bytes twice.
-    #[error(
-        "a pass for {device} writes bytes {first} to {end} of a buffer twice; write each once, or in two passes"
-    )]
-    OverlappingWrites {
-        /// Name of the device.
-        device: String,
-        /// The first of them.
-        first: u64,
-        /// Where what was written first ends.
-        end: u64,
-    },
+    /// A write goes beyond the buffer's end.
+    #[error("elements up to {given} written to a buffer of {held}; write no more than it holds")]
+    WrongLength { given: usize, held: usize },
     /// No module of that name is built in.
     #[error("no kernel `{name}` in this program; there are: {known}")]
-    UnknownKernel {
-        /// The name asked for.
-        name: String,
-        /// The names there are.
-        known: String,
-    },
+    UnknownKernel { name: String, known: String },
     /// A SPIR-V module does not parse or asks for something this host does not serve.
     #[error("the SPIR-V module of kernel `{kernel}` is not usable: {source}; rebuild the kernels")]
-    BadModule {
-        /// The kernel's name.
-        kernel: String,
-        /// What is wrong, and at which word.
-        source: ModuleError,
-    },
+    BadModule { kernel: String, source: ModuleError },
     /// A kernel needs more than the device has.
     #[error("kernel `{kernel}` needs {what} {needed}, {device} has {limit}; choose another device")]
     KernelOverLimit {
-        /// The kernel's name.
         kernel: String,
-        /// Name of the device.
         device: String,
-        /// The quantity.
         what: &'static str,
-        /// What the kernel needs.
         needed: u32,
-        /// What the device has.
         limit: u32,
     },
     /// A dispatch does not fit the kernel's declared interface.
     #[error("dispatch of kernel `{kernel}`: {what}")]
-    BadDispatch {
-        /// The kernel's name.
-        kernel: String,
-        /// What does not fit: expected and given.
-        what: String,
-    },
+    BadDispatch { kernel: String, what: String },
     /// A kernel or buffer was used with a device that does not own it.
     #[error("{what} belongs to another device than {device}; each device has its own kernels and buffers")]
-    ForeignObject {
-        /// The object.
-        what: String,
-        /// Name of the device it was used with.
-        device: String,
-    },
+    ForeignObject { what: String, device: String },
     /// The device was closed while buffers or handles of it are still held.
     #[error(
         "{device} cannot be closed: {holders} buffer(s) or handle(s) of it are still held; drop them first"
     )]
-    StillHeld {
-        /// Name of the device.
-        device: String,
-        /// How many.
-        holders: usize,
-    },
+    StillHeld { device: String, holders: usize },
 }
 
 /// Turns Vulkan result codes into errors that name the call and the device.

@@ -1,9 +1,7 @@
 //! Device memory behind a buffer, and the copies in and out of it.
 
-use super::counts::count;
 use super::error::{CallContext, VulkanError};
 use super::queue::Retired;
-use super::ring::PART;
 use super::shared::Shared;
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -20,13 +18,8 @@ pub(crate) struct Memory {
     location: MemoryLocation,
 }
 
-/// A region that the device copies, bytes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Region {
-    pub from: u64,
-    pub to: u64,
-    pub bytes: u64,
-}
+/// Bytes of a staging buffer at most.
+const PART: u64 = 16 << 20;
 
 impl Memory {
     /// `bytes` of storage; more than 0, a multiple of 4.
@@ -62,44 +55,49 @@ impl Memory {
         })
     }
 
-    /// Copies `data` to `at` bytes from the start of the buffer; not more than it holds from there. In memory that the host
-    /// reaches it waits for what is under way, unless the buffer `is_new`: then nothing uses it.
-    pub(crate) fn write_at(&self, at: usize, data: &[u8], is_new: bool) -> Result<(), VulkanError> {
-        let shared = &self.shared;
-        if data.is_empty() {
-            return Ok(());
-        }
+    /// Copies each part's bytes to its place in the buffer, which holds them. Bytes that the host does not reach go through a
+    /// staging buffer, many parts by one copy.
+    pub(crate) fn write(&self, parts: &[(u64, &[u8])]) -> Result<(), VulkanError> {
         if let Some(mapped) = self.mapped() {
-            let queue = (!is_new).then(|| shared.idle_queue()).transpose()?;
-            count(&shared.counters.bytes, data.len() as u64);
-            assert!(
-                at as u64 + data.len() as u64 <= self.bytes,
-                "checked by the callers"
-            );
-            // SAFETY: the memory is mapped for `bytes`, which hold the data (as above). No one else reaches it meanwhile: the
-            // device runs nothing that uses it, and the host reads and writes buffers that are not new with the queue held.
-            unsafe {
-                mapped
-                    .add(at)
-                    .copy_from_nonoverlapping(NonNull::from(data).cast(), data.len())
-            };
+            let queue = self.shared.idle_queue()?;
+            for (at, data) in parts {
+                assert!(at + data.len() as u64 <= self.bytes, "checked by the callers");
+                // SAFETY: the memory is mapped for `bytes`, which hold the data (as above). Nothing else reaches it meanwhile: the
+                // device runs nothing, and the host reads and writes with the queue held.
+                unsafe {
+                    mapped
+                        .add(*at as usize)
+                        .copy_from_nonoverlapping(NonNull::from(*data).cast(), data.len());
+                };
+            }
             drop(queue);
             return Ok(());
         }
-        for (part, data) in (0..).zip(data.chunks(PART as usize)) {
-            let to = at as u64 + part * PART;
-            let bytes = data.len() as u64;
-            let stage = |place: &mut [u8]| place.copy_from_slice(data);
-            shared.submit(copying(bytes), bytes, stage, |device, commands, ring, from| {
-                let region = Region { from, to, bytes };
-                copy(device, commands, ring, self.buffer, &[region]);
-            })?;
-            count(&shared.counters.regions, 1);
+        let all: u64 = parts.iter().map(|(_, data)| data.len() as u64).sum();
+        if all == 0 {
+            return Ok(());
         }
-        Ok(())
+        let staging = Self::new(&self.shared, all.min(PART), MemoryLocation::GpuToCpu)?;
+        let (mut regions, mut used) = (Vec::new(), 0);
+        for &(mut at, mut data) in parts {
+            while !data.is_empty() {
+                let room = (staging.bytes - used) as usize;
+                let (now, later) = data.split_at(data.len().min(room));
+                staging.write(&[(used, now)])?;
+                let bytes = now.len() as u64;
+                regions.push(region(used, at, bytes));
+                (used, at, data) = (used + bytes, at + bytes, later);
+                if used == staging.bytes {
+                    self.copy(&staging, &regions)?;
+                    regions.clear();
+                    used = 0;
+                }
+            }
+        }
+        self.copy(&staging, &regions)
     }
 
-    /// Copies from the start of the buffer; not more than it holds. Waits for what is under way.
+    /// Copies from the start of the buffer; not more than it holds.
     pub(crate) fn read(&self, data: &mut [u8]) -> Result<(), VulkanError> {
         if data.is_empty() {
             return Ok(());
@@ -107,8 +105,7 @@ impl Memory {
         if let Some(mapped) = self.mapped() {
             let queue = self.shared.idle_queue()?;
             assert!(data.len() as u64 <= self.bytes, "checked by the callers");
-            // SAFETY: the memory is mapped for `bytes`, which are no fewer (as above). Nothing writes it meanwhile, as in
-            // `write_at`.
+            // SAFETY: the memory is mapped for `bytes`, which are no fewer (as above). Nothing writes it meanwhile, as in `write`.
             unsafe { mapped.copy_to_nonoverlapping(NonNull::from(&mut *data).cast(), data.len()) };
             drop(queue);
             return Ok(());
@@ -116,50 +113,48 @@ impl Memory {
         let part = PART.min(data.len() as u64);
         let staging = Self::new(&self.shared, part, MemoryLocation::GpuToCpu)?;
         for (index, data) in (0..).zip(data.chunks_mut(part as usize)) {
-            let bytes = data.len() as u64;
-            let region = Region {
-                from: index * part,
-                to: 0,
-                bytes,
-            };
-            self.shared.submit(
-                copying(bytes),
-                0,
-                |_| {},
-                |device, commands, _, _| {
-                    copy(device, commands, self.buffer, staging.buffer, &[region]);
-                },
-            )?;
-            count(&self.shared.counters.regions, 1);
+            staging.copy(self, &[region(index * part, 0, data.len() as u64)])?;
             staging.read(data)?;
         }
         Ok(())
     }
 
-    /// Sets every word of a new buffer, that nothing uses.
-    pub(crate) fn fill_new(&self, word: u32) -> Result<(), VulkanError> {
-        match self.mapped() {
-            Some(mapped) => {
-                let words = mapped.cast::<u32>();
-                for at in 0..self.bytes as usize / 4 {
-                    // SAFETY: the memory is mapped for `bytes` and aligned to more than a word; nothing else reaches a new buffer.
-                    unsafe { words.add(at).write(word) };
-                }
-                Ok(())
-            }
-            None => self.fill(word),
+    /// Copies regions of another buffer, which both hold, on the device; those here do not overlap.
+    pub(crate) fn copy(&self, from: &Self, regions: &[vk::BufferCopy]) -> Result<(), VulkanError> {
+        if regions.is_empty() {
+            return Ok(());
         }
+        let bytes: u64 = regions.iter().map(|region| region.size).sum();
+        let (source, target) = (from.buffer, self.buffer);
+        let copied = self
+            .shared
+            .run(format!("copying {bytes} bytes"), |device, commands| {
+                // SAFETY: the command buffer is recording; both buffers belong to this device, were made for transfers, hold the
+                // regions (the callers see to it), and live until the submission has ended (`retire`).
+                unsafe { device.cmd_copy_buffer(commands, source, target, regions) };
+            });
+        copied.map(drop)
     }
 
-    /// Sets every word of the buffer, on the device.
+    /// Sets every word of the buffer.
     pub(crate) fn fill(&self, word: u32) -> Result<(), VulkanError> {
+        if let Some(mapped) = self.mapped() {
+            let queue = self.shared.idle_queue()?;
+            let words = mapped.cast::<u32>();
+            for at in 0..self.bytes as usize / 4 {
+                // SAFETY: the memory is mapped for `bytes` and aligned to more than a word; nothing else reaches it meanwhile, as
+                // in `write`.
+                unsafe { words.add(at).write(word) };
+            }
+            drop(queue);
+            return Ok(());
+        }
         let work = format!("filling a buffer of {} bytes", self.bytes);
-        let filled = self.shared.submit(
-            work,
-            0,
-            |_| {},
-            |device, commands, _, _| fill(device, commands, self, word),
-        );
+        let filled = self.shared.run(work, |device, commands| {
+            // SAFETY: the command buffer is recording; the buffer belongs to this device, was made for transfers, is `bytes` long,
+            // a multiple of 4, and lives until the submission has ended (`retire`).
+            unsafe { device.cmd_fill_buffer(commands, self.buffer, 0, self.bytes, word) };
+        });
         filled.map(drop)
     }
 
@@ -177,43 +172,17 @@ impl Drop for Memory {
     }
 }
 
-fn copying(bytes: u64) -> String {
-    format!("copying {bytes} bytes")
-}
-
-/// Records one copy of many regions between two buffers that hold them; regions of the target do not overlap.
-pub(super) fn copy(
-    device: &ash::Device,
-    commands: vk::CommandBuffer,
-    source: vk::Buffer,
-    target: vk::Buffer,
-    regions: &[Region],
-) {
-    let regions: Vec<vk::BufferCopy> = regions
-        .iter()
-        .map(|region| vk::BufferCopy {
-            src_offset: region.from,
-            dst_offset: region.to,
-            size: region.bytes,
-        })
-        .collect();
-    if regions.is_empty() {
-        return;
+/// Bytes of one buffer that are copied to another.
+pub(super) fn region(from: u64, to: u64, bytes: u64) -> vk::BufferCopy {
+    vk::BufferCopy {
+        src_offset: from,
+        dst_offset: to,
+        size: bytes,
     }
-    // SAFETY: the command buffer is recording; both buffers belong to this device, were made for transfers, hold the regions
-    // (the callers see to it), and live until the submission has ended (`retire`).
-    unsafe { device.cmd_copy_buffer(commands, source, target, &regions) };
-}
-
-/// Records that every word of a buffer is set.
-pub(super) fn fill(device: &ash::Device, commands: vk::CommandBuffer, memory: &Memory, word: u32) {
-    // SAFETY: the command buffer is recording; the buffer belongs to this device, was made for transfers, is `bytes` long, a
-    // multiple of 4, and lives until the submission has ended (`retire`).
-    unsafe { device.cmd_fill_buffer(commands, memory.buffer, 0, memory.bytes, word) };
 }
 
 /// A buffer of `bytes`, more than none, with memory of its own.
-pub(super) fn create(
+fn create(
     shared: &Shared,
     bytes: u64,
     usage: vk::BufferUsageFlags,
@@ -223,7 +192,6 @@ pub(super) fn create(
     let info = vk::BufferCreateInfo::default().size(bytes).usage(usage);
     // SAFETY: the device is alive; the size is not zero.
     let buffer = unsafe { device.create_buffer(&info, None) }.during("vkCreateBuffer", name)?;
-    count(&shared.counters.buffers, 1);
     // SAFETY: the buffer belongs to this device.
     let requirements = unsafe { device.get_buffer_memory_requirements(buffer) };
     let mut allocator = shared.allocator();

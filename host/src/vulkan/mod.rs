@@ -23,8 +23,6 @@
 #![warn(clippy::undocumented_unsafe_blocks)]
 
 mod buffer;
-mod cache;
-mod counts;
 mod device;
 mod error;
 mod fault;
@@ -36,18 +34,12 @@ mod pass;
 mod pipeline;
 mod probe;
 mod queue;
-mod ring;
 mod run;
-mod scatter;
 mod self_test;
 mod shared;
-mod submit;
-mod upload;
 mod validation;
 
 pub use buffer::{Binding, Buffer, UNWRITTEN};
-pub use cache::cache_directory;
-pub use counts::Counts;
 pub use device::{Device, DeviceInfo, DeviceList};
 pub use error::VulkanError;
 pub use kernel::Kernel;
@@ -55,5 +47,5 @@ pub use lightbvh_gpu::spirv::{Interface, ModuleError};
 pub use options::Options;
 pub use pass::Pass;
 pub use probe::{Driver, Features, FloatControls, Limits, Probe};
-pub use run::{Submission, Timings};
+pub use run::Timings;
 pub use self_test::{Exactness, Finding};

@@ -1,6 +1,5 @@
 //! How a device is opened.
 
-use std::path::Path;
 use std::time::Duration;
 
 /// How to open a device.
@@ -10,20 +9,17 @@ pub struct Options {
     pub validation: bool,
     /// Copy through staging buffers even where host and device share memory; for tests of that path.
     pub force_staging: bool,
-    /// A directory to keep compiled pipelines in; [`cache_directory`](super::cache_directory) is the program's.
-    pub pipeline_cache: Option<&'static Path>,
     /// How long submitted work may take.
     pub time_limit: Duration,
 }
 
 impl Default for Options {
-    /// No validation, staging only where needed, no pipelines on disk, ten minutes: far beyond any sensible pass, even on two
+    /// No validation, staging only where needed, ten minutes: far beyond any sensible pass, even on two
     /// slow cores.
     fn default() -> Self {
         Self {
             validation: false,
             force_staging: false,
-            pipeline_cache: None,
             time_limit: Duration::from_secs(600),
         }
     }

@@ -176,7 +176,7 @@ impl Kernel {
             .layout(self.layout)
             .stage(stage)];
         // SAFETY: as above; the layout covers every binding and push constant that the module declares.
-        let created = unsafe { device.create_compute_pipelines(shared.cache.raw, &info, None) };
+        let created = unsafe { device.create_compute_pipelines(vk::PipelineCache::null(), &info, None) };
         // SAFETY: pipelines do not need their module once they are made; nothing else uses it.
         unsafe { device.destroy_shader_module(module, None) };
         match created {

@@ -1,6 +1,5 @@
 //! What a device says about itself: driver, float controls, limits.
 
-use super::cache::Identity;
 use super::instance::Instance;
 use ash::vk;
 use serde::Serialize;
@@ -109,7 +108,6 @@ pub struct Limits {
 pub(crate) struct Candidate {
     pub(crate) physical: vk::PhysicalDevice,
     pub(crate) queue_family: u32,
-    pub(crate) identity: Identity,
     pub(crate) probe: Probe,
 }
 
@@ -198,11 +196,6 @@ impl Candidate {
         Ok(Self {
             physical,
             queue_family,
-            identity: Identity {
-                vendor: basic.vendor_id,
-                device: basic.device_id,
-                uuid: basic.pipeline_cache_uuid,
-            },
             probe,
         })
     }

@@ -1,95 +1,62 @@
-//! The queue of a device: what is under way on it, and what waits for it.
+//! The queue of a device, which does one thing at a time: commands are recorded, submitted and waited for.
 
 use super::error::{CallContext, VulkanError};
-use super::ring::Ring;
+use super::shared::Shared;
 use ash::vk;
 use gpu_allocator::vulkan::Allocation;
-use std::collections::VecDeque;
-
-/// Submissions under way at most: one more waits until the first of them has ended.
-pub(super) const IN_FLIGHT: usize = 3;
+use std::sync::MutexGuard;
+use std::time::Duration;
 
 /// An object whose owner has gone.
 pub(crate) enum Retired {
     Buffer(vk::Buffer, Option<Allocation>),
     Sets(vk::DescriptorPool),
-    Queries(vk::QueryPool),
 }
 
-/// What a submission is recorded into.
+/// The compute queue, and what its submissions are recorded into.
 #[derive(Default)]
-pub(super) struct Slot {
-    pub pool: vk::CommandPool,
-    pub commands: vk::CommandBuffer,
-    pub fence: vk::Fence,
-    /// Number of the submission that used it last; 0 for none.
-    pub number: u64,
-    /// What that one does, for the error of a time limit.
-    pub work: String,
-}
-
-/// The compute queue. Submissions are numbered from 1 and end in order.
 pub(crate) struct Queue {
-    pub(super) raw: vk::Queue,
-    pub(super) slots: Vec<Slot>,
-    /// The submission made last.
-    pub(super) last: u64,
-    /// It and all before it have ended.
-    pub(super) ended: u64,
-    /// A wait ran into its time limit, and not everything has ended since.
-    pub(super) unfinished: bool,
-    /// What nobody holds any more, and the last submission that may use it.
-    pub(super) retired: VecDeque<(u64, Retired)>,
-    /// Through which the host's bytes go.
-    pub(super) ring: Ring,
+    raw: vk::Queue,
+    pool: vk::CommandPool,
+    commands: vk::CommandBuffer,
+    fence: vk::Fence,
+    /// Two timestamps; null where the device keeps no time.
+    queries: vk::QueryPool,
+    /// A wait ran into its time limit, and the work has not ended since.
+    unfinished: bool,
+    /// What nobody holds any more and unfinished work may use.
+    pub(super) retired: Vec<Retired>,
 }
 
 impl Queue {
-    pub(crate) fn new(device: &ash::Device, family: u32, name: &str) -> Result<Self, VulkanError> {
-        // SAFETY: the device was created with one queue of this family.
-        let raw = unsafe { device.get_device_queue(family, 0) };
-        let mut queue = Self {
-            raw,
-            slots: Vec::new(),
-            last: 0,
-            ended: 0,
-            unfinished: false,
-            retired: VecDeque::new(),
-            ring: Ring::default(),
-        };
-        for _ in 0..IN_FLIGHT {
-            queue.slots.push(Slot::default());
-            let filled = queue.slots.last_mut().map(|slot| slot.fill(device, family, name));
-            if let Some(Err(error)) = filled {
+    /// The queue of a device that was created with one of this family.
+    pub(crate) fn new(
+        device: &ash::Device,
+        family: u32,
+        has_clock: bool,
+        name: &str,
+    ) -> Result<Self, VulkanError> {
+        let mut queue = Self::default();
+        match queue.fill(device, family, has_clock, name) {
+            Ok(()) => Ok(queue),
+            Err(error) => {
                 queue.destroy(device);
-                return Err(error);
-            }
-        }
-        Ok(queue)
-    }
-
-    /// Destroys the queue's objects but for its ring; null ones are skipped by Vulkan.
-    pub(crate) fn destroy(&self, device: &ash::Device) {
-        for slot in &self.slots {
-            // SAFETY: both belong to this device, nothing submitted is running (the callers see to it), and the queue is
-            // not used afterwards. The command buffer goes with its pool.
-            unsafe {
-                device.destroy_fence(slot.fence, None);
-                device.destroy_command_pool(slot.pool, None);
+                Err(error)
             }
         }
     }
 
-    /// The slot that submission `number` is recorded into.
-    pub(super) fn slot(&mut self, number: u64) -> &mut Slot {
-        &mut self.slots[number as usize % IN_FLIGHT]
-    }
-}
-
-impl Slot {
-    fn fill(&mut self, device: &ash::Device, family: u32, name: &str) -> Result<(), VulkanError> {
+    fn fill(
+        &mut self,
+        device: &ash::Device,
+        family: u32,
+        has_clock: bool,
+        name: &str,
+    ) -> Result<(), VulkanError> {
+        // SAFETY: the device was created with one queue of this family.
+        self.raw = unsafe { device.get_device_queue(family, 0) };
         let info = vk::CommandPoolCreateInfo::default().queue_family_index(family);
-        // SAFETY: the device is alive.
+        // SAFETY: the device is alive; the same holds for the creations below.
         self.pool = unsafe { device.create_command_pool(&info, None) }.during("vkCreateCommandPool", name)?;
         let info = vk::CommandBufferAllocateInfo::default()
             .command_pool(self.pool)
@@ -99,9 +66,221 @@ impl Slot {
         let commands =
             unsafe { device.allocate_command_buffers(&info) }.during("vkAllocateCommandBuffers", name)?;
         self.commands = commands[0];
-        // SAFETY: the device is alive.
+        // SAFETY: as above.
         self.fence = unsafe { device.create_fence(&vk::FenceCreateInfo::default(), None) }
             .during("vkCreateFence", name)?;
+        if has_clock {
+            let info = vk::QueryPoolCreateInfo::default()
+                .query_type(vk::QueryType::TIMESTAMP)
+                .query_count(2);
+            // SAFETY: as above.
+            self.queries =
+                unsafe { device.create_query_pool(&info, None) }.during("vkCreateQueryPool", name)?;
+        }
         Ok(())
+    }
+
+    /// Destroys the queue's objects; null ones are skipped by Vulkan.
+    pub(crate) fn destroy(&self, device: &ash::Device) {
+        // SAFETY: all belong to this device, nothing submitted is running (the callers see to it), and the queue is not used
+        // afterwards. The command buffer goes with its pool.
+        unsafe {
+            device.destroy_query_pool(self.queries, None);
+            device.destroy_fence(self.fence, None);
+            device.destroy_command_pool(self.pool, None);
+        }
+    }
+}
+
+impl Shared {
+    /// Records commands, submits them and waits for their end; returns their time on the device's clock, if it keeps one. They
+    /// see what the host and earlier commands wrote, and the host sees what they wrote. `work` names what is done, for the error of a time limit.
+    pub(super) fn run(
+        &self,
+        work: String,
+        record: impl FnOnce(&ash::Device, vk::CommandBuffer),
+    ) -> Result<Option<Duration>, VulkanError> {
+        let mut queue = self.idle_queue()?;
+        let (device, name) = (&self.raw, self.probe.name.as_str());
+        self.record(&queue, record)?;
+        let commands = [queue.commands];
+        let submits = [vk::SubmitInfo::default().command_buffers(&commands)];
+        self.faults
+            .before(device)
+            // SAFETY: all belong to this device and are used under the queue's lock; the command buffer is recorded to its end and
+            // the fence unsignalled.
+            .and_then(|()| unsafe { device.queue_submit(queue.raw, &submits, queue.fence) })
+            .during("vkQueueSubmit", name)?;
+        let limit = self.options.time_limit;
+        let nanoseconds = u64::try_from(limit.as_nanos()).unwrap_or(u64::MAX);
+        let waited = self
+            .faults
+            .before(device)
+            // SAFETY: the fence belongs to this device and was submitted above.
+            .and_then(|()| unsafe { device.wait_for_fences(&[queue.fence], true, nanoseconds) });
+        // A lost device runs nothing any more; other errors of the wait say nothing about the work.
+        queue.unfinished = !matches!(waited, Ok(()) | Err(vk::Result::ERROR_DEVICE_LOST));
+        if waited == Err(vk::Result::TIMEOUT) {
+            return Err(VulkanError::Timeout {
+                device: name.into(),
+                after: limit,
+                work,
+            });
+        }
+        waited.during("vkWaitForFences", name)?;
+        let time = self.time(&queue)?;
+        drop(queue);
+        self.check_validation()?;
+        Ok(time)
+    }
+
+    fn record(
+        &self,
+        queue: &Queue,
+        record: impl FnOnce(&ash::Device, vk::CommandBuffer),
+    ) -> Result<(), VulkanError> {
+        let (device, name, commands) = (&self.raw, self.probe.name.as_str(), queue.commands);
+        let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        let after = [vk::MemoryBarrier::default()
+            .src_access_mask(vk::AccessFlags::SHADER_WRITE | vk::AccessFlags::TRANSFER_WRITE)
+            .dst_access_mask(vk::AccessFlags::HOST_READ | vk::AccessFlags::HOST_WRITE)];
+        let compute = vk::PipelineStageFlags::COMPUTE_SHADER;
+        let stages = compute | vk::PipelineStageFlags::TRANSFER;
+        let host = vk::PipelineStageFlags::HOST;
+        let stamp = |index| {
+            if queue.queries != vk::QueryPool::null() {
+                // SAFETY: the command buffer is recording, the query is reset before the first stamp and unused, and the queue
+                // family has timestamps.
+                unsafe { device.cmd_write_timestamp(commands, compute, queue.queries, index) };
+            }
+        };
+        // SAFETY: pool, command buffer, queries and fence belong to this device, are used under the queue's lock only, and what was
+        // submitted last has ended (`idle_queue`), so resetting them is allowed. `record` is given a command buffer in the
+        // recording state; what its callers record is kept alive until the submission has ended, for all that it may use is
+        // destroyed through `retire`.
+        unsafe {
+            device
+                .reset_command_pool(queue.pool, vk::CommandPoolResetFlags::empty())
+                .during("vkResetCommandPool", name)?;
+            device
+                .begin_command_buffer(commands, &begin)
+                .during("vkBeginCommandBuffer", name)?;
+            if queue.queries != vk::QueryPool::null() {
+                device.cmd_reset_query_pool(commands, queue.queries, 0, 2);
+            }
+            barrier(device, commands);
+            stamp(0);
+            record(device, commands);
+            stamp(1);
+            let none = vk::DependencyFlags::empty();
+            device.cmd_pipeline_barrier(commands, stages, host, none, &after, &[], &[]);
+            device
+                .end_command_buffer(commands)
+                .during("vkEndCommandBuffer", name)?;
+            device.reset_fences(&[queue.fence]).during("vkResetFences", name)
+        }
+    }
+
+    /// From the first timestamp of what has ended to the second.
+    fn time(&self, queue: &Queue) -> Result<Option<Duration>, VulkanError> {
+        if queue.queries == vk::QueryPool::null() {
+            return Ok(None);
+        }
+        let mut ticks = [0_u64; 2];
+        let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
+        self.faults
+            .before(&self.raw)
+            // SAFETY: the pool belongs to this device and both queries were written by the submission that has ended.
+            .and_then(|()| unsafe {
+                self.raw
+                    .get_query_pool_results(queue.queries, 0, &mut ticks, flags)
+            })
+            .during("vkGetQueryPoolResults", &self.probe.name)?;
+        let limits = &self.probe.limits;
+        let elapsed = elapsed(ticks[0], ticks[1], limits.timestamp_valid_bits);
+        let nanoseconds = elapsed as f64 * f64::from(limits.timestamp_period);
+        Ok(Some(Duration::from_nanos(nanoseconds as u64)))
+    }
+
+    /// The queue while nothing runs: then the host may touch mapped memory.
+    pub(super) fn idle_queue(&self) -> Result<MutexGuard<'_, Queue>, VulkanError> {
+        let mut queue = self.queue();
+        self.settle(&mut queue)?;
+        Ok(queue)
+    }
+
+    /// [`VulkanError::Busy`] while work runs on that a wait has given up.
+    fn settle(&self, queue: &mut Queue) -> Result<(), VulkanError> {
+        if !queue.unfinished {
+            return Ok(());
+        }
+        // SAFETY: the fence belongs to this device and was submitted with the work.
+        let status =
+            (self.faults.before(&self.raw)).and_then(|()| unsafe { self.raw.get_fence_status(queue.fence) });
+        queue.unfinished = matches!(status, Ok(false));
+        if queue.unfinished {
+            return Err(VulkanError::Busy {
+                device: self.probe.name.clone(),
+            });
+        }
+        for object in std::mem::take(&mut queue.retired) {
+            self.destroy_retired(object);
+        }
+        Ok(())
+    }
+
+    /// Destroys an object once nothing can use it any more.
+    pub(crate) fn retire(&self, object: Retired) {
+        let mut queue = self.queue();
+        match self.settle(&mut queue) {
+            Ok(()) => self.destroy_retired(object),
+            Err(_) => queue.retired.push(object),
+        }
+    }
+}
+
+/// What was written so far is there for what follows, and what was read may be written.
+pub(super) fn barrier(device: &ash::Device, commands: vk::CommandBuffer) {
+    let stages = vk::PipelineStageFlags::COMPUTE_SHADER | vk::PipelineStageFlags::TRANSFER;
+    let memory = [vk::MemoryBarrier::default()
+        .src_access_mask(vk::AccessFlags::SHADER_WRITE | vk::AccessFlags::TRANSFER_WRITE)
+        .dst_access_mask(
+            vk::AccessFlags::SHADER_READ
+                | vk::AccessFlags::SHADER_WRITE
+                | vk::AccessFlags::TRANSFER_READ
+                | vk::AccessFlags::TRANSFER_WRITE,
+        )];
+    // SAFETY: the command buffer is recording, outside any render pass.
+    unsafe {
+        device.cmd_pipeline_barrier(
+            commands,
+            stages,
+            stages,
+            vk::DependencyFlags::empty(),
+            &memory,
+            &[],
+            &[],
+        );
+    }
+}
+
+/// Ticks between two readings of a counter that wraps after `bits` bits.
+fn elapsed(from: u64, to: u64, bits: u32) -> u64 {
+    let mask = u64::MAX >> 64u32.saturating_sub(bits).min(63);
+    to.wrapping_sub(from) & mask
+}
+
+#[cfg(test)]
+mod tests {
+    use super::elapsed;
+
+    #[test]
+    fn counters_wrap() {
+        assert_eq!(elapsed(5, 12, 64), 7);
+        assert_eq!(elapsed(u64::MAX, 1, 64), 2);
+        assert_eq!(elapsed((1 << 36) - 1, 2, 36), 3);
+        // Bits above the valid ones are undefined.
+        assert_eq!(elapsed(0xabc << 36 | 1, 0xdef << 36 | 4, 36), 3);
+        assert_eq!(elapsed(0, 1, 1), 1);
     }
 }

@@ -1,7 +1,5 @@
 //! What a device, its buffers and its kernels hold in common, destroyed when the last of them goes.
 
-use super::cache::Cache;
-use super::counts::Counters;
 use super::error::VulkanError;
 use super::fault::Faults;
 use super::instance::Instance;
@@ -26,8 +24,6 @@ pub(crate) struct Shared {
     pub(crate) probe: Probe,
     pub(crate) options: Options,
     pub(crate) raw: ash::Device,
-    pub(super) cache: Cache,
-    pub(super) counters: Counters,
     pub(super) faults: Faults,
     queue: Mutex<Queue>,
     kernels: Mutex<Kernels>,
@@ -47,10 +43,10 @@ impl Shared {
         let Candidate {
             physical,
             queue_family,
-            identity,
             probe,
         } = candidate;
-        let parts = Queue::new(&raw, queue_family, &probe.name).and_then(|queue| {
+        let has_clock = probe.limits.timestamp_valid_bits > 0;
+        let parts = Queue::new(&raw, queue_family, has_clock, &probe.name).and_then(|queue| {
             let allocator = Allocator::new(&AllocatorCreateDesc {
                 instance: instance.raw.clone(),
                 device: raw.clone(),
@@ -76,9 +72,7 @@ impl Shared {
                 id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
                 probe,
                 options,
-                counters: Counters::default(),
                 faults: Faults::default(),
-                cache: Cache::open(&raw, &identity, options.pipeline_cache),
                 raw,
                 queue: Mutex::new(queue),
                 kernels: Mutex::new(Kernels::default()),
@@ -113,25 +107,16 @@ impl Shared {
 
     /// Whether work that ran into its time limit is still running: nothing it may use can be destroyed then.
     pub(crate) fn is_busy(&self) -> bool {
-        self.settle(&mut self.queue()).is_err()
-    }
-
-    /// Destroys an object once no submission made so far can use it any more.
-    pub(crate) fn retire(&self, object: Retired) {
-        let mut queue = self.queue();
-        let last = queue.last;
-        queue.retired.push_back((last, object));
-        self.poll(&mut queue);
+        self.idle_queue().is_err()
     }
 
     /// Nothing that uses it may be running.
     pub(super) fn destroy_retired(&self, object: Retired) {
         // SAFETY: the object belongs to this device or is null, its owner gave it up, and nothing that uses
-        // it is running: the submissions that may have ended before this is called (`tidy`).
+        // it is running (`retire`).
         unsafe {
             match object {
                 Retired::Sets(pool) => self.raw.destroy_descriptor_pool(pool, None),
-                Retired::Queries(pool) => self.raw.destroy_query_pool(pool, None),
                 Retired::Buffer(buffer, allocation) => {
                     self.raw.destroy_buffer(buffer, None);
                     // An error would be an inconsistency of the allocator itself; there is nothing to undo.
@@ -156,27 +141,15 @@ impl Shared {
 
 impl Drop for Shared {
     fn drop(&mut self) {
-        if self.idle_queue().is_err() && self.is_busy() {
+        if self.is_busy() {
             // The device may still write to its memory. Leaking all of it is the only safe end.
             return;
         }
         // SAFETY: the device is alive, and no other thread can use it: this is its last owner. A lost device is an
         // error here, and is safe to destroy all the same.
         let _ = unsafe { self.raw.device_wait_idle() };
-        self.cache.save(&self.raw);
-        self.cache.destroy(&self.raw);
         self.kernels().destroy(&self.raw);
-        let (ring, rest) = {
-            let mut queue = self.queue();
-            queue.destroy(&self.raw);
-            (
-                std::mem::take(&mut queue.ring),
-                std::mem::take(&mut queue.retired),
-            )
-        };
-        self.destroy_retired(Retired::Buffer(ring.buffer, ring.allocation));
-        rest.into_iter()
-            .for_each(|(_, object)| self.destroy_retired(object));
+        self.queue().destroy(&self.raw);
         // SAFETY: taken once, here; every buffer held this structure, so all of them are gone.
         drop(unsafe { ManuallyDrop::take(&mut *self.allocator()) });
         // SAFETY: all objects made from the device are destroyed: buffers (as above), kernels, queue objects, memory.

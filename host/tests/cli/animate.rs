@@ -75,7 +75,6 @@ fn animations_of_moving_lights_give_the_same_files_on_both_processors() {
     }
 }
 
-/// Frames whose light no exposure shows fixed that of the whole sequence, at its greatest.
 #[test]
 fn a_sequence_is_exposed_as_its_first_frame_that_shows_something() {
     let folder = Folder::new("exposed");
@@ -104,7 +103,6 @@ fn a_sequence_is_exposed_as_its_first_frame_that_shows_something() {
     assert_eq!(exposure(3), exposure(2));
 }
 
-/// It ended well and wrote nothing.
 #[test]
 fn the_last_frame_of_all_is_rendered() {
     let folder = Folder::new("last");

@@ -2,13 +2,14 @@
 
 use serde_json::{Value, json};
 
+use crate::model::{self, Clip, Keys, LAMP};
 use crate::program::{Folder, json as report, refused, run};
 
 /// A floor of two triangles, and lamps of two triangles each above it.
 struct Room {
-    lamps: u32,
-    /// How many of them shine from one side; they are a primitive, so a mesh light, of their own.
-    one_sided: u32,
+    lamps: usize,
+    /// Whether the last of them shines from one side; it is a primitive, so a mesh light, of its own.
+    has_one_sided: bool,
     /// Column-major, of the lamps' node.
     matrix: Option<[f32; 16]>,
     /// Whether the lamps' node moves.
@@ -20,7 +21,7 @@ impl Default for Room {
     fn default() -> Self {
         Self {
             lamps: 12,
-            one_sided: 0,
+            has_one_sided: false,
             matrix: None,
             moves: false,
             emits: 1.0,
@@ -29,101 +30,49 @@ impl Default for Room {
 }
 
 impl Room {
-    /// Writes the room as glTF beside its buffer and returns its path.
+    /// Writes the room as glTF and returns its path.
     fn write(&self, folder: &Folder, name: &str) -> String {
-        let mut floats = quad([-4.0, 0.0, 4.0], [8.0, -8.0]);
-        for lamp in 0..self.lamps {
-            let [x, z] = [lamp % 4, lamp / 4].map(|k| 2.0 * k as f32 - 3.0);
-            floats.extend(quad([x, 3.0, z], [0.5, 0.5]));
-        }
-        // The times and places of a node that moves.
-        let keys = floats.len();
-        floats.extend([0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.5, 0.0]);
-        let bytes: Vec<u8> = floats.iter().flat_map(|x| x.to_le_bytes()).collect();
-        let buffer = format!("{name}.bin");
-        std::fs::write(folder.file(&buffer), &bytes).expect("a buffer");
-        let path = folder.file(&format!("{name}.gltf"));
-        let text = self.json(&buffer, bytes.len(), keys).to_string();
-        std::fs::write(&path, text).expect("a scene");
-        path
+        let clips = match self.moves {
+            true => vec![moving("")],
+            false => Vec::new(),
+        };
+        self.write_with(folder, name, &clips)
     }
 
-    fn json(&self, buffer: &str, bytes: usize, keys: usize) -> Value {
-        let quads = |first: u32, count: u32| {
-            json!({
-                "bufferView": 0, "byteOffset": 72 * first, "componentType": 5126, "count": 6 * count, "type": "VEC3",
-                "min": [-10.0, -10.0, -10.0], "max": [10.0, 10.0, 10.0]
-            })
-        };
-        let emissive = [self.emits; 3];
-        let both = self.lamps - self.one_sided;
-        let mut accessors = vec![quads(0, 1)];
-        let mut primitives = Vec::new();
-        for (first, count, material) in [(1, both, 1), (1 + both, self.one_sided, 2)] {
-            if count > 0 {
-                primitives
-                    .push(json!({ "attributes": { "POSITION": accessors.len() }, "material": material }));
-                accessors.push(quads(first, count));
+    fn write_with(&self, folder: &Folder, name: &str, clips: &[Clip]) -> String {
+        model::write_lamps(folder, name, self.lamps, clips, |root| {
+            root["scenes"][0]["nodes"] = json!([0, 1]);
+            root["nodes"][0]["translation"] = json!([0, -3, 0]);
+            root["nodes"][1] = json!({ "mesh": 1, "name": "lamps" });
+            if let Some(matrix) = self.matrix {
+                root["nodes"][1]["matrix"] = json!(matrix);
             }
-        }
-        let mut lamps = json!({ "mesh": 1, "name": "lamps" });
-        if let Some(matrix) = self.matrix {
-            lamps["matrix"] = json!(matrix);
-        }
-        let mut root = json!({
-            "asset": { "version": "2.0" },
-            "scene": 0,
-            "scenes": [{ "nodes": [0, 1] }],
-            "nodes": [{ "mesh": 0 }, lamps],
-            "meshes": [
-                { "primitives": [{ "attributes": { "POSITION": 0 }, "material": 0 }] },
-                { "primitives": primitives }
-            ],
-            "materials": [
-                { "name": "floor" },
-                { "emissiveFactor": emissive, "doubleSided": true },
-                { "emissiveFactor": emissive }
-            ],
-            "bufferViews": [{ "buffer": 0, "byteLength": bytes }],
-            "buffers": [{ "uri": buffer, "byteLength": bytes }]
-        });
-        if self.moves {
-            let first = accessors.len();
-            let key = |offset: usize, kind: &str, min: Value, max: Value| {
-                json!({
-                    "bufferView": 0, "byteOffset": 4 * offset, "componentType": 5126, "count": 2, "type": kind,
-                    "min": min, "max": max
-                })
-            };
-            accessors.push(key(keys, "SCALAR", json!([0.0]), json!([1.0])));
-            accessors.push(key(
-                keys + 2,
-                "VEC3",
-                json!([0.0, 0.0, 0.0]),
-                json!([1.0, 0.5, 0.0]),
-            ));
-            root["animations"] = json!([{
-                "samplers": [{ "input": first, "output": first + 1 }],
-                "channels": [{ "sampler": 0, "target": { "node": 1, "path": "translation" } }]
-            }]);
-        }
-        root["accessors"] = json!(accessors);
-        root
+            let emissive = [self.emits; 3];
+            root["materials"][1] = json!({ "emissiveFactor": emissive, "doubleSided": true });
+            if self.has_one_sided {
+                let mut last = root["accessors"][1].clone();
+                root["accessors"][1]["count"] = json!(6 * (self.lamps - 1));
+                // Behind the floor and the other lamps, 72 bytes each.
+                last["byteOffset"] = json!(72 * self.lamps);
+                last["count"] = json!(6);
+                let accessors = root["accessors"].as_array_mut().expect("a list");
+                accessors.push(last);
+                let primitive = json!({ "attributes": { "POSITION": accessors.len() - 1 }, "material": 2 });
+                let primitives = root["meshes"][1]["primitives"].as_array_mut();
+                primitives.expect("a list").push(primitive);
+                let materials = root["materials"].as_array_mut();
+                materials
+                    .expect("a list")
+                    .push(json!({ "emissiveFactor": emissive }));
+            }
+        })
     }
 }
 
-/// Two triangles in a plane of constant height, with a corner and two sides given. Sides of equal sign shine down.
-fn quad([x, y, z]: [f32; 3], [width, depth]: [f32; 2]) -> Vec<f32> {
-    let corner = |i: f32, k: f32| [x + i * width, y, z + k * depth];
-    let corners = [
-        corner(0.0, 0.0),
-        corner(1.0, 0.0),
-        corner(0.0, 1.0),
-        corner(1.0, 0.0),
-        corner(1.0, 1.0),
-        corner(0.0, 1.0),
-    ];
-    corners.concat()
+/// A clip that moves the lamps for a second.
+fn moving(name: &str) -> Clip {
+    let keys = [(0.0, [0.0; 3]), (1.0, [1.0, 0.5, 0.0])];
+    (name.to_owned(), vec![Keys::new(LAMP, "translation", &keys)])
 }
 
 fn fact<'a>(report: &'a Value, name: &str) -> &'a Value {
@@ -251,7 +200,7 @@ fn each_difference_is_found() {
     let found = of(
         "all-but-one",
         Room {
-            one_sided: 1,
+            has_one_sided: true,
             ..default()
         },
     );
@@ -344,30 +293,9 @@ fn what_does_not_fit_is_refused() {
 
 /// The same animation twice, and before them one of the same name that keeps all where it is.
 fn with_clips(folder: &Folder) -> String {
-    let room = Room {
-        moves: true,
-        ..Room::default()
-    };
-    let path = room.write(folder, "clips");
-    let mut root: Value = serde_json::from_slice(&std::fs::read(&path).expect("a scene")).expect("JSON");
-    let moving = root["animations"][0].clone();
-    let still = &mut root["accessors"];
-    let first = still.as_array().expect("a list").len();
-    // One key each of the same times and places.
-    for own in [first - 2, first - 1] {
-        let mut one = still[own].clone();
-        one["count"] = json!(1);
-        one["max"] = one["min"].clone();
-        still.as_array_mut().expect("a list").push(one);
-    }
-    let mut clips = vec![moving.clone(), moving.clone(), moving];
-    clips[0]["samplers"] = json!([{ "input": first, "output": first + 1 }]);
-    for (clip, name) in clips.iter_mut().zip(["Idle", "Walk", "Idle"]) {
-        clip["name"] = json!(name);
-    }
-    root["animations"] = json!(clips);
-    std::fs::write(&path, root.to_string()).expect("a scene");
-    path
+    let still = vec![Keys::new(LAMP, "translation", &[(0.0, [0.0; 3])])];
+    let clips = [("Idle".to_owned(), still), moving("Walk"), moving("Idle")];
+    Room::default().write_with(folder, "clips", &clips)
 }
 
 /// A file does not say which of its animations is shown: what a later one moves does move.

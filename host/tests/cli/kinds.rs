@@ -79,7 +79,6 @@ fn suns_alone_leave_trees_empty() {
     let found = report(&format!("inspect {path} --json"));
     assert_eq!((&found["holds"], &found["suns"]), (&json!(true), &json!(1)));
     assert_eq!((&found["tree"], &found["checked"]), (&json!(null), &json!(null)));
-    // It told of "0 probabilities" and of bytes per light of no light.
     let said = run(&format!("inspect {path}"));
     let said = String::from_utf8_lossy(&said.stdout).into_owned();
     assert!(

@@ -42,6 +42,17 @@ fn quad(half: f32, up: f32) -> [f32; 18] {
 
 /// Writes a model with these clips as glTF beside its buffer and returns its path; `change` may change its JSON.
 pub fn write(folder: &Folder, name: &str, clips: &[Clip], change: impl FnOnce(&mut Value)) -> String {
+    write_lamps(folder, name, 1, clips, change)
+}
+
+/// The same with so many quadrilaterals in the lamps' mesh, in rows of four.
+pub fn write_lamps(
+    folder: &Folder,
+    name: &str,
+    count: usize,
+    clips: &[Clip],
+    change: impl FnOnce(&mut Value),
+) -> String {
     let mut floats = Vec::new();
     let mut accessors = Vec::new();
     let mut add = |values: &[f32], kind: &str| {
@@ -53,7 +64,14 @@ pub fn write(folder: &Folder, name: &str, clips: &[Clip], change: impl FnOnce(&m
         floats.extend_from_slice(values);
         accessors.len() - 1
     };
-    let (floor, lamp) = (add(&quad(4.0, 1.0), "VEC3"), add(&quad(0.3, -1.0), "VEC3"));
+    let lamps: Vec<f32> = (0..count)
+        .flat_map(|k| {
+            let at = [(k % 4) as f32, 0.0, (k / 4) as f32];
+            let own = quad(0.3, -1.0).into_iter().zip(at.into_iter().cycle());
+            own.map(|(x, at)| x + 2.0 * at).collect::<Vec<_>>()
+        })
+        .collect();
+    let (floor, lamp) = (add(&quad(4.0, 1.0), "VEC3"), add(&lamps, "VEC3"));
     let animations: Vec<Value> = clips
         .iter()
         .map(|(name, all)| {

@@ -17,14 +17,14 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
     let said = refused(&format!("render no/such/file.glb -o {image}"));
     assert!(said.contains("no/such/file.glb"), "{said}");
     let said = refused(&format!("render street --spp 0 -o {image}"));
-    assert!(said.contains("--spp 0"), "{said}");
+    assert!(said.contains("--spp") && said.contains("1..=65536"), "{said}");
     let said = refused(&format!("render street --width 100000 -o {image}"));
-    assert!(said.contains("--width 100000"), "{said}");
+    assert!(said.contains("--width") && said.contains("100000"), "{said}");
     let said = refused(&format!(
         "render street --integrator path --bounces 65 -o {image}"
     ));
     assert!(
-        said.contains("--bounces 65") && said.contains("1 to 64"),
+        said.contains("--bounces") && said.contains("65 is not in 1..=64"),
         "{said}"
     );
     // A folder that cannot be made is found before anything is measured.
@@ -45,15 +45,15 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
         assert!(said.contains(needs), "{options}: {said}");
     }
     let said = refused(&format!("render street --candidates 257 -o {image}"));
-    assert!(said.contains("1 to 256"), "{said}");
+    assert!(said.contains("257 is not in 1..=256"), "{said}");
     let said = refused(&format!("demo --height 0 --out {}", folder.file("images")));
     assert!(
-        said.contains("--height 0") && !folder.0.join("images").exists(),
+        said.contains("--height") && !folder.0.join("images").exists(),
         "{said}"
     );
     for option in ["--lights", "--queries"] {
         let said = refused(&format!("bench {option} 0"));
-        assert!(said.contains(&format!("{option} 0")), "{said}");
+        assert!(said.contains(option) && said.contains("0 is not in"), "{said}");
     }
     refused(&format!("render street --sampler best -o {image}"));
     for budget in ["--time 0", "--time nan", "--error -1"] {

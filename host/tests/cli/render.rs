@@ -3,30 +3,7 @@
 use std::path::Path;
 
 use crate::model;
-use crate::program::{Folder, has_device, json, run};
-
-#[test]
-fn render_gives_the_same_file_on_both_processors() {
-    if !has_device() {
-        return;
-    }
-    let folder = Folder::new("render");
-    let exported = folder.file("carousel.glb");
-    assert!(run(&format!("export carousel -o {exported}")).status.success());
-    for scene in ["carousel", exported.as_str()] {
-        let mut files = Vec::new();
-        for backend in ["cpu", "vulkan"] {
-            let file = folder.file(&format!("{backend}.exr"));
-            let report = json(&format!(
-                "render {scene} --frame 20 --width 64 --height 36 --spp 2 --backend {backend} -o {file} --json"
-            ));
-            assert_eq!(report["width"], 64);
-            files.push(std::fs::read(&file).expect("an image"));
-        }
-        assert!(files[0] == files[1], "{scene}: the images differ");
-        assert!(files[0].len() > 64 * 36 * 3);
-    }
-}
+use crate::program::{Folder, json, run};
 
 #[test]
 fn paths_render_and_add_what_is_reflected_again() {
@@ -81,7 +58,6 @@ fn every_sampler_heuristic_and_importance_renders() {
     }
 }
 
-/// Nobody reads what it says: an error with its own exit code, no panic, and the image is there.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_standard_output_is_an_error() {
@@ -150,7 +126,6 @@ fn a_camera_of_ones_own() {
     }
 }
 
-/// It was cut to three decimals, and a picture of what it said was another.
 #[test]
 fn the_exposure_that_is_printed_gives_the_same_picture() {
     let folder = Folder::new("exposure");

@@ -45,9 +45,9 @@ fn a_soak_finds_nothing() {
 #[test]
 fn a_soak_of_nothing_is_refused() {
     for (line, said_of) in [
-        ("--soak 0", "--soak 0"),
-        ("--soak 100 --instances 0", "--instances 0"),
-        ("--soak 100 --mesh-triangles 0", "--mesh-triangles 0"),
+        ("--soak 0", "0 is not in 100..="),
+        ("--soak 100 --instances 0", "--instances"),
+        ("--soak 100 --mesh-triangles 0", "--mesh-triangles"),
         ("--instances 10", "--soak"),
         ("--soak 100 --queries 5", "cannot be used with"),
     ] {

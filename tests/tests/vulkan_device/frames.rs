@@ -1,11 +1,11 @@
-//! What a frame of moving lights costs a device: submissions, waits, regions and bytes, counted; and its words.
+//! Frames of moving lights on a device, and the copies that they are made of.
 
-use lightbvh::bvh::Cursor;
 use lightbvh::{Edit, EmissiveTriangle, InstanceId, LightBvh, MeshId, ShadingPoint, Transform};
 use lightbvh_host::backend::{Backend, CpuBackend, DeviceBackend, Follow, node_words, nodes_in_use};
-use lightbvh_host::vulkan::{Counts, Device, Options, Pass, VulkanError};
+use lightbvh_host::vulkan::{Device, Options, Pass};
 use lightbvh_kernels::bvh::Standard;
 use lightbvh_kernels::query::Query;
+use lightbvh_kernels::scatter::{LANES, Run, ScatterPush};
 use lightbvh_tests::devices::on_each_device;
 use lightbvh_tests::generate::small_triangles;
 
@@ -73,13 +73,7 @@ pub(super) fn assert_follows(what: &str, bvh: &LightBvh, backend: &mut OnDevice<
     }
 }
 
-fn counted(device: &Device, work: impl FnOnce()) -> Counts {
-    let before = device.counts();
-    work();
-    device.counts() - before
-}
-
-/// With and without staging buffers for what is read: what a frame does is the same.
+/// With and without staging buffers.
 fn on_each(test: impl Fn(&Device)) {
     for force_staging in [false, true] {
         on_each_device(
@@ -93,68 +87,7 @@ fn on_each(test: impl Fn(&Device)) {
 }
 
 #[test]
-fn a_frame_is_one_submission_without_a_wait_whatever_moves() {
-    on_each(|device| {
-        let (mut bvh, _, ids) = world(6_000);
-        let mut backend = OnDevice::new(device, &bvh).expect("an upload");
-        let mut cursor = Cursor::default();
-        assert!(bvh.plan(&mut cursor).everything);
-        // The first frame grows the ring and the list.
-        for (time, stride) in (1..).zip([3, 6_000, 60, 3, 1]) {
-            let moved = 6_000_u64.div_ceil(stride as u64);
-            step(&mut bvh, &ids, stride, time);
-            bvh.refit();
-            let refitted = bvh.plan(&mut cursor).computed() as u64;
-            let counts = counted(device, || {
-                backend.follow_ahead(&bvh).expect("a frame");
-                backend.flush().expect("a submission");
-            });
-            let what = format!("{}, {moved} moved: {counts:?}", device.name());
-            assert_eq!(counts.submissions, 1, "{what}");
-            assert_eq!(counts.waits, 0, "{what}");
-            // One for each lamp and one for the list; those that are neighbours are one. Many go by a dispatch, with an entry each.
-            let parts = if stride == 1 { 1 } else { moved };
-            let (regions, runs) = if parts > 16 { (1, parts) } else { (parts + 1, 0) };
-            assert_eq!((counts.regions, counts.runs), (regions, runs), "{what}");
-            let record = size_of::<lightbvh::Instance>() as u64;
-            assert_eq!(counts.bytes, moved * record + 4 * refitted + 12 * runs, "{what}");
-            assert!(time == 1 || counts.buffers == 0 || stride == 1, "{what}");
-            assert_follows(&what, &bvh, &mut backend);
-        }
-        let idle = counted(device, || {
-            backend.follow(&bvh).expect("nothing to do");
-        });
-        assert_eq!(idle, Counts::default(), "{}: nothing changed", device.name());
-    });
-}
-
-#[test]
-fn what_is_asked_next_goes_with_the_frame() {
-    on_each(|device| {
-        let (mut bvh, _, ids) = world(500);
-        let mut backend = OnDevice::new(device, &bvh).expect("an upload");
-        let asked = queries(200);
-        for time in 1..4 {
-            step(&mut bvh, &ids, 5, time);
-            bvh.refit();
-            let mut found = Vec::new();
-            let counts = counted(device, || {
-                backend.follow_ahead(&bvh).expect("a frame");
-                found = backend.sample(&asked).expect("samples").value;
-            });
-            // What is read from memory that the host does not reach is a copy more, the caller's.
-            let reads = u64::from(!device.probe().unified_memory || counts.submissions > 1);
-            let what = format!("{}: {counts:?}", device.name());
-            assert_eq!(counts.submissions, 1 + reads, "{what}");
-            assert!(counts.waits <= 1, "{what}");
-            let mut cpu = CpuBackend::<Standard, 8>::new(bvh.clone());
-            assert!(found == cpu.sample(&asked).expect("samples").value, "{what}");
-        }
-    });
-}
-
-#[test]
-fn frames_that_grow_copy_what_is_new_and_carry_the_rest() {
+fn frames_that_move_grow_and_shrink_are_followed() {
     on_each(|device| {
         let (mut bvh, meshes, mut ids) = world(300);
         let mut backend = OnDevice::new(device, &bvh).expect("an upload");
@@ -171,170 +104,61 @@ fn frames_that_grow_copy_what_is_new_and_carry_the_rest() {
             }
             step(&mut bvh, &ids, 7, time);
             bvh.refit();
-            let counts = counted(device, || backend.follow_ahead(&bvh).expect("a frame"));
-            let what = format!("{} frame {time}: {counts:?}", device.name());
-            assert_eq!(counts.waits, 0, "{what}");
-            if time % 2 > 0 {
-                continue; // The next frame submits it.
-            }
-            assert_follows(&what, &bvh, &mut backend);
+            backend.follow(&bvh).expect("a frame");
+            assert_follows(&format!("{} frame {time}", device.name()), &bvh, &mut backend);
         }
     });
 }
 
+/// More bytes than a staging buffer has, in two parts, the later one first.
 #[test]
-fn frames_larger_than_what_is_kept_are_submitted_at_once() {
+fn parts_of_a_write_arrive_and_nothing_else_changes() {
     on_each(|device| {
-        let (mut bvh, _, ids) = world(30_000);
-        let mut backend = OnDevice::new(device, &bvh).expect("an upload");
-        step(&mut bvh, &ids, 1, 1);
-        bvh.refit();
-        let counts = counted(device, || backend.follow_ahead(&bvh).expect("a frame"));
-        assert!(counts.bytes > 1 << 20, "{}: {counts:?}", device.name());
-        assert_eq!(
-            (counts.submissions, counts.waits),
-            (1, 0),
-            "{}: {counts:?}",
-            device.name()
-        );
-        assert_follows(device.name(), &bvh, &mut backend);
-    });
-}
-
-#[test]
-fn passes_that_write_more_than_the_ring_holds_are_whole() {
-    on_each(|device| {
-        let words = super::values((70 << 20) / 4 + 5);
-        let buffer = device.buffer::<u32>(words.len(), 0).expect("a buffer");
-        let mut pass = Pass::new();
-        // In two parts, the later one first.
-        let half = words.len() / 2;
-        pass.write(&buffer, half, &words[half..]).expect("within");
-        pass.write(&buffer, 0, &words[..half]).expect("within");
-        let counts = counted(device, || {
-            device.submit(&pass).expect("a submission");
-        });
-        let what = format!("{}: {counts:?}", device.name());
-        assert_eq!(counts.bytes, words.len() as u64 * 4, "{what}");
-        // 70 MiB in parts of 16 MiB, each one region.
-        assert_eq!((counts.submissions, counts.regions), (5, 5), "{what}");
-        assert!(buffer.read().expect("a read") == words, "{what}");
-    });
-}
-
-/// Runs of any length between each other, into two buffers, in two orders: what is short goes by a dispatch where it is much,
-/// all arrives, nothing else changes.
-#[test]
-fn short_runs_and_long_ones_arrive() {
-    on_each(|device| {
-        let lengths = [1, 2, 15, 16, 17, 100, 1023, 1024, 1025, 5000];
-        for (turns, is_much) in [(1, false), (3, true)] {
-            let count: usize = turns * lengths.iter().map(|length| length + 1).sum::<usize>();
-            let words = super::values(count as u32);
-            let held = vec![7_u32; count + 1];
-            let buffers = [(); 2].map(|()| device.upload(&held).expect("an upload"));
-            let (mut pass, mut expected) = (Pass::new(), held.clone());
-            let mut first = 1;
-            let mut runs: Vec<_> = lengths
-                .iter()
-                .cycle()
-                .take(turns * lengths.len())
-                .map(|&length| {
-                    let run = first..first + length;
-                    first += length + 1;
-                    run
-                })
-                .collect();
-            for run in &runs {
-                expected[run.clone()].copy_from_slice(&words[run.start - 1..run.end - 1]);
-            }
-            for buffer in &buffers {
-                for run in &runs {
-                    pass.write(buffer, run.start, &words[run.start - 1..run.end - 1])
-                        .expect("within");
-                }
-                runs.reverse();
-            }
-            let counts = counted(device, || {
-                device.run(&pass).expect("a run");
-            });
-            let what = format!("{}: {counts:?}", device.name());
-            let long = 2 * turns as u64 * 2;
-            let short = 2 * turns as u64 * 8;
-            let expected_counts = if is_much { (long, short) } else { (long + short, 0) };
-            assert_eq!((counts.regions, counts.runs), expected_counts, "{what}");
-            for buffer in &buffers {
-                assert!(buffer.read().expect("a read") == expected, "{what}");
-            }
-        }
-    });
-}
-
-#[test]
-fn neighbours_are_one_region_and_overlaps_are_refused() {
-    on_each(|device| {
-        let buffer = device.output::<u32>(100).expect("a buffer");
-        let mut pass = Pass::new();
-        let parts = [40, 20, 30, 70].map(|first| (first, [first as u32; 10]));
-        for (first, data) in &parts {
-            pass.write(&buffer, *first, data).expect("within");
-        }
-        let counts = counted(device, || {
-            device.run(&pass).expect("a run");
-        });
-        assert_eq!((counts.regions, counts.bytes), (2, 160), "{}", device.name());
+        let words = super::values((33 << 20) / 4 + 5);
+        let buffer = device.output::<u32>(words.len() + 10).expect("a buffer");
+        let (first, second) = words.split_at(words.len() / 2);
+        let parts = [(first.len() + 9, second), (1, first)];
+        buffer.write(&parts).expect("within");
         let found = buffer.read().expect("a read");
-        for (at, word) in found.iter().enumerate() {
-            let expected = match at {
-                20..50 | 70..80 => at as u32 / 10 * 10,
-                _ => lightbvh_host::vulkan::UNWRITTEN,
-            };
-            assert_eq!(*word, expected, "{} {at}", device.name());
-        }
-        pass.write(&buffer, 75, &[1, 2]).expect("within");
-        let refused = device.run(&pass).expect_err("written twice");
-        assert!(
-            matches!(
-                refused,
-                VulkanError::OverlappingWrites {
-                    first: 300,
-                    end: 320,
-                    ..
-                }
-            ),
-            "{refused}"
-        );
-        assert!(matches!(
-            pass.write(&buffer, 99, &[1, 2]).map(drop),
-            Err(VulkanError::WrongLength {
-                given: 101,
-                held: 100
-            })
-        ));
+        let gap = [lightbvh_host::vulkan::UNWRITTEN; 8];
+        let expected = [&gap[..1], first, &gap, second, &gap[..1]].concat();
+        assert!(found == expected, "{}", device.name());
     });
 }
 
+/// The kernel that engines put many short regions in their places by.
 #[test]
-fn submissions_run_on_while_the_host_goes_on() {
+fn scattered_runs_arrive_and_nothing_else_changes() {
     on_each(|device| {
-        let buffer = device.output::<u32>(3).expect("a buffer");
-        // Many more than are under way at once, each seeing the one before.
-        let values: Vec<[u32; 3]> = (0..200).map(|k| [k, k + 1, k + 2]).collect();
-        for value in &values {
-            let other = device.buffer::<u32>(3, 0).expect("a buffer");
-            let mut pass = Pass::new();
-            pass.write(&other, 0, value).expect("within");
-            device.submit(&pass).expect("a submission");
-            let mut pass = Pass::new();
-            pass.carry(&other, &buffer);
-            // Both handles are dropped while it may still run.
-            device.submit(&pass).expect("a submission");
+        let kernel = device.kernel("scatter").expect("a kernel");
+        let lengths = [1, 2, 15, 16, 17, 100, 1023, 1024, 1025, 5000];
+        let count: u32 = lengths.iter().map(|length| length + 1).sum();
+        let mut staged = super::values(count);
+        let mut expected = vec![7_u32; count as usize + 1];
+        let target = device.upload(&expected).expect("an upload");
+        let (mut at, mut runs) = (1, Vec::new());
+        for length in lengths {
+            let (from, to) = (at as usize - 1, at as usize);
+            let words = length as usize;
+            expected[to..to + words].copy_from_slice(&staged[from..from + words]);
+            runs.push(Run {
+                from: at - 1,
+                to: at,
+                words: length,
+            });
+            at += length + 1;
         }
-        assert_eq!(
-            buffer.read().expect("a read"),
-            [199, 200, 201],
-            "{}",
-            device.name()
-        );
+        let push = ScatterPush {
+            runs: runs.len() as u32,
+            list: staged.len() as u32,
+            first: 0,
+        };
+        staged.extend_from_slice(bytemuck::cast_slice(&runs));
+        let staging = device.upload(&staged).expect("an upload");
+        let mut pass = Pass::new();
+        let buffers = [staging.bind(), target.bind()];
+        pass.dispatch(&kernel, &buffers, bytemuck::bytes_of(&push), push.runs * LANES);
+        device.run(&pass).expect("a run");
+        assert!(target.read().expect("a read") == expected, "{}", device.name());
     });
 }

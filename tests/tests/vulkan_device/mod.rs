@@ -1,6 +1,5 @@
 //! The host's Vulkan side, on every device of the machine and under the validation layer.
 
-mod cache;
 mod errors;
 mod frames;
 mod list;
@@ -111,18 +110,11 @@ fn copies_larger_than_the_staging_buffer_are_whole() {
         },
         |device| {
             let words = values((33 << 20) / 4 + 5);
-            let mut buffer = device.upload(&words).expect("an upload");
+            let buffer = device.upload(&words).expect("an upload");
             assert!(buffer.read_words().expect("a read") == words, "{}", device.name());
-            buffer.mark_unwritten().expect("a fill");
-            assert!(
-                buffer
-                    .read()
-                    .expect("a read")
-                    .iter()
-                    .all(|word| *word == UNWRITTEN),
-                "{}",
-                device.name()
-            );
+            let output = device.output::<u32>(words.len()).expect("an output");
+            let found = output.read().expect("a read");
+            assert!(found.iter().all(|word| *word == UNWRITTEN), "{}", device.name());
         },
     );
 }
@@ -138,15 +130,14 @@ fn empty_buffers_and_empty_dispatches_are_fine() {
             |device| {
                 assert_eq!(run(device, &[], 3, 0), Vec::<[u32; 2]>::new());
                 assert_eq!(run(device, &[], 3, 2), vec![[UNWRITTEN; 2]; 2]);
-                let timings = device.run(&Pass::new()).expect("an empty pass");
-                assert_eq!(timings.dispatch_ns.unwrap_or_default(), Vec::<f64>::new());
+                device.run(&Pass::new()).expect("an empty pass");
             },
         );
     }
 }
 
 #[test]
-fn later_dispatches_of_a_pass_see_earlier_ones_and_each_has_a_time() {
+fn later_dispatches_of_a_pass_see_earlier_ones_and_all_have_a_time() {
     on_each_device(Options::default(), |device| {
         let kernel = device
             .kernel_from_words("scale_index", &scale_index())
@@ -176,19 +167,12 @@ fn later_dispatches_of_a_pass_see_earlier_ones_and_each_has_a_time() {
             device.name()
         );
         if device.probe().limits.timestamp_valid_bits > 0 {
-            let times = timings.dispatch_ns.expect("times where the device keeps time");
-            assert_eq!(times.len(), 10);
-            assert!(
-                times.iter().all(|ns| ns.is_finite() && *ns >= 0.0),
-                "{} {times:?}",
-                device.name()
-            );
-            let sum: f64 = times.iter().sum();
-            let wall = timings.wall.as_nanos() as f64;
+            let kernels = timings.kernels.expect("a time where the device keeps time");
+            let [kernels, wall] = [kernels, timings.wall].map(|time| time.as_nanos() as f64);
             // Both clocks count nanoseconds; a tenth and a microsecond are for their different rates and steps.
             assert!(
-                sum > 0.0 && sum <= wall * 1.1 + 1e3,
-                "{} {sum} ns of {wall}",
+                kernels > 0.0 && kernels <= wall * 1.1 + 1e3,
+                "{} {kernels} ns of {wall}",
                 device.name()
             );
         }

@@ -7,8 +7,7 @@ use lightbvh::{Lights, Random64, SampledLight, ShadingPoint};
 use lightbvh_kernels::query::Query;
 use rayon::prelude::*;
 
-use crate::backend::{Backend, BackendError, Bvh};
-use crate::cli::measure::times::timed;
+use crate::backend::{Backend, BackendError, Bvh, Timed};
 use crate::error::HostError;
 
 /// Samples of a batch that one thread takes.
@@ -105,5 +104,5 @@ fn number(query: &Query) -> Random64 {
 }
 
 pub(super) fn measure(mut work: impl FnMut()) -> Vec<Duration> {
-    (0..RUNS).map(|_| timed(&mut work)).collect()
+    (0..RUNS).map(|_| Timed::of(&mut work).time).collect()
 }

@@ -12,7 +12,7 @@ use super::plan::{BLOCK, Plan};
 use crate::cli::measure::reference::Reference;
 use crate::cli::measure::times::ms;
 use crate::error::HostError;
-use crate::method::{Method, Runner, Target, UpdateTimes, runner};
+use crate::method::{Method, Runner, Target, UpdateTimes};
 use crate::metrics::Quality;
 use crate::render::Film;
 use crate::workload::RenderSettings;
@@ -96,7 +96,8 @@ impl<'d> Job<'_, 'd> {
                 Some(runner) => runner,
                 none => {
                     frames.prepare(frame, false)?;
-                    none.insert(runner(lane.method, &frames.step(frame), self.target)?)
+                    let recipe = lane.method.recipe();
+                    none.insert(recipe.runner(&frames.step(frame), self.target)?)
                 }
             };
             let is_shown = self.plan.frames.contains(&frame);

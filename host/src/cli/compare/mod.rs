@@ -25,13 +25,13 @@ use crate::vulkan::VulkanError;
 use frames::Frames;
 use measure::{Job, Results};
 pub(super) use plan::Args;
-use plan::{BLOCK, Backends, Plan};
+use plan::{BLOCK, Backends, Plan, timed_blocks};
 use reference::{Noise, references};
 use report::{Report, SceneReport};
 use summary::summarize;
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
-    let plan = args.plan()?;
+    let plan = args.plan();
     let scenes = plan
         .scenes
         .iter()
@@ -196,10 +196,11 @@ fn seeds(plan: &Plan, target: &Target<'_>) -> u32 {
 
 /// The blocks that are timed.
 fn blocks(plan: &Plan, target: &Target<'_>) -> Vec<u32> {
-    plan.timed_blocks(match target {
+    let timed = match target {
         Target::Cpu => plan.timed_frames,
         Target::Device(_) => plan.timed_on_devices,
-    })
+    };
+    timed_blocks(plan.last(), timed)
 }
 
 fn settings(plan: &Plan) -> Value {

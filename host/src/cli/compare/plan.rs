@@ -2,9 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::cli::range::{self, given};
 use crate::cli::reading::Reading;
-use crate::error::HostError;
 use crate::method::Method;
 use crate::scene::BUILT_IN;
 
@@ -21,25 +19,25 @@ pub(in crate::cli) struct Args {
     #[command(flatten)]
     pub(super) reading: Reading,
     /// Frames to measure; the animation runs from 0 to the last of them [default: 0,50,100,150].
-    #[arg(long, value_delimiter = ',', value_name = "N,N,...")]
+    #[arg(long, value_delimiter = ',', value_name = "N,N,...", value_parser = clap::value_parser!(u32).range(..=100_000))]
     frames: Vec<u32>,
     /// Shadow rays per pixel [default: 6].
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     samples: Option<u32>,
     /// Images of each frame, each with its own random numbers [default: 8].
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
     seeds: Option<u32>,
     /// Columns [default: 320].
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
     width: Option<u32>,
     /// Rows [default: 180].
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
     height: Option<u32>,
     /// Shadow rays per pixel of the reference [default: 1024].
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(2..=1 << 20))]
     reference_samples: Option<u32>,
     /// Frames that times are averaged over, in runs of seven [default: 35, on devices 7].
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(..=100_000))]
     timed_frames: Option<u32>,
     /// Methods to compare; may be repeated [default: all].
     #[arg(long, value_enum)]
@@ -84,8 +82,8 @@ pub(super) struct Plan {
 }
 
 impl Args {
-    /// The plan, checked.
-    pub(super) fn plan(&self) -> Result<Plan, HostError> {
+    /// What is compared.
+    pub(super) fn plan(&self) -> Plan {
         let choose = |given: Option<u32>, usual: u32, quick: u32| {
             given.unwrap_or(if self.quick { quick } else { usual })
         };
@@ -114,13 +112,13 @@ impl Args {
         if scenes.is_empty() {
             scenes = BUILT_IN.iter().map(|&name| name.to_owned()).collect();
         }
-        let plan = Plan {
+        Plan {
             scenes,
             samples: choose(self.samples, 6, 6),
             seeds: choose(self.seeds, 8, 3),
             width: choose(self.width, 320, 96),
             height: choose(self.height, 180, 54),
-            reference_samples: choose(self.reference_samples, 1024, 128),
+            reference_samples: choose(self.reference_samples, 1024, 128).next_multiple_of(2),
             timed_frames: choose(self.timed_frames, 35, 7),
             timed_on_devices: choose(self.timed_frames, 7, 7),
             frames,
@@ -129,28 +127,11 @@ impl Args {
             backends: self
                 .backend
                 .unwrap_or(if self.quick { Backends::Cpu } else { Backends::All }),
-        };
-        plan.check()?;
-        Ok(Plan {
-            reference_samples: plan.reference_samples.next_multiple_of(2),
-            ..plan
-        })
+        }
     }
 }
 
 impl Plan {
-    fn check(&self) -> Result<(), HostError> {
-        range::check(&[
-            given("--samples", self.samples, 1..=65_536),
-            given("--seeds", self.seeds, 1..=4096),
-            given("--width", self.width, 1..=4096),
-            given("--height", self.height, 1..=4096),
-            given("--reference-samples", self.reference_samples, 2..=1 << 20),
-            given("--timed-frames", self.timed_frames, 0..=100_000),
-            given("--frames", self.last(), 0..=100_000),
-        ])
-    }
-
     /// The last frame.
     pub fn last(&self) -> u32 {
         self.frames.last().copied().unwrap_or(0)
@@ -165,47 +146,30 @@ impl Plan {
     pub fn work(&self, samples: u32) -> u64 {
         (u64::from(self.width) * u64::from(self.height) * u64::from(samples)).div_ceil(1000)
     }
+}
 
-    /// The blocks that have so many timed frames between them, as far as there are as many, spread evenly.
-    pub fn timed_blocks(&self, timed_frames: u32) -> Vec<u32> {
-        // A last block of one frame, which follows no other of its block, does not count.
-        let blocks = u64::from(self.last().div_ceil(BLOCK));
-        let wanted = u64::from(timed_frames.div_ceil(BLOCK - 1)).min(blocks);
-        (0..wanted)
-            .map(|i| ((2 * i + 1) * blocks / (2 * wanted)) as u32)
-            .collect()
-    }
+/// The blocks up to the `last` frame that have so many timed frames between them, as far as there are as many, spread evenly.
+pub(super) fn timed_blocks(last: u32, timed_frames: u32) -> Vec<u32> {
+    // A last block of one frame, which follows no other of its block, does not count.
+    let blocks = u64::from(last.div_ceil(BLOCK));
+    let wanted = u64::from(timed_frames.div_ceil(BLOCK - 1)).min(blocks);
+    (0..wanted)
+        .map(|i| ((2 * i + 1) * blocks / (2 * wanted)) as u32)
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-
-    fn blocks(last: u32, timed_frames: u32) -> Vec<u32> {
-        let plan = Plan {
-            scenes: Vec::new(),
-            frames: vec![last],
-            samples: 1,
-            seeds: 1,
-            width: 1,
-            height: 1,
-            reference_samples: 2,
-            timed_frames,
-            timed_on_devices: 0,
-            methods: Vec::new(),
-            backends: Backends::Cpu,
-        };
-        plan.timed_blocks(timed_frames)
-    }
+    use super::timed_blocks;
 
     #[test]
     fn timed_blocks_are_spread_over_the_animation() {
-        assert_eq!(blocks(150, 35), [1, 5, 9, 13, 17]);
-        assert_eq!(blocks(150, 1), [9]);
-        assert_eq!(blocks(150, 1000), (0..19).collect::<Vec<u32>>());
-        assert_eq!(blocks(16, 1000), [0, 1]);
-        assert_eq!(blocks(17, 1000), [0, 1, 2]);
-        assert!(blocks(0, 10).is_empty());
-        assert!(blocks(150, 0).is_empty());
+        assert_eq!(timed_blocks(150, 35), [1, 5, 9, 13, 17]);
+        assert_eq!(timed_blocks(150, 1), [9]);
+        assert_eq!(timed_blocks(150, 1000), (0..19).collect::<Vec<u32>>());
+        assert_eq!(timed_blocks(16, 1000), [0, 1]);
+        assert_eq!(timed_blocks(17, 1000), [0, 1, 2]);
+        assert!(timed_blocks(0, 10).is_empty());
+        assert!(timed_blocks(150, 0).is_empty());
     }
 }

@@ -1,8 +1,5 @@
 //! A scene that no triangle lights: what its lights are, the tree over all of their kinds, and whether that tree serves.
 
-use std::hint::black_box;
-use std::time::Instant;
-
 use lightbvh::exact::hash;
 use lightbvh::importance::DefaultImportance;
 use lightbvh::light::{AnyLight, Light};
@@ -18,19 +15,17 @@ use super::motion::Motion;
 use super::options::Args;
 use super::report::line;
 use super::said::changes;
+use super::steps::{SAMPLES_IN_A_TURN, TURNS};
+use super::subject::time;
 use super::surfaces::Surfaces;
 use super::{MOST_PROBABILITIES, animations, declared};
 use crate::cli::measure::interval::Interval;
-use crate::cli::measure::times::ms;
+use crate::cli::measure::times::in_turns;
 use crate::cli::measure::{NOT_MEASURED, kinds::irradiance_of, mean_of, points, variance};
 use crate::cli::{Context, Outcome, table};
 use crate::error::HostError;
 use crate::scene::{Instances, Scene};
 use crate::workload::lights_of;
-
-/// Turns of timing, and about how many samples are taken in one.
-const TURNS: u32 = 21;
-const SAMPLES_IN_A_TURN: u32 = 40_000;
 
 /// Without beams: for scenes none of whose lights has a cone.
 type Plain = Lit<MomentNode<WIDTH>, AnyLight>;
@@ -222,22 +217,13 @@ where
         })));
     }
     let passes = SAMPLES_IN_A_TURN.div_ceil((points.len() as u32).max(1));
-    let times = (0..TURNS).map(|turn| {
-        let (start, mut sum) = (Instant::now(), 0.0);
-        for pass in 0..passes {
-            for (point, k) in points.iter().zip(0_u32..) {
-                sum += bvh
-                    .sample(
-                        point,
-                        hash(hash(turn) ^ pass.wrapping_mul(points.len() as u32).wrapping_add(k)),
-                    )
-                    .pmf;
-            }
-        }
-        black_box(sum);
-        1e6 * ms(start.elapsed()) / (f64::from(passes) * points.len().max(1) as f64)
-    });
-    let ns_per_sample = Interval::of(times.collect());
+    let samples = passes * (points.len() as u32).max(1);
+    let mut times = in_turns(1, TURNS, samples, |_, turn| {
+        Ok(time(points, hash(turn), passes, |point, number| {
+            bvh.sample(point, number)
+        }))
+    })?;
+    let ns_per_sample = Interval::of(times.remove(0));
     let per_light = |bytes: usize| bytes as f64 / lights.len().max(1) as f64;
     Ok(Checked {
         violation: bvh.validate().err().map(|violation| violation.to_string()),
@@ -265,7 +251,6 @@ mod tests {
         check::<Plain>(&scene, [0; 2], &lights, &points).expect("a tree")
     }
 
-    /// "0 lights that send light there are never chosen; variance of one sample 0.0000", of nothing.
     #[test]
     fn what_is_not_measured_has_no_figure() {
         let dark = checked(false);

@@ -23,11 +23,12 @@ use serde_json::{Value, json};
 
 use self::light_kinds::LightKinds;
 use self::motion::Motion;
-use self::options::{BackendName, Change};
+use self::options::Change;
 use self::report::Report;
 use self::steps::check;
 use self::subject::Source;
 use self::surfaces::Surfaces;
+use super::reading::BackendName;
 use super::{Context, Outcome, table};
 use crate::cli::measure::points;
 use crate::cli::table::news;

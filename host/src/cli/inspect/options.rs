@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 
-use crate::cli::reading::Reading;
+use crate::cli::reading::{BackendName, Reading};
 use lightbvh::requirements::{Layout, Model, Updates};
 
 #[derive(Debug, clap::Args)]
@@ -34,7 +34,7 @@ pub struct Args {
     pub updates: Option<UpdatesName>,
     /// Where lights are sampled; for devices, a model whose kernels are not compiled is refused.
     #[arg(long, value_enum, default_value_t = BackendName::Cpu)]
-    pub backend: BackendName,
+    pub(in crate::cli) backend: BackendName,
     /// Points on surfaces that probabilities are compared at; fewer for more than 131,072 lights.
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub points: u32,
@@ -86,12 +86,6 @@ pub enum UpdatesName {
     Instances,
     /// Triangles too: `Bvh`.
     Meshes,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum BackendName {
-    Cpu,
-    Vulkan,
 }
 
 impl Args {

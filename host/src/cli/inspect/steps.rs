@@ -18,8 +18,8 @@ use crate::error::HostError;
 /// Where probabilities may differ, the mean variance of a sample surely rises by no more than a twentieth.
 pub(super) const MOST_VARIANCE: f64 = 1.05;
 /// Rounds of timing, and about how many samples are taken in one.
-const TURNS: u32 = 21;
-const SAMPLES_IN_A_TURN: u32 = 40_000;
+pub(super) const TURNS: u32 = 21;
+pub(super) const SAMPLES_IN_A_TURN: u32 = 40_000;
 
 /// What a step promises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -237,7 +237,6 @@ mod tests {
         check(&requirements.model(), &args, &requirements, &source, &points).expect("trees")
     }
 
-    /// A variance of 0.0000 and a ratio of 1.000 [1.000, 1.000], of nothing.
     #[test]
     fn what_is_not_measured_has_no_figure() {
         for is_lit in [false, true] {

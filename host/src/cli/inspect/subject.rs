@@ -38,12 +38,12 @@ pub(super) trait Subject: Sync {
 
     fn choose(&self, point: &ShadingPoint, number: u32) -> SampledLight;
 
-    /// Samples each point `passes` times, by hashes of numbers from `first` on.
+    /// See [`time`].
     fn time(&self, points: &[ShadingPoint], first: u32, passes: u32) -> Duration;
 }
 
-/// The time that `sample` takes.
-fn time(
+/// The time that `sample` takes at each point `passes` times, by hashes of numbers from `first` on.
+pub(super) fn time(
     points: &[ShadingPoint],
     first: u32,
     passes: u32,

@@ -11,13 +11,6 @@ pub(in crate::cli) fn ms(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
-/// Time of `work`.
-pub(in crate::cli) fn timed(work: impl FnOnce()) -> Duration {
-    let start = Instant::now();
-    work();
-    start.elapsed()
-}
-
 /// Processor time that `work` takes on this thread, µs: waits and other programs are not in it. If the system has no such
 /// clock, elapsed time.
 pub(in crate::cli) fn thread_us<T>(work: impl FnOnce() -> T) -> (f64, T) {

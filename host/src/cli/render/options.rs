@@ -4,10 +4,15 @@ use std::ffi::OsString;
 use std::ops::Range;
 use std::path::PathBuf;
 
+use lightbvh_kernels::shading::candidates::MAX_SCATTERED;
+use lightbvh_kernels::shading::path::MAX_BOUNCES;
+use lightbvh_kernels::shading::pixel::MAX_CANDIDATES;
+
 use super::view::{CameraName, Up, camera};
 use crate::backend::Integrator;
 use crate::cli::frames;
 use crate::cli::reading::Reading;
+use crate::cli::reading::{BackendName, positive};
 use crate::error::HostError;
 use crate::method::{Builder, Importance, Method, Recipe, SampleBudget};
 
@@ -27,13 +32,13 @@ pub struct Args {
     #[arg(long, value_name = "A..B", value_parser = frames::parse, conflicts_with = "frame")]
     pub(super) animate: Option<Range<u32>>,
     /// Columns, 1 to 16384.
-    #[arg(long, default_value_t = 640)]
+    #[arg(long, default_value_t = 640, value_parser = clap::value_parser!(u32).range(1..=16_384))]
     pub(super) width: u32,
     /// Rows, 1 to 16384.
-    #[arg(long, default_value_t = 360)]
+    #[arg(long, default_value_t = 360, value_parser = clap::value_parser!(u32).range(1..=16_384))]
     pub(super) height: u32,
     /// Light samples per pixel, 1 to 65536.
-    #[arg(long, default_value_t = 16)]
+    #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub(super) spp: u32,
     /// Number of the scene's camera, from 0; `auto`: chosen by what is lit.
     #[arg(long, default_value = "0", value_name = "N|auto", value_parser = camera)]
@@ -57,7 +62,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE.hdr|FILE.exr")]
     pub(super) environment: Option<PathBuf>,
     /// Factor on the environment map's radiance.
-    #[arg(long, default_value_t = 1.0, value_parser = exposure, requires = "environment")]
+    #[arg(long, default_value_t = 1.0, value_parser = positive::<f32>, requires = "environment")]
     pub(super) environment_scale: f32,
     /// Show the mean of each texture, and neither glass nor cut-outs.
     #[arg(long)]
@@ -66,16 +71,16 @@ pub struct Args {
     #[arg(long, value_enum, default_value_t = Method::TwoLevelMoments)]
     pub(super) sampler: Method,
     /// Candidates of each light sample, 1 to 256 [default: 1; of two-level-moments-resampled, 8].
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_CANDIDATES)))]
     pub(super) candidates: Option<u32>,
     /// Reflected rays, 0 to 16, whose lights join the candidates: for lights seen in glossy surfaces.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=i64::from(MAX_SCATTERED)))]
     pub(super) scattered: u32,
     /// Light reflected once, or along whole paths.
     #[arg(long, value_enum, default_value_t = IntegratorName::Direct)]
     pub(super) integrator: IntegratorName,
     /// Most reflections of a path, 1 to 64, with --integrator path; 1 is direct lighting [default: 8].
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_BOUNCES)))]
     pub(super) bounces: Option<u32>,
     /// What lights of a BVH are chosen by: moments, or the paper's Eq. 4 [default: the sampler's].
     #[arg(long, value_enum)]
@@ -90,7 +95,7 @@ pub struct Args {
     #[arg(long, default_value_t = 0)]
     pub(super) seed: u32,
     /// Factor on radiance [default: chosen by the image, up to 1000]; EXR files are linear.
-    #[arg(long, value_parser = exposure)]
+    #[arg(long, value_parser = positive::<f32>)]
     pub(super) exposure: Option<f32>,
     /// The file to write: .png (tone-mapped) or .exr (linear).
     #[arg(short, long, value_name = "FILE.png|FILE.exr")]
@@ -110,14 +115,6 @@ fn place(text: &str) -> Result<[f32; 3], String> {
     }
 }
 
-/// A factor above zero.
-fn exposure(text: &str) -> Result<f32, String> {
-    let number = text.parse().ok();
-    number
-        .filter(|&number: &f32| number.is_finite() && number > 0.0)
-        .ok_or_else(|| format!("{text} is no finite number above 0"))
-}
-
 /// What light is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -126,12 +123,6 @@ pub(super) enum IntegratorName {
     Direct,
     /// Light along whole paths.
     Path,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum BackendName {
-    Cpu,
-    Vulkan,
 }
 
 /// What the options say of the method; the other ones are those of its name.

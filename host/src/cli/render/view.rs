@@ -34,10 +34,10 @@ pub(super) fn playing(scene: Scene, words: &[String]) -> Result<Scene, HostError
             value: idle,
             problem: format!("moves nothing of the scene: expected {}", none.expected),
         },
-        None => HostError::Word {
+        None => HostError::Refused {
             option: "--animation",
-            word: none.word,
-            expected: none.expected,
+            value: format!("{:?}", none.word),
+            problem: format!("names nothing: expected {}", none.expected),
         },
     })?;
     Ok(Scene::new(data)?)
@@ -75,15 +75,16 @@ pub(super) fn seen_by(scene: Scene, camera: CameraName) -> Result<Scene, HostErr
         }
     };
     if camera >= cameras {
-        return Err(HostError::Range {
+        let expected = match cameras {
+            0 => String::from(
+                "a scene with cameras, and it has none; leave the option out, or give --look-from and --look-at",
+            ),
+            _ => format!("0 to {}: the scene has {cameras}", cameras - 1),
+        };
+        return Err(HostError::Refused {
             option: "--camera",
-            value: camera as u64,
-            expected: match cameras {
-                0 => String::from(
-                    "a scene with cameras, and it has none; leave the option out, or give --look-from and --look-at",
-                ),
-                _ => format!("0 to {}: the scene has {cameras}", cameras - 1),
-            },
+            value: camera.to_string(),
+            problem: format!("is out of range: expected {expected}"),
         });
     }
     let mut data = scene.into_data();

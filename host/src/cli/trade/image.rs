@@ -13,6 +13,7 @@ use crate::cli::measure::{interval::Interval, reference::Reference};
 use crate::error::HostError;
 use crate::metrics::{self, Estimate, Judge, Quality, mean_squared_error};
 use crate::render::Film;
+use crate::workload::RenderSettings;
 
 /// Seeds from here on belong to the reference.
 const REFERENCE_SEED: u32 = 1 << 31;
@@ -77,20 +78,14 @@ impl Budget {
     }
 
     pub fn params(&self, samples: u32, seed: u32, background: [f32; 3]) -> RenderParams {
-        RenderParams {
+        let settings = RenderSettings {
+            frame: 0,
             width: self.width,
             height: self.height,
             samples,
-            first: 0,
-            all: 0,
-            candidates: 1,
-            scattered: 0,
-            part: 0,
-            parts: 1,
             seed,
-            jitter: 0,
-            background,
-        }
+        };
+        settings.params(background)
     }
 }
 

@@ -32,16 +32,12 @@ use self::steps::steps;
 use self::structure::structures;
 use self::subject::Axis;
 use self::update::{Frame, Updates};
-use super::range::{self, given};
-use super::reading::Reading;
+use super::reading::{Reading, positive};
 use super::{Context, Outcome, devices, table};
 use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::metrics::Judge;
 use crate::workload::lights_at;
-
-/// All frames up to the measured one are gone through.
-const MAX_FRAME: u64 = 10_000;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -54,19 +50,19 @@ pub(super) struct Args {
     #[arg(long, value_enum)]
     axes: Vec<Axis>,
     /// Last frame measured; trees are built at frame 0, images taken at a third and two thirds as well.
-    #[arg(long, default_value_t = 50)]
+    #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(..=10_000))]
     frame: u32,
     /// Size of the images, in place of 320x180, or 96x54 of --quick.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
-    /// Also write to this folder: trade.html with plots and images, trade.json, trade.md, trade-SCENE.svg.
+    /// Also write to this folder: trade.html with plots and images, trade.json.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["time", "error"])]
     out: Option<PathBuf>,
     /// Instead of a table, the least error in a frame of this many milliseconds, update and image.
-    #[arg(long, value_name = "MS", value_parser = positive, conflicts_with = "error", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MS", value_parser = positive::<f64>, conflicts_with = "error", allow_negative_numbers = true)]
     time: Option<f64>,
     /// Instead of a table, the fastest frame of this error: root mean square, a share of white.
-    #[arg(long, value_name = "E", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", value_parser = positive::<f64>, allow_negative_numbers = true)]
     error: Option<f64>,
     /// One scene, fewer turns, smaller images: within a minute; everything takes about half an hour.
     #[arg(long)]
@@ -87,7 +83,6 @@ impl Args {
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
-    range::check(&[given("--frame", args.frame, 0..=MAX_FRAME)])?;
     let mut budget = if args.quick { Budget::QUICK } else { Budget::FULL };
     if let Some((width, height)) = args.size {
         (budget.width, budget.height) = (width, height);
@@ -146,7 +141,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         "arithmetic": by_arithmetic,
     });
     if let (Some(report), Some(folder)) = (&report, &args.out) {
-        report.write(folder, &measured, args.frame, &all_points, &all_steps)?;
+        report.write(folder, &measured)?;
     }
     if context.json {
         table::print_json(&measured)?;
@@ -240,16 +235,8 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
     Ok((points, judge))
 }
 
-/// A finite number above zero.
-pub(super) fn positive(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok();
-    number
-        .filter(|&number: &f64| number.is_finite() && number > 0.0)
-        .ok_or_else(|| format!("{text} is no finite number above 0"))
-}
-
 /// `WxH`, pixels.
-pub(super) fn size(text: &str) -> Result<(u32, u32), String> {
+fn size(text: &str) -> Result<(u32, u32), String> {
     let range = 1..=4096;
     let parsed = text
         .split_once('x')

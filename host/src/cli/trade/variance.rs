@@ -104,7 +104,6 @@ mod tests {
     use super::*;
     use crate::cli::measure::tests::room;
 
-    /// Rows of 0.000 would say that all is perfect.
     #[test]
     fn what_is_not_measured_has_no_figure() {
         for is_lit in [false, true] {

@@ -1,22 +1,19 @@
-//! What was measured as one page, `trade.html`, which needs no network and no other file; as JSON; as Markdown and plots for
-//! documents.
+//! What was measured as one page, `trade.html`, which needs no network and no other file, and as JSON.
 
 pub(in crate::cli) mod machine;
 mod page;
 mod pictures;
-mod tables;
 mod tree;
 
 use std::path::Path;
 
 use image::ExtendedColorType;
 use lightbvh_kernels::bvh::Standard;
-use lightbvh_kernels::render::RenderParams;
 use serde::Serialize;
 use serde_json::Value;
 
 use self::machine::Made;
-use self::pictures::{Pictures, Room, pictures};
+use self::pictures::{Pictures, pictures};
 use self::tree::{Drawn, drawn};
 use super::point::Point;
 use super::update::{Followed, Frame, Update};
@@ -28,7 +25,7 @@ use crate::metrics::Judge;
 use crate::plot::png_url;
 use crate::render::Film;
 use crate::scene::Scene;
-use crate::workload::{arrays_at, lights_at};
+use crate::workload::{RenderSettings, arrays_at, lights_at};
 
 /// Rows of the picture that a tree is drawn over, and its shadow rays of a pixel.
 const ROWS: u32 = 300;
@@ -38,7 +35,7 @@ const RAYS: u32 = 48;
 pub(super) struct Report {
     made: Made,
     scenes: Vec<SceneShown>,
-    of_each: usize,
+    scene_count: usize,
 }
 
 /// What a page shows of a scene beside its points.
@@ -57,7 +54,7 @@ impl Report {
         Ok(Self {
             made: Made::now(),
             scenes: Vec::new(),
-            of_each: scenes,
+            scene_count: scenes,
         })
     }
 
@@ -78,20 +75,14 @@ impl Report {
         let columns = (ROWS * width / height).clamp(1, 4 * ROWS);
         let arrays = arrays_at(scene, frame, columns, ROWS)?;
         let mut backend = CpuBackend::<Standard, 8>::new(bvh);
-        let params = RenderParams {
+        let settings = RenderSettings {
+            frame,
             width: columns,
             height: ROWS,
             samples: RAYS,
-            first: 0,
-            all: 0,
-            candidates: 1,
-            scattered: 0,
-            part: 0,
-            parts: 1,
             seed: 0,
-            jitter: 0,
-            background: scene.frame(frame).background,
         };
+        let params = settings.params(scene.frame(frame).background);
         let image = backend.render(&arrays, &params, levels, Integrator::Direct)?;
         let film = Film::new(columns, ROWS, image.value)?;
         let shown = film.shown(judge.exposure());
@@ -99,30 +90,15 @@ impl Report {
         self.scenes.push(SceneShown {
             name: scene.name().to_owned(),
             lights: lights.triangles().len(),
-            pictures: pictures(points, judge, &mut Room::of_each(self.of_each))?,
+            pictures: pictures(points, judge, self.scene_count)?,
             tree: drawn(&backend.bvh().tree(), &arrays.camera, (columns, ROWS), picture),
         });
         Ok(())
     }
 
-    /// Writes `trade.json`, what `--json` prints and the machine, `trade.html`, `trade.md` and its plots into `folder`, each
-    /// whole or not at all.
-    pub fn write(
-        &self,
-        folder: &Path,
-        measured: &Value,
-        frame: u32,
-        points: &[Point],
-        steps: &[String],
-    ) -> Result<(), HostError> {
+    /// Writes `trade.json`, what `--json` prints and the machine, and `trade.html` into `folder`, each whole or not at all.
+    pub fn write(&self, folder: &Path, measured: &Value) -> Result<(), HostError> {
         let store = |name: &str, bytes: &[u8]| target::store(&folder.join(name), bytes);
-        for (name, plot) in tables::plots(points) {
-            store(&name, plot.svg().as_bytes())?;
-        }
-        store(
-            "trade.md",
-            tables::markdown(&self.made, frame, points, steps).as_bytes(),
-        )?;
         let json = |value: &Value| serde_json::to_string(value).map_err(std::io::Error::from);
         let mut measured = measured.clone();
         measured["made"] = serde_json::to_value(&self.made).map_err(std::io::Error::from)?;

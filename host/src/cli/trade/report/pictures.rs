@@ -39,35 +39,19 @@ pub(super) struct Picture {
     pub rays: u32,
 }
 
-/// What may still be written into a page.
-pub(super) struct Room(usize);
-
-impl Room {
-    /// A page's, shared among `scenes`.
-    pub fn of_each(scenes: usize) -> Self {
-        Self(MOST / scenes.max(1))
-    }
-
-    fn take(&mut self, characters: usize) -> bool {
-        let fits = characters <= self.0;
-        if fits {
-            self.0 -= characters;
-        }
-        fits
-    }
-}
-
-/// The default first, then the front, then the others, each as far as there is room.
-pub(super) fn pictures(points: &[Point], judge: &Judge, room: &mut Room) -> Result<Pictures, HostError> {
+/// The default first, then the front, then the others, each as far as there is room on a page of so many scenes.
+pub(super) fn pictures(points: &[Point], judge: &Judge, scenes: usize) -> Result<Pictures, HostError> {
     let (width, height) = judge.size();
     let reference = png_url(judge.shown(), (width, height), ExtendedColorType::Rgb8)?;
-    room.take(reference.len());
+    let mut room = (MOST / scenes.max(1)).saturating_sub(reference.len());
     let mut choices = vec![None; points.len()];
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by_key(|&at| (!points[at].default, !points[at].pareto));
     for at in order {
         let picture = picture(&points[at], judge)?;
-        if room.take(picture.image.len() + picture.flip.len() + picture.relative.len()) {
+        let characters = picture.image.len() + picture.flip.len() + picture.relative.len();
+        if characters <= room {
+            room -= characters;
             choices[at] = Some(picture);
         }
     }

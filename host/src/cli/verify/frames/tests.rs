@@ -7,7 +7,7 @@ use lightbvh_kernels::render::RenderParams;
 use super::*;
 use crate::backend::{Backend, BackendError, Bvh, CpuBackend, Integrator, Timed};
 use crate::cli::verify::tally::Tally;
-use crate::method::{UpdateTimes, runner};
+use crate::method::UpdateTimes;
 use crate::workload::arrays_at;
 use crate::workload::build;
 
@@ -123,7 +123,7 @@ fn found(wrong: Option<Kind>) -> Tally {
                 let params = BuildParams::paper(Heuristic::Saoh);
                 let bvh: Bvh<Paper, 4> = build(step.lights, Sampler::SingleLevel, &params);
                 let corrupt = Corrupt {
-                    inner: runner(METHOD, &step, Target::Cpu).expect("a runner"),
+                    inner: METHOD.recipe().runner(&step, Target::Cpu).expect("a runner"),
                     backend: CorruptBackend {
                         inner: CpuBackend::new(bvh),
                         wrong: None,
@@ -133,7 +133,7 @@ fn found(wrong: Option<Kind>) -> Tally {
                 };
                 lane.insert(Lane {
                     recipe: METHOD.recipe(),
-                    cpu: runner(METHOD, &step, Target::Cpu).expect("a runner"),
+                    cpu: METHOD.recipe().runner(&step, Target::Cpu).expect("a runner"),
                     devices: vec![Box::new(corrupt)],
                 })
             }
