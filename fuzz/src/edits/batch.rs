@@ -57,12 +57,11 @@ struct Staged {
     added: Vec<(MeshId, Transform, f32)>,
 }
 
-/// Applies a batch to the scene and its twin, and to the model if it is not refused; returns whether it was applied.
+/// Applies a batch to the scene, and to the model if it is not refused; returns whether it was applied.
 pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
     u: &mut Unstructured<'_>,
     model: &mut Model,
     scene: &mut Bvh<N, (), W>,
-    twin: Option<&mut Bvh<N, (), W>>,
     first: bool,
     thorough: bool,
 ) -> Result<bool> {
@@ -106,17 +105,8 @@ pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
         .filter(|placed| staged.model.gone_instances.contains(&placed.id))
         .map(|placed| placed.lights.clone())
         .collect();
-    let same = twin.map(|twin| {
-        let edits = edits.iter().map(|edit| named(edit, scene, twin)).collect();
-        let done = twin.apply(edits).map(|_| ()).map_err(|error| error.edit);
-        (done, twin.take_removed_lights())
-    });
     let done = scene.apply(edits);
     let told = scene.take_removed_lights();
-    if let Some(same) = same {
-        let done = done.as_ref().map(|_| ()).map_err(|error| error.edit);
-        assert_eq!(same, (done, told.clone()));
-    }
     match done {
         Ok(updated) => {
             assert!(
@@ -139,30 +129,6 @@ pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
             Ok(false)
         }
     }
-}
-
-/// An edit of a scene by the ids of its twin.
-fn named<N: LightNode<W>, const W: usize>(edit: &Edit, scene: &Bvh<N, (), W>, twin: &Bvh<N, (), W>) -> Edit {
-    let mut edit = edit.clone();
-    match &mut edit {
-        Edit::AddInstance { mesh, .. }
-        | Edit::SetTriangles { mesh, .. }
-        | Edit::SetTriangleRange { mesh, .. }
-        | Edit::RemoveMesh(mesh)
-            if scene.mesh_id(mesh.index()) == Some(*mesh) =>
-        {
-            *mesh = twin.mesh_id(mesh.index()).expect("as in the scene");
-        }
-        Edit::SetTransform { instance, .. }
-        | Edit::SetRadiance { instance, .. }
-        | Edit::RemoveInstance(instance)
-            if scene.instance_id(instance.index()) == Some(*instance) =>
-        {
-            *instance = twin.instance_id(instance.index()).expect("as in the scene");
-        }
-        _ => {}
-    }
-    edit
 }
 
 /// A refused batch changes nothing.
@@ -223,10 +189,6 @@ fn pick<T: Copy>(byte: u8, living: &[T], gone: &[T]) -> Option<T> {
         living
     };
     (!list.is_empty()).then(|| list[usize::from(byte) % list.len()])
-}
-
-fn known(condition: bool) -> Option<bool> {
-    Some(condition)
 }
 
 /// Whether all triangles are in the domain; those that are, brought into it.

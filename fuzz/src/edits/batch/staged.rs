@@ -14,7 +14,7 @@ impl Staged {
     pub fn add_mesh(&mut self, triangles: Vec<EmissiveTriangle>) -> (Edit, Verdict) {
         let (sound, all) = accepted(&triangles);
         let verdict = first_wrong(&[
-            (known(!triangles.is_empty()), wrong::EMPTY),
+            (Some(!triangles.is_empty()), wrong::EMPTY),
             (sound, wrong::LIGHT),
         ]);
         self.meshes.push(all);
@@ -29,7 +29,7 @@ impl Staged {
             None
         };
         let verdict = first_wrong(&[
-            (known(lives), wrong::MESH),
+            (Some(lives), wrong::MESH),
             (inside, wrong::TRANSFORM),
             (shines(radiance), wrong::RADIANCE),
         ]);
@@ -46,7 +46,7 @@ impl Staged {
         let mesh = self.placed(instance).map(|placed| placed.mesh);
         let inside = mesh.and_then(|mesh| within(&transform, self.model.triangles(mesh)));
         let verdict = first_wrong(&[
-            (known(mesh.is_some()), wrong::INSTANCE),
+            (Some(mesh.is_some()), wrong::INSTANCE),
             (inside, wrong::TRANSFORM),
         ]);
         if let Some(placed) = self.placed(instance) {
@@ -58,7 +58,7 @@ impl Staged {
     pub fn shine(&mut self, instance: InstanceId, radiance: f32) -> (Edit, Verdict) {
         let placed = self.placed(instance);
         let verdict = first_wrong(&[
-            (known(placed.is_some()), wrong::INSTANCE),
+            (Some(placed.is_some()), wrong::INSTANCE),
             (shines(radiance), wrong::RADIANCE),
         ]);
         if let Some(placed) = placed {
@@ -72,8 +72,8 @@ impl Staged {
         let old = self.model.meshes.iter().find(|mesh| mesh.id == id);
         let same = old.is_some_and(|mesh| mesh.triangles.len() == triangles.len());
         let mut conditions = vec![
-            (known(old.is_some()), wrong::MESH),
-            (known(same), wrong::COUNT),
+            (Some(old.is_some()), wrong::MESH),
+            (Some(same), wrong::COUNT),
             (sound, wrong::LIGHT),
         ];
         self.push_places(id, &all, &mut conditions);
@@ -97,8 +97,8 @@ impl Staged {
         let end = first as usize + triangles.len();
         let inside = old.as_ref().is_some_and(|mesh| end <= mesh.triangles.len());
         let mut conditions = vec![
-            (known(old.is_some()), wrong::MESH),
-            (known(inside), wrong::COUNT),
+            (Some(old.is_some()), wrong::MESH),
+            (Some(inside), wrong::COUNT),
             (sound, wrong::LIGHT),
         ];
         if let Some(mesh) = old.filter(|_| inside && sound == Some(true)) {
@@ -135,7 +135,7 @@ impl Staged {
         }
         (
             Edit::RemoveInstance(id),
-            first_wrong(&[(known(lives), wrong::INSTANCE)]),
+            first_wrong(&[(Some(lives), wrong::INSTANCE)]),
         )
     }
 
@@ -143,7 +143,7 @@ impl Staged {
         let lives = self.lives(id);
         let used = self.model.instances.iter().any(|placed| placed.mesh == id)
             || self.added.iter().any(|&(mesh, ..)| mesh == id);
-        let verdict = first_wrong(&[(known(lives), wrong::MESH), (known(!used), wrong::IN_USE)]);
+        let verdict = first_wrong(&[(Some(lives), wrong::MESH), (Some(!used), wrong::IN_USE)]);
         if lives && !used {
             self.model.meshes.retain(|mesh| mesh.id != id);
             self.model.gone_meshes.push(id);
