@@ -2,7 +2,7 @@
 //! share of all 2^32 words; on demand all of them.
 
 use lightbvh::exact::{hash, rsqrt};
-use lightbvh_fuzz::exact::{flushed, floors, integers, order, parts, quotient, reciprocals, root};
+use lightbvh_fuzz::exact::{floors, flushed, integers, order, parts, quotient, reciprocals, root};
 use rayon::prelude::*;
 
 const FRACTION: u32 = 0x007f_ffff;

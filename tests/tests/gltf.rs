@@ -2,7 +2,7 @@
 
 use lightbvh::light::TWO_SIDED;
 use lightbvh_host::scene::{Frame, Scene};
-use lightbvh_tests::gltf_files::{base64, busy, changed, png_white_black, push, read, read_json, triangle};
+use lightbvh_tests::gltf_files::{busy, changed, embedded, png_white_black, push, read, read_json, triangle};
 use serde_json::json;
 
 fn normal_z(frame: &Frame) -> f32 {
@@ -123,13 +123,13 @@ fn emissive_textures_are_averaged_per_triangle() {
         "materials": [{ "emissiveFactor": [1.0, 1.0, 0.5], "emissiveTexture": { "index": 0 } }],
         "textures": [{ "source": 0, "sampler": 0 }],
         "samplers": [{ "magFilter": 9728 }],
-        "images": [{ "uri": format!("data:image/png;base64,{}", base64(&png_white_black())) }],
+        "images": [{ "uri": embedded(&png_white_black()) }],
         "accessors": [
             { "bufferView": 0, "componentType": 5126, "count": 9, "type": "VEC3" },
             { "bufferView": 0, "byteOffset": 108, "componentType": 5126, "count": 9, "type": "VEC2" },
         ],
         "bufferViews": [{ "buffer": 0, "byteLength": bytes.len() }],
-        "buffers": [{ "byteLength": bytes.len(), "uri": format!("data:;base64,{}", base64(&bytes)) }],
+        "buffers": [{ "byteLength": bytes.len(), "uri": embedded(&bytes) }],
     });
     let scene = read_json(&root).expect("a sound file");
     let frame = scene.frame(0);

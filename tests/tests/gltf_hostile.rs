@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use lightbvh_host::scene::{Node, Scene, SceneData, SceneError};
-use lightbvh_tests::gltf_files::{base64, busy, changed, read, read_json, triangle};
+use lightbvh_tests::gltf_files::{busy, changed, embedded, read, read_json, triangle};
 use serde_json::{Value, json};
 
 #[test]
@@ -78,8 +78,8 @@ fn hostile_values_are_named() {
 fn nan_positions_and_bad_animations_are_named() {
     let mut bytes: Vec<u8> = [f32::NAN; 9].iter().flat_map(|x| x.to_le_bytes()).collect();
     bytes.extend([0, 0, 1, 0, 2, 0]);
-    let uri = format!("data:;base64,{}", base64(&bytes));
-    let error = read_json(&changed("/buffers/0/uri", json!(uri))).expect_err("NaN must be refused");
+    let error =
+        read_json(&changed("/buffers/0/uri", json!(embedded(&bytes)))).expect_err("NaN must be refused");
     assert!(matches!(error, SceneError::NotFinite { .. }), "{error}");
 
     let broken = |change: fn(&mut SceneData)| {

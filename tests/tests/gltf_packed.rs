@@ -1,7 +1,7 @@
 //! Compressed geometry and pictures in glTF files: the same scene as unpacked, or an error.
 
 use lightbvh_host::scene::Scene;
-use lightbvh_tests::gltf_files::{base64, read_json};
+use lightbvh_tests::gltf_files::{embedded, read_json};
 use meshoptimizer_rs::Workspace;
 use meshoptimizer_rs::codec::{
     ExpMode, IndexEncoding, VertexEncoding, encode_filter_exp, encode_index_buffer, encode_index_sequence,
@@ -63,7 +63,7 @@ fn file(data: &[u8], views: [Value; 2], index_type: u32) -> Value {
         ],
         "bufferViews": views,
         "buffers": [
-            { "byteLength": data.len(), "uri": format!("data:;base64,{}", base64(data)) },
+            { "byteLength": data.len(), "uri": embedded(data) },
             { "byteLength": 441 * 12 + 2400 * 4, "extensions": { "EXT_meshopt_compression": { "fallback": true } } },
         ],
     })
@@ -168,8 +168,7 @@ fn an_optional_compression_that_is_broken_leaves_the_plain_data() {
     let mut root = compressed("TRIANGLES", "NONE", 0);
     let mut plain = bytes(&positions);
     plain.resize(441 * 12 + 2400 * 4, 0);
-    root["buffers"][1] =
-        json!({ "byteLength": plain.len(), "uri": format!("data:;base64,{}", base64(&plain)) });
+    root["buffers"][1] = json!({ "byteLength": plain.len(), "uri": embedded(&plain) });
     root["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["byteLength"] = json!(100);
     let scene = read_json(&root).expect("the plain data are there");
     assert!(

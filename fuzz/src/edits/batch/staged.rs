@@ -13,10 +13,7 @@ impl Staged {
 
     pub fn add_mesh(&mut self, triangles: Vec<EmissiveTriangle>) -> (Edit, Verdict) {
         let (sound, all) = accepted(&triangles);
-        let verdict = first_wrong(&[
-            (Some(!triangles.is_empty()), wrong::EMPTY),
-            (sound, wrong::LIGHT),
-        ]);
+        let verdict = first_wrong(&[(Some(!triangles.is_empty()), wrong::EMPTY), (sound, wrong::LIGHT)]);
         self.meshes.push(all);
         (Edit::AddMesh { triangles }, verdict)
     }
