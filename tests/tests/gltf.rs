@@ -2,7 +2,9 @@
 
 use lightbvh::light::TWO_SIDED;
 use lightbvh_host::scene::{Frame, Scene};
-use lightbvh_tests::gltf_files::{busy, changed, embedded, png_white_black, push, read, read_json, triangle};
+use lightbvh_tests::gltf_files::{
+    bending, busy, changed, embedded, png_white_black, push, read, read_json, triangle,
+};
 use serde_json::json;
 
 fn normal_z(frame: &Frame) -> f32 {
@@ -160,10 +162,12 @@ fn emissive_textures_are_averaged_per_triangle() {
 
 #[test]
 fn every_kind_of_element_survives_the_way_through_glb() {
-    let scene = Scene::new(busy()).expect("a sound scene");
-    let back = read(&scene.to_glb().expect("it can be written")).expect("and read back");
-    for frame in 0..80 {
-        assert_eq!(scene.frame(frame), back.frame(frame), "frame {frame}");
+    for data in [busy(), bending()] {
+        let scene = Scene::new(data).expect("a sound scene");
+        let back = read(&scene.to_glb().expect("it can be written")).expect("and read back");
+        for frame in 0..80 {
+            assert_eq!(scene.frame(frame), back.frame(frame), "frame {frame}");
+        }
     }
 }
 

@@ -12,7 +12,7 @@ fn every_kind_and_paint_have_the_same_words_on_every_device() {
     });
 }
 
-/// That a device has the CPU's words of a scene, by every sampler, directly, of several candidates, by paths and by ReSTIR.
+/// That a device has the CPU's words of a scene, by every sampler, directly, of several candidates, and by paths.
 fn same_on(device: &Device, scene: &Scene) {
     let settings = RenderSettings {
         width: 40,
@@ -53,28 +53,6 @@ fn same_on(device: &Device, scene: &Scene) {
                 .expect("an image")
                 .value;
             same(&expected, &found, &what);
-        }
-        if sampler == Sampler::Uniform {
-            continue;
-        }
-        for combination in [Combination::Unbiased, Combination::Biased] {
-            let options = RestirOptions::new(sampler, combination);
-            let (mut here, mut there) = (Restir::new(options), Restir::new(options));
-            for frame in 0..3 {
-                let frame = RestirFrame {
-                    scene: &arrays,
-                    width: settings.width,
-                    height: settings.height,
-                    seed: frame,
-                    jitter: 0,
-                    background: [0.1; 3],
-                    remap: None,
-                };
-                let expected = cpu.restir(&mut here, &frame).expect("an image").value;
-                let found = other.restir(&mut there, &frame).expect("an image").value;
-                let what = format!("{} restir by {}, {combination:?}", device.name(), sampler.name());
-                same(&expected, &found, &what);
-            }
         }
     }
 }
