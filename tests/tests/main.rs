@@ -1,5 +1,4 @@
-//! All tests of this package, one module per concern, in one program: forty-nine of them repeat each other's compilation, and
-//! took that of the whole workspace a fifth longer.
+//! All tests of this package in one program, a module for each concern: programs repeat each other's compilation.
 
 mod bounds;
 mod broken_kernels;
