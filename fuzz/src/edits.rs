@@ -1,25 +1,23 @@
 //! Scenes under any edits, with trees that are built in the background.
 
 mod batch;
-mod mirror;
 mod model;
 mod placing;
 
 use arbitrary::{Result, Unstructured};
-use lightbvh::bvh::Swap;
+use lightbvh::bvh::{Cursor, Swap};
 use lightbvh::{
-    Bvh, CompactNode, Eq4, INVALID, ImportanceModel, InstanceId, LightNode, MomentNode, Moments, Rebuilder,
+    Bvh, CompactNode, Eq4, INVALID, ImportanceModel, LightNode, MomentNode, Moments, Rebuilder,
     RebuilderParams, ShadingPoint,
 };
 
-use self::mirror::Mirror;
 use self::model::Model;
 use crate::{Forms, input};
 
 /// Adds, moves, dims, deforms and removes meshes and instances, in batches that may hold refused edits, while trees are
 /// built in the background. A refused batch changes nothing and names an edit that is wrong. Until the refit no sample names a
-/// removed light. After every frame the scene is valid, and its lights are where the edits put them. Mirrors that follow its
-/// plans, and a twin read from its words, have its words. In the end a scene built from scratch holds the same.
+/// removed light. After every frame the scene is valid, its lights are where the edits put them, and its words are read as they were
+/// written.
 pub fn edits(data: &[u8], forms: Forms) {
     for form in forms.of(data, 4) {
         let u = &mut Unstructured::new(data);
@@ -38,9 +36,7 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
 ) -> Result<()> {
     let mut scene = Bvh::<N, (), W>::new(input::params(u)?);
     let mut model = Model::default();
-    // One follows in every frame, one in some.
-    let mut mirrors = [Mirror::default(), Mirror::default()];
-    let mut twin: Option<Bvh<N, (), W>> = None;
+    let mut cursor = Cursor::default();
     let mut rebuilder: Option<Rebuilder<N, W>> = None;
     let count = 1 + u.arbitrary::<u8>()? % 8;
     for frame in 0..count {
@@ -48,34 +44,21 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
         // Comparing all that a scene is takes its time.
         let thorough = forms == Forms::All || bits & 0xf0 == 0;
         let mut is_swapped = bits & 1 != 0 && begin(&mut rebuilder, &mut scene);
-        twin = twin.filter(|_| !is_swapped);
-        let is_done = batch::edit(u, &mut model, &mut scene, twin.as_mut(), frame == 0, thorough)?;
-        if bits & 2 != 0 && begin(&mut rebuilder, &mut scene) {
-            (is_swapped, twin) = (true, None);
-        }
+        let is_done = batch::edit(u, &mut model, &mut scene, frame == 0, thorough)?;
+        is_swapped |= bits & 2 != 0 && begin(&mut rebuilder, &mut scene);
         let point = place(u, &scene)?;
         let random: u32 = u.arbitrary()?;
         before_refit::<N, I, W>(&model, &scene, &point, random);
         let is_rebuilt = bits & 12 == 12;
-        for own in [Some(&mut scene), twin.as_mut()].into_iter().flatten() {
-            match is_rebuilt {
-                true => own.rebuild(),
-                false => own.refit(),
-            }
+        match is_rebuilt {
+            true => scene.rebuild(),
+            false => scene.refit(),
         }
         check(&model, &scene);
-        if let Some(twin) = &twin {
-            assert!(twin.to_words() == scene.to_words(), "a twin goes on alike");
-        }
-        let plan = mirrors[0].follow(&scene);
-        mirrors[0].check::<I, W>(&scene, &point, random);
+        let plan = scene.plan(&mut cursor);
         if !is_done && !is_swapped && !is_rebuilt && frame > 0 {
             let written = plan.written_nodes.len() + plan.written_top.len() + plan.written_instances.len();
             assert_eq!((plan.computed(), written), (0, 0), "nothing changed");
-        }
-        if bits & 16 != 0 {
-            mirrors[1].follow(&scene);
-            mirrors[1].check::<I, W>(&scene, &point, random);
         }
         if bits & 32 != 0 {
             let bits: u8 = u.arbitrary()?;
@@ -91,9 +74,8 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
         }
         if bits & 64 != 0 {
             let words = scene.to_words();
-            let read = Bvh::from_words(&words).unwrap_or_else(|error| panic!("{error}"));
+            let read = Bvh::<N, (), W>::from_words(&words).unwrap_or_else(|error| panic!("{error}"));
             assert!(read.to_words() == words);
-            twin = Some(read);
         }
     }
     for _ in 0..3 {
@@ -101,14 +83,7 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
         scene.refit();
         check(&model, &scene);
     }
-    sampled::<N, I, W>(u, &model, &scene)?;
-
-    let (scratch, ids) = model.from_scratch::<N, W>();
-    let mut anew = model.clone();
-    anew.renamed(&ids, &scratch);
-    check(&anew, &scratch);
-    assert_eq!(scene.light_count(), scratch.light_count());
-    sampled::<N, I, W>(u, &anew, &scratch)
+    sampled::<N, I, W>(u, &model, &scene)
 }
 
 /// Begins a frame of the rebuilder; returns whether anything was swapped in.
@@ -212,6 +187,3 @@ fn sampled<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     }
     Ok(())
 }
-
-/// Ids of instances, for the model.
-type Ids = Vec<InstanceId>;

@@ -87,6 +87,7 @@ fn related(u: &mut Unstructured<'_>, a: f32, b: f32) -> Result<(f32, f32)> {
 }
 
 /// A subnormal number as zero of its sign.
+#[inline]
 fn normal_or_zero(x: f32) -> f32 {
     if x.abs() < f32::MIN_POSITIVE {
         0f32.copysign(x)
@@ -95,7 +96,9 @@ fn normal_or_zero(x: f32) -> f32 {
     }
 }
 
-fn quotient(a: f32, b: f32) {
+/// Both forms of division are the IEEE quotient, without subnormal numbers in or out.
+#[inline]
+pub fn quotient(a: f32, b: f32) {
     if normal_or_zero(b) == 0.0 {
         return;
     }
@@ -121,7 +124,9 @@ fn quotient(a: f32, b: f32) {
     );
 }
 
-fn root(x: f32) {
+/// Both forms of the square root are IEEE's; +0 below the normal numbers.
+#[inline]
+pub fn root(x: f32) {
     let expected = if x < f32::MIN_POSITIVE { 0.0 } else { x.sqrt() }.to_bits();
     let twice = if x < f32::MIN_POSITIVE {
         0.0
@@ -138,7 +143,8 @@ fn root(x: f32) {
 }
 
 /// The cheap ones, against the bounds in their documentation.
-fn reciprocals(x: f32) {
+#[inline]
+pub fn reciprocals(x: f32) {
     let off = |found: f32, exact: f64| (f64::from(found) / exact - 1.0).abs();
     let magnitude = x.abs();
     if (f32::MIN_POSITIVE..=2f32.powi(125)).contains(&magnitude) {
@@ -154,7 +160,8 @@ fn reciprocals(x: f32) {
 }
 
 /// Exponent and significand make the number again.
-fn parts(x: f32) {
+#[inline]
+pub fn parts(x: f32) {
     let e = exact::exponent(x);
     if x.abs() < f32::MIN_POSITIVE {
         assert_eq!(e, -127, "{x:e}");
@@ -166,7 +173,9 @@ fn parts(x: f32) {
     assert_eq!(f64::from(s) * 2f64.powi(e), f64::from(x.abs()));
 }
 
-fn floors(x: f32) {
+/// Floors to integers, where they are defined.
+#[inline]
+pub fn floors(x: f32) {
     if (0.0..=16_777_216.0).contains(&x) {
         assert_eq!(f64::from(exact::floor_u32(x)), f64::from(x).floor(), "{x:e}");
     }
@@ -175,7 +184,9 @@ fn floors(x: f32) {
     }
 }
 
-fn order(a: f32, b: f32, c: f32) {
+/// The least and greatest of two, their order as keys, and a number clamped between them.
+#[inline]
+pub fn order(a: f32, b: f32, c: f32) {
     // Of equal ones the second, which matters for zeros.
     let (less, more) = (if a < b { a } else { b }, if a > b { a } else { b });
     assert_eq!(exact::min(a, b).to_bits(), less.to_bits(), "min {a:e} {b:e}");
@@ -196,7 +207,9 @@ fn order(a: f32, b: f32, c: f32) {
     }
 }
 
-fn flushed(x: f32, tiny: f32) {
+/// Zero below `tiny`, else the number.
+#[inline]
+pub fn flushed(x: f32, tiny: f32) {
     let expected = if x.abs() < tiny { 0.0 } else { x };
     assert_eq!(
         exact::flush(x, tiny).to_bits(),
@@ -205,7 +218,9 @@ fn flushed(x: f32, tiny: f32) {
     );
 }
 
-fn integers([a, b]: [u32; 2]) {
+/// The hash is a permutation; unit floats and powers of two are exact.
+#[inline]
+pub fn integers([a, b]: [u32; 2]) {
     assert_eq!(exact::hash(a) == exact::hash(b), a == b, "a permutation");
     let unit = exact::unit_f32(a);
     assert_eq!(f64::from(unit), f64::from(a >> 8) / 16_777_216.0, "{a:08x}");

@@ -5,7 +5,7 @@
 
 mod build_validate;
 mod edits;
-mod exact;
+pub mod exact;
 #[cfg(feature = "gltf")]
 mod gltf;
 pub mod input;

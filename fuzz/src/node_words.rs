@@ -29,8 +29,8 @@ impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W> for Coun
     }
 }
 
-/// Bytes as the arrays of a tree: whatever they are, sampling, pmf and refit return, after no more steps than the tree is said
-/// to be deep.
+/// Bytes as the arrays of a tree: whatever they are, sampling, pmf, refit and maps of instances return, after no more steps than the
+/// tree is said to be deep; no point is mapped to infinity.
 pub fn node_words(data: &[u8], forms: Forms) {
     fn run<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         u: &mut Unstructured<'_>,
@@ -92,6 +92,19 @@ pub fn node_words(data: &[u8], forms: Forms) {
             (sampled.light, INVALID),
         ] {
             counted(tree.pmf(&point, light, instance));
+        }
+        for instance in &instances {
+            let local = instance.to_local(&point);
+            assert!(
+                local.p.iter().all(|x| !x.is_infinite()),
+                "{local:?} of {instance:?}"
+            );
+            let _ = (
+                instance.vertex([1.0; 3]),
+                instance.light_of(light),
+                instance.triangle_of(light),
+            );
+            triangles.iter().for_each(|own| _ = instance.triangle(own, light));
         }
         for i in 0..nodes.len() as u32 {
             let _ = refit::bottom(&nodes, &triangles, i);

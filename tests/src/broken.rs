@@ -32,20 +32,6 @@ pub enum Variant {
     FlushedNormal,
 }
 
-impl Variant {
-    /// All of them.
-    pub const ALL: [Self; 8] = [
-        Self::Unchanged,
-        Self::Undecorated,
-        Self::Fma,
-        Self::Contracted,
-        Self::Reassociated,
-        Self::Truncated,
-        Self::FlushedSubnormal,
-        Self::FlushedNormal,
-    ];
-}
-
 /// The committed module `name` as `variant` has it.
 ///
 /// # Panics

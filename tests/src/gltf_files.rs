@@ -1,5 +1,8 @@
 //! Small glTF files and scenes for the tests of the loader.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use image::{ExtendedColorType, ImageFormat};
 use lightbvh_host::scene::{
     Animation, Camera, Channel, Influence, Interpolation, Material, Mesh, Node, Primitive, Property, Scene,
     SceneData, SceneError, Skin, Transform,
@@ -20,26 +23,6 @@ pub fn read(bytes: &[u8]) -> Result<Scene, SceneError> {
 /// As the loader.
 pub fn read_json(root: &Value) -> Result<Scene, SceneError> {
     read(root.to_string().as_bytes())
-}
-
-/// Base64 as in RFC 4648, for buffers inside JSON.
-#[must_use]
-pub fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::new();
-    for chunk in bytes.chunks(3) {
-        let word = [0, 1, 2].map(|i| u32::from(chunk.get(i).copied().unwrap_or(0)));
-        let word = word[0] << 16 | word[1] << 8 | word[2];
-        for digit in 0..4 {
-            let filled = digit <= chunk.len();
-            text.push(if filled {
-                char::from(DIGITS[(word >> (18 - 6 * digit) & 63) as usize])
-            } else {
-                '='
-            });
-        }
-    }
-    text
 }
 
 /// One emissive triangle with vertices (0,0,0), (1,0,0), (0,1,0) and indices 0 1 2 behind them.
@@ -66,7 +49,7 @@ pub fn triangle() -> Value {
             { "buffer": 0, "byteOffset": 36, "byteLength": 6 },
         ],
         "buffers": [
-            { "byteLength": 42, "uri": format!("data:application/octet-stream;base64,{}", base64(&bytes)) },
+            { "byteLength": 42, "uri": embedded(&bytes) },
         ],
     })
 }
@@ -84,46 +67,23 @@ pub fn changed(pointer: &str, value: Value) -> Value {
     root
 }
 
-/// A 2 by 1 PNG: left texel white, right texel black (stored blocks, by hand, so that no encoder is needed).
+/// A 2 by 1 PNG: left texel white, right texel black.
+///
+/// # Panics
+/// If it cannot be encoded.
 #[must_use]
 pub fn png_white_black() -> Vec<u8> {
-    fn crc(bytes: &[u8]) -> u32 {
-        let mut crc = !0_u32;
-        for &byte in bytes {
-            crc ^= u32::from(byte);
-            for _ in 0..8 {
-                crc = if crc & 1 == 1 {
-                    crc >> 1 ^ 0xedb8_8320
-                } else {
-                    crc >> 1
-                };
-            }
-        }
-        !crc
-    }
-    fn adler(bytes: &[u8]) -> u32 {
-        let (mut a, mut b) = (1_u32, 0_u32);
-        for &byte in bytes {
-            a = (a + u32::from(byte)) % 65_521;
-            b = (b + a) % 65_521;
-        }
-        b << 16 | a
-    }
-    let mut png = b"\x89PNG\r\n\x1a\n".to_vec();
-    let mut chunk = |kind: &[u8; 4], content: &[u8]| {
-        png.extend((content.len() as u32).to_be_bytes());
-        let body = [kind.as_slice(), content].concat();
-        png.extend(&body);
-        png.extend(crc(&body).to_be_bytes());
-    };
-    chunk(b"IHDR", &[0, 0, 0, 2, 0, 0, 0, 1, 8, 2, 0, 0, 0]);
-    let row = [0, 255, 255, 255, 0, 0, 0];
-    let mut stream = vec![0x78, 0x01, 1, 7, 0, 248, 255];
-    stream.extend(row);
-    stream.extend(adler(&row).to_be_bytes());
-    chunk(b"IDAT", &stream);
-    chunk(b"IEND", &[]);
-    png
+    let mut png = std::io::Cursor::new(Vec::new());
+    image::write_buffer_with_format(
+        &mut png,
+        &[255, 255, 255, 0, 0, 0],
+        2,
+        1,
+        ExtendedColorType::Rgb8,
+        ImageFormat::Png,
+    )
+    .expect("encoded");
+    png.into_inner()
 }
 
 /// Appends to a list of a file.
@@ -137,7 +97,7 @@ pub fn push(list: &mut Value, value: Value) {
 /// `bytes` as the uri of an embedded buffer or picture.
 #[must_use]
 pub fn embedded(bytes: &[u8]) -> String {
-    format!("data:;base64,{}", base64(bytes))
+    format!("data:;base64,{}", STANDARD.encode(bytes))
 }
 
 /// Two nodes, one swinging on the other, every interpolation, a camera, radiance per triangle, a matrix node.

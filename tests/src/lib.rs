@@ -3,13 +3,14 @@
 pub mod broken;
 pub mod devices;
 pub mod direct;
-pub mod edits;
 pub mod generate;
 pub mod gltf_files;
 pub mod layouts;
 pub mod oracle;
 pub mod placing;
+pub mod scenes;
 pub mod self_test;
 pub mod slowed;
 pub mod soup;
 pub mod statistics;
+pub mod world;

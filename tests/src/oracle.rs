@@ -5,15 +5,9 @@ use glam::DVec3;
 use lightbvh::cone::Cone;
 use lightbvh::node::kind;
 use lightbvh::trail::leaf_parts;
-use lightbvh::{
-    BuildParams, Bvh, EmissiveTriangle, ImportanceModel, LightBounds, LightNode, LightTree, Lights,
-    ShadingPoint, Transform,
-};
-pub use lightbvh_fuzz::input::{pmf_of, sum_is_one, sum_tolerance};
-pub use lightbvh_host::stability::geometry::{Triangle, can_contribute, vector};
-
-use crate::generate::Random;
-use crate::statistics::{chi_squared, chi_squared_quantile};
+use lightbvh::{BuildParams, Bvh, ImportanceModel, LightBounds, LightNode, LightTree, Lights, ShadingPoint};
+pub use lightbvh_fuzz::input::{pmf_of, sum_is_one};
+pub use lightbvh_host::stability::geometry::{Triangle, vector};
 
 /// The angle between two vectors of any length, precise at every angle.
 #[must_use]
@@ -59,35 +53,6 @@ pub fn all_pmfs<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     (0..lights.triangles().len() as u32)
         .map(|i| pmf_of::<_, I, _>(bvh, lights, point, i))
         .collect()
-}
-
-/// Asserts that `samples` draws at `point` are as often of each light as its probability says, by χ² with a tail of 1e-6; returns
-/// how often each was drawn.
-///
-/// # Panics
-/// If they are not.
-pub fn assert_frequencies<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &Bvh<N, impl Sized, W>,
-    lights: &Lights,
-    point: &ShadingPoint,
-    samples: u32,
-    seed: u32,
-) -> Vec<u64> {
-    let random = &mut Random::new(seed);
-    let pmfs = all_pmfs::<N, I, W>(bvh, lights, point);
-    let expected: Vec<f64> = pmfs.into_iter().map(f64::from).collect();
-    let mut observed = vec![0_u64; expected.len()];
-    for _ in 0..samples {
-        observed[bvh.by::<I>().sample(point, random.bits()).light as usize] += 1;
-    }
-    let (statistic, degrees) = chi_squared(&observed, &expected);
-    let threshold = chi_squared_quantile(degrees, 1e-6);
-    assert!(
-        statistic < threshold,
-        "{} {W}: χ² {statistic} of {degrees} degrees, threshold {threshold}, at {point:?}",
-        N::NAME
-    );
-    observed
 }
 
 /// Asserts that pmfs are probabilities, and sum to one.
@@ -157,41 +122,4 @@ pub fn assert_cone_contains(outer: Cone, inner: Cone, what: &str) {
 #[must_use]
 pub fn box_contains(outer: &LightBounds, inner: &LightBounds) -> bool {
     outer.min.cmple(inner.min).all() && inner.max.cmple(outer.max).all()
-}
-
-/// Entries of maps and coordinates in a mesh's space below this count as zero: 2^-60.
-const TINY: f64 = 1.0 / 1_152_921_504_606_846_976.0;
-
-/// Asserts that `world` is `local` under the map: off by four roundings of 2^-24 of its terms; by what counts as zero, of an entry
-/// or a coordinate, times the other of the two; and by the result's own zero, 2^-100. Two vertices are exchanged where it mirrors;
-/// of a map as flat as f64 can tell, either way round.
-///
-/// # Panics
-/// If it is not.
-pub fn assert_mapped(map: &Transform, local: &EmissiveTriangle, world: &EmissiveTriangle) {
-    let near = |order: [usize; 3]| {
-        order.iter().zip(&world.p).all(|(&vertex, found)| {
-            let p = local.p[vertex];
-            let entries: f64 = map.columns.iter().flatten().map(|x| f64::from(x.abs())).sum();
-            let along: f64 = p.iter().map(|x| f64::from(x.abs())).sum();
-            (0..3).all(|row| {
-                let mut terms = [0.0, 0.0, 0.0, f64::from(map.translation[row])];
-                for k in 0..3 {
-                    terms[k] = f64::from(map.columns[k][row]) * f64::from(p[k]);
-                }
-                let size: f64 = terms.iter().map(|x| x.abs()).sum();
-                let tolerance = size * 2f64.powi(-22) + TINY * (entries + along) + 2f64.powi(-98);
-                (terms.iter().sum::<f64>() - f64::from(found[row])).abs() <= tolerance
-            })
-        })
-    };
-    let [x, y, z] = map.columns.map(vector);
-    let determinant = x.cross(y).dot(z);
-    let unclear = determinant.abs() <= 1e-12 * x.length() * y.length() * z.length();
-    let (straight, mirrored) = (near([0, 1, 2]), near([0, 2, 1]));
-    let expected = if determinant < 0.0 { mirrored } else { straight };
-    assert!(
-        expected || unclear && (straight || mirrored),
-        "{local:?} under {map:?} is {world:?}"
-    );
 }

@@ -12,7 +12,7 @@ use lightbvh::summary::Lanes;
 use lightbvh::{BoundsNode, CompactNode, EmissiveTriangle, Node};
 
 /// Number of tests that may use [`Slowed`] in one program; each needs a number of its own.
-pub const TESTS: usize = 5;
+pub const TESTS: usize = 3;
 
 /// What happens to nodes on threads that are not [`spared`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -4,7 +4,7 @@
 use std::sync::OnceLock;
 
 use bytemuck::cast_slice;
-use lightbvh::{BuildParams, Lights};
+use lightbvh::BuildParams;
 use lightbvh_host::backend::{
     Backend, Bvh, CpuBackend, DeviceBackend, Follow, PMF_RECORD, SAMPLED_RECORD, Sampler,
 };
@@ -13,7 +13,6 @@ use lightbvh_host::vulkan::{Device, DeviceInfo, Exactness, Options};
 use lightbvh_host::words::compare_words;
 use lightbvh_host::workload::{arrays_at, build, lights_at, queries};
 use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice, WIDTH};
-use lightbvh_kernels::query::Query;
 use lightbvh_kernels_builder::verify::verify;
 use lightbvh_tests::broken::{Variant, module};
 use lightbvh_tests::devices::{devices, open};
@@ -66,25 +65,17 @@ fn see(info: &DeviceInfo, variant: Variant) -> Seen {
     seen
 }
 
-/// The same of a built-in scene, its trees built at one frame and refitted to another.
+/// Of a built-in scene, its trees built at one frame and refitted to another, as `lightbvh verify`: differing words of nodes, of
+/// samples and of pmfs.
 fn different<C: TriangleChoice<W>, const W: usize>(device: &Device) -> [u64; 3] {
     let scene = Scene::open("street").expect("a built-in scene");
     let lights = [0, 40].map(|frame| lights_at(&scene, frame).expect("lights"));
     let bvh: Bvh<C, W> = build(&lights[0], Sampler::TwoLevel, &BuildParams::default());
     let arrays = arrays_at(&scene, 40, 16, 16).expect("arrays");
-    different_of::<C, W>(device, &bvh, &lights[1], queries(&arrays, 1, 0, QUERIES))
-}
-
-/// As `lightbvh verify`: differing words of nodes after a refit to `later`, of samples and of pmfs.
-pub fn different_of<C: TriangleChoice<W>, const W: usize>(
-    device: &Device,
-    bvh: &Bvh<C, W>,
-    later: &Lights,
-    mut asked: Vec<Query>,
-) -> [u64; 3] {
+    let mut asked = queries(&arrays, 1, 0, QUERIES);
     let mut cpu = CpuBackend::<C, W>::new(bvh.clone());
-    let mut other = DeviceBackend::<C, W>::new(device, bvh).expect("an upload");
-    cpu.bvh_mut().follow(later).expect("the same lights");
+    let mut other = DeviceBackend::<C, W>::new(device, &bvh).expect("an upload");
+    cpu.bvh_mut().follow(&lights[1]).expect("the same lights");
     let nodes = cpu.nodes().expect("nodes");
     other.follow(cpu.bvh()).expect("copies and a refit");
     let found = other.nodes().expect("nodes");

@@ -1,4 +1,4 @@
-//! Sampled directions have exactly the density that is told of them.
+//! Sampled directions have exactly the density that is told of them; reflectances add no energy and are reciprocal.
 
 use glam::{DVec3, Vec3};
 use lightbvh_kernels::shading::lobe::{about, circle, cosine_power, power_cosine};
@@ -267,11 +267,23 @@ fn told_densities_are_the_formula_s() {
     assert!(seen > 60_000, "{seen}");
 }
 
+/// The part of light from everywhere that is reflected to `wo`, by quadrature with `side`² points.
+fn albedo(material: &Material, wo: Vec3, side: u32) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..side * side {
+        // Uniform in the square of the sine: the cosine cancels.
+        let squared = (f64::from(i / side) + 0.5) / f64::from(side);
+        let turns = (f64::from(i % side) + 0.5) / f64::from(side);
+        let wi = direction((1.0 - squared).sqrt(), turns).as_vec3();
+        sum += f64::from(material.eval(Vec3::Z, wi, wo).x) * PI;
+    }
+    sum / f64::from(side * side)
+}
+
 /// The mean of what a sampled direction carries is the albedo, here by quadrature; nowhere above one.
 #[test]
 fn sampled_furnaces_have_the_albedo() {
     const SAMPLES: u32 = 200_000;
-    const SIDE: u32 = 600;
     let mut random = Random::new(9);
     for (m, cos_o) in [
         (material(0.8, 0.0, 0), 0.3),
@@ -292,15 +304,7 @@ fn sampled_furnaces_have_the_albedo() {
             };
             mean.add(carried);
         }
-        let mut albedo = 0.0;
-        for i in 0..SIDE * SIDE {
-            // Uniform in the square of the sine: the cosine cancels.
-            let squared = (f64::from(i / SIDE) + 0.5) / f64::from(SIDE);
-            let turns = (f64::from(i % SIDE) + 0.5) / f64::from(SIDE);
-            let wi = direction((1.0 - squared).sqrt(), turns).as_vec3();
-            albedo += f64::from(m.eval(Vec3::Z, wi, wo).x) * PI;
-        }
-        albedo /= f64::from(SIDE * SIDE);
+        let albedo = albedo(&m, wo, 600);
         let tolerance = normal_quantile(TAIL) * mean.error() + 1e-4;
         assert!(
             (mean.mean() - albedo).abs() <= tolerance,
@@ -309,6 +313,37 @@ fn sampled_furnaces_have_the_albedo() {
             mean.error()
         );
         assert!(albedo <= 1.0 + 1e-3);
+    }
+}
+
+/// No gloss reflects more than arrives, nor loses much of what falls straight on it.
+#[test]
+fn materials_reflect_no_more_than_arrives() {
+    for exponent_log2 in 0..=10 {
+        let gloss = material(1.0, 1.0, exponent_log2);
+        for cosine in [1.0, 0.9, 0.5, 0.1] {
+            let found = albedo(&gloss, direction(cosine, 0.0).as_vec3(), 400);
+            assert!(found <= 1.0 + 2e-3, "2^{exponent_log2} at {cosine}: {found}");
+            assert!(
+                found > 0.79 || cosine < 1.0,
+                "2^{exponent_log2} loses too much: {found}"
+            );
+        }
+    }
+    let white = albedo(&material(1.0, 0.0, 0), direction(0.5, 0.0).as_vec3(), 400);
+    assert!((white - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn materials_are_reciprocal() {
+    let mut random = Random::new(3);
+    let material = material(0.8, 0.3, 5);
+    for _ in 0..1000 {
+        let [a, b] = [0; 2].map(|_| {
+            let [x, y, z] = random.direction();
+            Vec3::new(x, y, z.abs())
+        });
+        assert_eq!(material.eval(Vec3::Z, a, b), material.eval(Vec3::Z, b, a));
     }
 }
 

@@ -2,7 +2,9 @@
 
 use lightbvh::light::TWO_SIDED;
 use lightbvh_host::scene::{Frame, Scene};
-use lightbvh_tests::gltf_files::{base64, busy, changed, png_white_black, push, read, read_json, triangle};
+use lightbvh_tests::gltf_files::{
+    bending, busy, changed, embedded, png_white_black, push, read, read_json, triangle,
+};
 use serde_json::json;
 
 fn normal_z(frame: &Frame) -> f32 {
@@ -123,13 +125,13 @@ fn emissive_textures_are_averaged_per_triangle() {
         "materials": [{ "emissiveFactor": [1.0, 1.0, 0.5], "emissiveTexture": { "index": 0 } }],
         "textures": [{ "source": 0, "sampler": 0 }],
         "samplers": [{ "magFilter": 9728 }],
-        "images": [{ "uri": format!("data:image/png;base64,{}", base64(&png_white_black())) }],
+        "images": [{ "uri": embedded(&png_white_black()) }],
         "accessors": [
             { "bufferView": 0, "componentType": 5126, "count": 9, "type": "VEC3" },
             { "bufferView": 0, "byteOffset": 108, "componentType": 5126, "count": 9, "type": "VEC2" },
         ],
         "bufferViews": [{ "buffer": 0, "byteLength": bytes.len() }],
-        "buffers": [{ "byteLength": bytes.len(), "uri": format!("data:;base64,{}", base64(&bytes)) }],
+        "buffers": [{ "byteLength": bytes.len(), "uri": embedded(&bytes) }],
     });
     let scene = read_json(&root).expect("a sound file");
     let frame = scene.frame(0);
@@ -160,10 +162,12 @@ fn emissive_textures_are_averaged_per_triangle() {
 
 #[test]
 fn every_kind_of_element_survives_the_way_through_glb() {
-    let scene = Scene::new(busy()).expect("a sound scene");
-    let back = read(&scene.to_glb().expect("it can be written")).expect("and read back");
-    for frame in 0..80 {
-        assert_eq!(scene.frame(frame), back.frame(frame), "frame {frame}");
+    for data in [busy(), bending()] {
+        let scene = Scene::new(data).expect("a sound scene");
+        let back = read(&scene.to_glb().expect("it can be written")).expect("and read back");
+        for frame in 0..80 {
+            assert_eq!(scene.frame(frame), back.frame(frame), "frame {frame}");
+        }
     }
 }
 

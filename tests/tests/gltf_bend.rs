@@ -54,15 +54,6 @@ fn weights_of_targets_follow_gltf() {
 }
 
 #[test]
-fn what_bends_survives_the_way_through_glb() {
-    let scene = Scene::new(bending()).expect("a sound scene");
-    let back = read(&scene.to_glb().expect("written")).expect("read back");
-    for frame in 0..60 {
-        assert_eq!(scene.frame(frame), back.frame(frame), "frame {frame}");
-    }
-}
-
-#[test]
 fn light_bvhs_follow_what_bends() {
     let scene = Scene::new(bending()).expect("a sound scene");
     let (mut lights, mut instances) =

@@ -1,9 +1,7 @@
-//! Hostile and damaged glTF files are errors that name the element; none of them panics.
-
-use std::panic::{AssertUnwindSafe, catch_unwind};
+//! Hostile glTF files are errors that name the element. Damaged ones are the fuzz target `gltf`.
 
 use lightbvh_host::scene::{Node, Scene, SceneData, SceneError};
-use lightbvh_tests::gltf_files::{base64, busy, changed, read, read_json, triangle};
+use lightbvh_tests::gltf_files::{busy, changed, embedded, read, read_json, triangle};
 use serde_json::{Value, json};
 
 #[test]
@@ -78,8 +76,8 @@ fn hostile_values_are_named() {
 fn nan_positions_and_bad_animations_are_named() {
     let mut bytes: Vec<u8> = [f32::NAN; 9].iter().flat_map(|x| x.to_le_bytes()).collect();
     bytes.extend([0, 0, 1, 0, 2, 0]);
-    let uri = format!("data:;base64,{}", base64(&bytes));
-    let error = read_json(&changed("/buffers/0/uri", json!(uri))).expect_err("NaN must be refused");
+    let error =
+        read_json(&changed("/buffers/0/uri", json!(embedded(&bytes)))).expect_err("NaN must be refused");
     assert!(error.to_string().contains("is NaN"), "{error}");
 
     let broken = |change: fn(&mut SceneData)| {
@@ -162,23 +160,6 @@ fn deep_chains_of_nodes_need_no_deep_stack() {
     );
 }
 
-/// Opens the bytes and, where they are a scene after all, makes a frame.
-fn survives(bytes: &[u8]) -> bool {
-    catch_unwind(AssertUnwindSafe(|| {
-        if let Ok(scene) = read(bytes) {
-            let frame = scene.frame(11);
-            assert!(
-                frame.triangles.iter().all(|triangle| triangle
-                    .p
-                    .as_flattened()
-                    .iter()
-                    .all(|x| x.is_finite()))
-            );
-        }
-    }))
-    .is_ok()
-}
-
 #[test]
 fn truncated_files_are_errors() {
     let glb = Scene::open("street")
@@ -203,42 +184,6 @@ fn truncated_files_are_errors() {
             "{length} of {} bytes must not be a scene",
             glb.len()
         );
-    }
-    // Cut, with a header that says that this is all.
-    for length in (20..small.len()).step_by(7) {
-        let mut cut = small[..length].to_vec();
-        cut[8..12].copy_from_slice(&(length as u32).to_le_bytes());
-        assert!(survives(&cut), "cut at {length}");
-    }
-}
-
-#[test]
-fn flipped_bytes_never_panic() {
-    let glb = Scene::new(busy())
-        .expect("a sound scene")
-        .to_glb()
-        .expect("it can be written");
-    let text = triangle().to_string().into_bytes();
-    let mut state = 12_345_u32;
-    let mut next = |below: usize| {
-        state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-        ((state >> 8) as usize) % below
-    };
-    for round in 0..6_000 {
-        let mut bytes = if round % 3 == 0 { text.clone() } else { glb.clone() };
-        let mut changes = Vec::new();
-        for _ in 0..=next(4) {
-            let place = next(bytes.len());
-            // Digits for digits find the values; any byte for any byte finds the structure.
-            let byte = if bytes[place].is_ascii_digit() {
-                b'0' + next(10) as u8
-            } else {
-                next(256) as u8
-            };
-            bytes[place] = byte;
-            changes.push((place, byte));
-        }
-        assert!(survives(&bytes), "round {round}: {changes:?}");
     }
 }
 

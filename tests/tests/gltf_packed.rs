@@ -1,7 +1,7 @@
 //! Compressed geometry and pictures in glTF files: the same scene as unpacked, or an error.
 
 use lightbvh_host::scene::Scene;
-use lightbvh_tests::gltf_files::{base64, read_json};
+use lightbvh_tests::gltf_files::{embedded, read_json};
 use meshoptimizer_rs::Workspace;
 use meshoptimizer_rs::codec::{
     ExpMode, IndexEncoding, VertexEncoding, encode_filter_exp, encode_index_buffer, encode_index_sequence,
@@ -63,7 +63,7 @@ fn file(data: &[u8], views: [Value; 2], index_type: u32) -> Value {
         ],
         "bufferViews": views,
         "buffers": [
-            { "byteLength": data.len(), "uri": format!("data:;base64,{}", base64(data)) },
+            { "byteLength": data.len(), "uri": embedded(data) },
             { "byteLength": 441 * 12 + 2400 * 4, "extensions": { "EXT_meshopt_compression": { "fallback": true } } },
         ],
     })
@@ -168,8 +168,7 @@ fn an_optional_compression_that_is_broken_leaves_the_plain_data() {
     let mut root = compressed("TRIANGLES", "NONE", 0);
     let mut plain = bytes(&positions);
     plain.resize(441 * 12 + 2400 * 4, 0);
-    root["buffers"][1] =
-        json!({ "byteLength": plain.len(), "uri": format!("data:;base64,{}", base64(&plain)) });
+    root["buffers"][1] = json!({ "byteLength": plain.len(), "uri": embedded(&plain) });
     root["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["byteLength"] = json!(100);
     let scene = read_json(&root).expect("the plain data are there");
     assert!(
@@ -179,32 +178,4 @@ fn an_optional_compression_that_is_broken_leaves_the_plain_data() {
             .any(|warning| warning.contains("plain data"))
     );
     assert_eq!(scene.triangle_count(), 800);
-}
-
-#[test]
-fn damaged_streams_never_panic() {
-    let sound = compressed("TRIANGLES", "EXPONENTIAL", 0);
-    let mut state = 7_u32;
-    let mut next = |below: usize| {
-        state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-        ((state >> 8) as usize) % below
-    };
-    let length = sound["buffers"][0]["byteLength"].as_u64().expect("a length") as usize;
-    let mut refused = 0;
-    for _ in 0..300 {
-        let mut root = sound.clone();
-        let mut text = root["buffers"][0]["uri"]
-            .as_str()
-            .expect("a uri")
-            .as_bytes()
-            .to_vec();
-        for _ in 0..=next(3) {
-            // A digit of the base64 for another.
-            let at = text.len() - 4 - next(length);
-            text[at] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdef"[next(32)];
-        }
-        root["buffers"][0]["uri"] = json!(String::from_utf8(text).expect("ASCII"));
-        refused += u32::from(read_json(&root).is_err());
-    }
-    assert!(refused > 0);
 }

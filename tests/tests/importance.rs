@@ -92,22 +92,22 @@ fn weights_are_sound<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 proptest! {
     #![proptest_config(ProptestConfig { cases: 128, failure_persistence: None, ..ProptestConfig::default() })]
 
+    /// Lights of any kind, at the ends of the domain, and of one size beside each other, so that boxes and cones are not degenerate.
     #[test]
     fn positive_wherever_there_is_flux(seed: u32) {
         let random = &mut Random::new(seed);
-        for _ in 0..128 {
-            let lights: Vec<_> = (0..1 + random.below(4)).map(|_| extreme_triangle(random)).collect();
-            let point = adversarial_point(random, &lights[0]);
-            each_layout!(weights_are_sound(&lights, &point));
-        }
-    }
-
-    /// The same with lights of one size beside each other, so that boxes and cones are not degenerate.
-    #[test]
-    fn positive_among_neighbours(seed: u32) {
-        let random = &mut Random::new(seed);
         let scale = exact::pow2(random.below(60) as i32 - 30);
-        for _ in 0..128 {
+        for round in 0..128 {
+            let mut lights: Vec<_> = (0..1 + random.below(4)).map(|_| extreme_triangle(random)).collect();
+            if round % 4 == 0 {
+                lights[0].radiance = [exact::pow2(100 - 200 * random.below(2) as i32); 3];
+            }
+            let mut point = adversarial_point(random, &lights[0]);
+            if round % 4 == 1 {
+                let far = exact::pow2(40);
+                point.p = [0; 3].map(|_| [0.0, far, -far, exact::pow2(-100)][random.below(4) as usize]);
+            }
+            each_layout!(weights_are_sound(&lights, &point));
             let lights: Vec<_> = generate::small_triangles(4, 4, 4.0, 1.0, random.below(2) == 0, random.bits())
                 .into_iter()
                 .map(|t| EmissiveTriangle { p: t.p.map(|v| v.map(|x| x * scale)), ..t })
@@ -167,25 +167,5 @@ fn same_pmfs<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
             "{} {W} at {point:?}, times {length}",
             N::NAME
         );
-    }
-}
-
-/// The extremes of place and flux together: no weight is lost to zero, infinity or NaN.
-#[test]
-fn corners_of_the_domain() {
-    let far = exact::pow2(40);
-    let mut random = Random::new(3);
-    for _ in 0..20_000 {
-        let mut light = extreme_triangle(&mut random);
-        light.radiance = [exact::pow2(if random.below(2) == 0 { -100 } else { 100 }); 3];
-        let p = [0; 3].map(|_| [0.0, far, -far, exact::pow2(-100), light.p[0][0]][random.below(5) as usize]);
-        let n = if random.below(4) == 0 {
-            [0.0; 3]
-        } else {
-            random.direction()
-        };
-        let point = ShadingPoint { p, n };
-        let lights = [light, extreme_triangle(&mut random)];
-        each_layout!(weights_are_sound(&lights, &point));
     }
 }

@@ -4,13 +4,13 @@ use std::error::Error;
 
 use lightbvh::error::{EditError, EditReason, FollowError, ReadError};
 use lightbvh::light::{MAX_RADIANCE, TWO_SIDED};
+use lightbvh::point::MAX_REACH;
 use lightbvh::transform::TransformError;
 use lightbvh::validate::{Violation, What};
 use lightbvh::{
     Bvh, CompactNode, Edit, EmissiveTriangle, INVALID, LightError, Lights, LightsError, RebuildError,
-    Transform,
+    ShadingPoint, Transform,
 };
-use lightbvh_tests::edits::add_mesh;
 
 #[track_caller]
 fn says(error: &dyn Error, words: &[&str]) {
@@ -98,8 +98,7 @@ fn lights() {
 #[test]
 fn edits() {
     let mut scene = Bvh::<CompactNode<4>, (), 4>::default();
-    let triangles = vec![LAMP; 3];
-    let mesh = add_mesh(&mut scene, triangles);
+    let mesh = scene.add_mesh(vec![LAMP; 3]).expect("a mesh");
     let add = |transform, radiance| Edit::AddInstance {
         mesh,
         transform,
@@ -276,7 +275,7 @@ fn files() {
 
 #[test]
 fn violations() {
-    let say = |what: What| {
+    let says_of = |what: What, text: &str| {
         let violation = Violation {
             node: 3,
             slot: INVALID,
@@ -284,40 +283,20 @@ fn violations() {
             expected: 1.5f32.to_bits(),
             found: 7,
         };
-        assert_eq!(
-            what.is_float(),
-            matches!(what, What::Bounds(_) | What::Containment(_))
-        );
-        violation.to_string()
+        assert_eq!(violation.to_string(), text);
     };
-    let whole = [
-        (What::Blas, "bottom level of the mesh light"),
-        (What::Root, "index of the root"),
-        (What::Kind, "kind of child"),
-        (What::Link, "link"),
-        (What::Reached, "times reached"),
-        (What::Level, "level"),
-        (What::Triangle, "times that the triangle is a leaf"),
-        (What::Mesh, "times that the mesh light is a leaf"),
-        (What::First, "first triangle of the mesh light"),
-        (What::Owner, "mesh light of the triangle"),
-        (What::TrailLow, "low word of the leaf's trail"),
-        (What::TrailHigh, "high word of the leaf's trail"),
-        (What::Place, "place in the node above"),
-        (What::Children, "number of children"),
-        (What::Listed, "times in its list"),
-        (What::Word(5), "word 5 of the node"),
-    ];
-    for (what, name) in whole {
-        assert_eq!(say(what), format!("node 3, {name}: expected 1069547520, found 7"));
-    }
-    assert_eq!(
-        say(What::Bounds("greatest y")),
-        "node 3, greatest y after a refit: expected 1.5e0, found 1e-44"
+    says_of(What::Link, "node 3, link: expected 1069547520, found 7");
+    says_of(
+        What::Word(5),
+        "node 3, word 5 of the node: expected 1069547520, found 7",
     );
-    assert_eq!(
-        say(What::Containment("cos θ_o")),
-        "node 3, cos θ_o within the parent's: expected 1.5e0, found 1e-44"
+    says_of(
+        What::Bounds("greatest y"),
+        "node 3, greatest y after a refit: expected 1.5e0, found 1e-44",
+    );
+    says_of(
+        What::Containment("cos θ_o"),
+        "node 3, cos θ_o within the parent's: expected 1.5e0, found 1e-44",
     );
     says(
         &RebuildError::Panicked {
@@ -325,4 +304,30 @@ fn violations() {
         },
         &["panicked: out of luck", "keeps its trees"],
     );
+}
+
+/// Points that no guarantee covers stop a debug build.
+#[cfg(debug_assertions)]
+#[test]
+fn points_beyond_all_bounds() {
+    let lights = Lights::new(vec![LAMP; 4]).expect("lights");
+    let bvh = lightbvh::LightBvh::two_level(&lights, &lightbvh::BuildParams::default());
+    let up = [0.0, 1.0, 0.0];
+    for (p, n) in [
+        ([f32::NAN, 0.0, 0.0], up),
+        ([0.0, f32::INFINITY, 0.0], up),
+        ([0.0, 0.0, MAX_REACH.next_up()], up),
+        ([0.0; 3], [0.0, 0.5, 0.0]),
+        ([0.0; 3], [f32::NAN; 3]),
+    ] {
+        let point = ShadingPoint { p, n };
+        assert!(point.checked().is_err());
+        let stops = |f: &dyn Fn() -> f32| {
+            let message = std::panic::catch_unwind(std::panic::AssertUnwindSafe(f)).expect_err("a panic");
+            let message = message.downcast_ref::<String>().expect("a message").clone();
+            assert!(message.starts_with("not a shading point"), "{message}");
+        };
+        stops(&|| bvh.sample(&point, 1u32).pmf);
+        stops(&|| bvh.pmf(&point, 0, 0));
+    }
 }

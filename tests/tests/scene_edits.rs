@@ -1,20 +1,23 @@
 //! Single edits of scenes: what they cost and what they leave. Refusals are in `messages.rs`, batches of any edits in the fuzz
 //! target `edits`.
 
-use lightbvh::bvh::{Cursor, Swap};
-use lightbvh::{Bvh, CompactNode, Edit, Eq4, INVALID, InstanceId, Rebuilder, RebuilderParams, Transform};
-use lightbvh_tests::edits::{add_instance, add_mesh, mesh};
+use lightbvh::bvh::Cursor;
+use lightbvh::{Bvh, CompactNode, Edit, EmissiveTriangle, InstanceId, Transform};
 use lightbvh_tests::generate::{self, Random};
 use lightbvh_tests::placing::{self, Kind};
 
 type Tree = Bvh<CompactNode<4>, (), 4>;
+
+fn lamps() -> Vec<EmissiveTriangle> {
+    generate::small_triangles(7, 7, 2.0, 0.4, false, 5)
+}
 
 /// For every kind of map.
 #[test]
 fn motion_costs_two_paths_at_most_and_no_bottom_level() {
     let random = &mut Random::new(5);
     let mut scene = Tree::default();
-    let mesh = add_mesh(&mut scene, mesh(random));
+    let mesh = scene.add_mesh(lamps()).expect("a mesh");
     let add = |random: &mut Random| Edit::AddInstance {
         mesh,
         transform: placing::transform(random, Kind::Similar, 50.0),
@@ -78,12 +81,11 @@ fn scene_transform(scene: &Tree, instance: InstanceId) -> Transform {
 /// Who never takes the numbers of removed lights neither runs out of numbers nor misses one.
 #[test]
 fn numbers_that_nobody_takes_come_back_and_are_still_told() {
-    let random = &mut Random::new(7);
     let mut scene = Tree::default();
-    let triangles = mesh(random);
-    let count = triangles.len() as u32;
-    let mesh = add_mesh(&mut scene, triangles);
-    let mut one = add_instance(&mut scene, mesh, Transform::IDENTITY);
+    let count = lamps().len() as u32;
+    let mesh = scene.add_mesh(lamps()).expect("a mesh");
+    let add = |scene: &mut Tree| scene.add_instance(mesh, Transform::IDENTITY).expect("a place");
+    let mut one = add(&mut scene);
     let mut forgot = 0;
     for _ in 0..300_000 / count {
         scene.apply(vec![Edit::RemoveInstance(one)]).expect("there");
@@ -91,7 +93,7 @@ fn numbers_that_nobody_takes_come_back_and_are_still_told() {
         let gone = told.iter().any(|range| range.contains(&(scene.light_end() - 1)));
         forgot += u32::from(gone && told.len() == 1);
         assert!(told.len() as u32 <= 65_536 / count + 2);
-        one = add_instance(&mut scene, mesh, Transform::IDENTITY);
+        one = add(&mut scene);
         let own = scene.lights_of(one).expect("there");
         assert!(scene.light_end() <= 65_536 + 2 * count, "{own:?}");
         if !told_all(scene.removed_lights()) {
@@ -107,7 +109,7 @@ fn numbers_that_nobody_takes_come_back_and_are_still_told() {
     assert!(told_all(&told) && told[0].end >= 65_536, "{told:?}");
     assert!(scene.take_removed_lights().is_empty());
     // No number was lost: what is live and what comes next fill the numbers from 0.
-    let all = (0..scene.light_end() / count).map(|_| add_instance(&mut scene, mesh, Transform::IDENTITY));
+    let all = (0..scene.light_end() / count).map(|_| add(&mut scene));
     let greatest = all
         .collect::<Vec<_>>()
         .into_iter()
@@ -121,32 +123,4 @@ fn numbers_that_nobody_takes_come_back_and_are_still_told() {
 fn told_all(told: &[std::ops::Range<u32>]) -> bool {
     told.first()
         .is_some_and(|range| range.start == 0 && range.end > 60_000)
-}
-
-#[test]
-fn the_last_light_may_go() {
-    let random = &mut Random::new(7);
-    let mut scene = Tree::default();
-    let point = generate::point(random, 1.0);
-    assert_eq!(scene.by::<Eq4>().sample(&point, 1u32).light, INVALID);
-    let mesh = add_mesh(&mut scene, mesh(random));
-    let lamp = add_instance(&mut scene, mesh, Transform::IDENTITY);
-    scene.refit();
-    let mut rebuilder = Rebuilder::new(RebuilderParams {
-        swap: Swap::Deterministic,
-        ..RebuilderParams::default()
-    });
-    rebuilder.begin_frame(&mut scene).expect("nothing is due");
-    rebuilder.end_frame(&scene);
-    scene
-        .apply(vec![Edit::RemoveInstance(lamp), Edit::RemoveMesh(mesh)])
-        .expect("gone");
-    scene.refit();
-    assert_eq!(scene.by::<Eq4>().sample(&point, 1u32).light, INVALID);
-    assert_eq!(scene.validate().expect("valid").lights, 0);
-    assert!(rebuilder.begin_frame(&mut scene).expect("its own").swapped);
-    assert_eq!(scene.by::<Eq4>().sample(&point, 1u32).light, INVALID);
-    scene.refit();
-    assert_eq!(scene.by::<Eq4>().sample(&point, 1u32).light, INVALID);
-    scene.validate().expect("valid");
 }

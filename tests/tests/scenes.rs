@@ -1,11 +1,10 @@
-//! The built-in scenes: sizes, determinism, ranges, motion, and the way through `.glb` and back.
+//! The built-in scenes: determinism, ranges, and the way through `.glb` and back.
 
 use std::sync::OnceLock;
 
-use lightbvh::light::{EmissiveTriangle, MAX_COORDINATE};
+use lightbvh::light::MAX_COORDINATE;
 use lightbvh_host::render::write_whole;
 use lightbvh_host::scene::{BUILT_IN, Frame, Scene, SceneError};
-use lightbvh_kernels::shading::trace::NONE;
 
 /// Of frames 0 and 150 of each built-in scene, in the order of [`BUILT_IN`].
 const KNOWN_DIGESTS: [u64; 6] = [
@@ -87,44 +86,6 @@ fn assert_same_words(a: &Frame, b: &Frame, what: &str) {
 }
 
 #[test]
-fn sizes_are_those_the_scenes_stand_for() {
-    for (name, mesh_lights, emissive, others) in [
-        ("street", 300..=1_000, 3_000..=20_000, 10_000..=100_000),
-        ("square", 3_000..=8_000, 10_000..=60_000, 10_000..=100_000),
-        ("carousel", 100..=1_000, 20_000..=60_000, 5_000..=100_000),
-    ] {
-        let scene = built_in(name);
-        let frame = scene.frame(0);
-        println!(
-            "{name}: {} nodes, {} mesh lights, {} emissive of {} triangles",
-            scene.data().nodes.len(),
-            frame.mesh_lights.len(),
-            frame.emissive.len(),
-            frame.triangles.len()
-        );
-        assert!(
-            mesh_lights.contains(&frame.mesh_lights.len()),
-            "{name}: {} mesh lights",
-            frame.mesh_lights.len()
-        );
-        assert!(
-            emissive.contains(&frame.emissive.len()),
-            "{name}: {} emissive",
-            frame.emissive.len()
-        );
-        let rest = frame.triangles.len() - frame.emissive.len();
-        assert!(others.contains(&rest), "{name}: {rest} other triangles");
-        assert_eq!(scene.mesh_light_count(), frame.mesh_lights.len());
-        assert_eq!(scene.emissive_count(), frame.emissive.len());
-        assert_eq!(scene.triangle_count(), frame.triangles.len());
-        scene.require_lights().expect("built-in scenes have lights");
-        let lights = lightbvh::Lights::new(frame.emissive)
-            .expect("a frame's emissive triangles are in the core's domain");
-        assert_eq!(lights.mesh_count(), frame.mesh_lights.len());
-    }
-}
-
-#[test]
 fn same_words_every_time_and_on_every_machine() {
     for name in BUILT_IN {
         let again = Scene::open(name).expect("built-in scenes open");
@@ -162,82 +123,6 @@ fn every_frame_is_finite_and_in_range() {
             );
         }
     }
-}
-
-#[test]
-fn records_refer_to_each_other_without_gaps() {
-    for name in BUILT_IN {
-        let frame = built_in(name).frame(33);
-        let mut next = 0;
-        for (mesh, light) in frame.mesh_lights.iter().enumerate() {
-            assert_eq!(
-                light.first, next,
-                "{name}: mesh light {mesh} starts where the last ended"
-            );
-            assert!(light.count > 0);
-            next += light.count;
-            for index in light.first..next {
-                assert_eq!(frame.emissive[index as usize].mesh as usize, mesh);
-            }
-        }
-        assert_eq!(next as usize, frame.emissive.len());
-        let lit: Vec<_> = frame
-            .triangles
-            .iter()
-            .filter(|triangle| triangle.light != NONE)
-            .collect();
-        assert_eq!(lit.len(), frame.emissive.len());
-        for (index, triangle) in lit.into_iter().enumerate() {
-            assert_eq!(triangle.light as usize, index);
-            assert_eq!(triangle.p, frame.emissive[index].p);
-        }
-    }
-}
-
-#[test]
-fn lights_move_and_still_things_stay() {
-    for (name, least) in [("street", 0.2), ("square", 0.2), ("carousel", 0.6)] {
-        let (start, later) = (built_in(name).frame(0), built_in(name).frame(150));
-        let travel = |(a, b): (&EmissiveTriangle, _)| distance(a, b);
-        let moved = start
-            .emissive
-            .iter()
-            .zip(&later.emissive)
-            .map(travel)
-            .filter(|&metres| metres > 0.01)
-            .count();
-        let far = start
-            .emissive
-            .iter()
-            .zip(&later.emissive)
-            .map(travel)
-            .fold(0.0, f32::max);
-        let share = moved as f64 / start.emissive.len() as f64;
-        println!(
-            "{name}: {:.0} % of the emissive triangles moved by frame 150, up to {far} m",
-            100.0 * share
-        );
-        assert!(share > least, "{name}: only {share} of the lights moved");
-        assert!(far > 5.0, "{name}: no light travels farther than {far} m");
-        let still = start
-            .triangles
-            .iter()
-            .zip(&later.triangles)
-            .filter(|(a, b)| a.p == b.p)
-            .count();
-        assert!(
-            still > start.triangles.len() / 10,
-            "{name}: only {still} triangles stand still"
-        );
-    }
-}
-
-fn distance(a: &EmissiveTriangle, b: &EmissiveTriangle) -> f32 {
-    [0, 1, 2]
-        .map(|i| (a.p[0][i] - b.p[0][i]) * (a.p[0][i] - b.p[0][i]))
-        .iter()
-        .sum::<f32>()
-        .sqrt()
 }
 
 #[test]

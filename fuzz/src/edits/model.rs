@@ -2,9 +2,7 @@
 
 use std::ops::Range;
 
-use lightbvh::{Bvh, Edit, EmissiveTriangle, InstanceId, LightNode, MeshId, Transform};
-
-use super::Ids;
+use lightbvh::{Bvh, EmissiveTriangle, InstanceId, LightNode, MeshId, Transform};
 
 /// What a scene should hold.
 #[derive(Clone, Default)]
@@ -12,7 +10,7 @@ pub struct Model {
     pub meshes: Vec<Mesh>,
     pub instances: Vec<Placed>,
     pub gone_meshes: Vec<MeshId>,
-    pub gone_instances: Ids,
+    pub gone_instances: Vec<InstanceId>,
 }
 
 /// Triangles in the mesh's own space.
@@ -39,38 +37,6 @@ impl Model {
     pub fn triangles(&self, id: MeshId) -> &[EmissiveTriangle] {
         let mesh = self.meshes.iter().find(|mesh| mesh.id == id);
         &mesh.expect("an instance's mesh stays").triangles
-    }
-
-    /// A scene built at once, and its instances in the order of the model's.
-    pub fn from_scratch<N: LightNode<W>, const W: usize>(&self) -> (Bvh<N, (), W>, Ids) {
-        let mut scene = Bvh::<N, (), W>::default();
-        let meshes = self.meshes.iter().map(|mesh| Edit::AddMesh {
-            triangles: mesh.triangles.clone(),
-        });
-        let added = scene.apply(meshes.collect()).expect("meshes of a scene").meshes;
-        let instances = self.instances.iter().map(|placed| {
-            let mesh = self.meshes.iter().position(|mesh| mesh.id == placed.mesh);
-            Edit::AddInstance {
-                mesh: added[mesh.expect("an instance's mesh stays")],
-                transform: placed.transform,
-                radiance: placed.radiance,
-            }
-        });
-        let added = scene
-            .apply(instances.collect())
-            .expect("instances of a scene")
-            .instances;
-        scene.refit();
-        (scene, added)
-    }
-
-    /// The same under the names of another scene.
-    pub fn renamed<N: LightNode<W>, const W: usize>(&mut self, ids: &Ids, scene: &Bvh<N, (), W>) {
-        self.gone_instances.clear();
-        for (placed, &id) in self.instances.iter_mut().zip(ids) {
-            placed.id = id;
-            placed.lights = scene.lights_of(id).expect("just added");
-        }
     }
 
     /// The scene's lights against the exact maps in `f64`.

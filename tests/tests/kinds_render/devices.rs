@@ -12,7 +12,7 @@ fn every_kind_and_paint_have_the_same_words_on_every_device() {
     });
 }
 
-/// That a device has the CPU's words of a scene, by every sampler, directly, of several candidates and by paths.
+/// That a device has the CPU's words of a scene, by every sampler, directly, of several candidates, and by paths.
 fn same_on(device: &Device, scene: &Scene) {
     let settings = RenderSettings {
         width: 40,

@@ -1,29 +1,7 @@
 //! Irradiance that theory tells of each kind of light, and of skies.
 
 use super::*;
-
-fn rendered(scene: &Scene, sampler: Sampler, integrator: Integrator) -> (f64, f64) {
-    let arrays = arrays(scene, &SETTINGS);
-    let bvh: Bvh<Kinds, WIDTH> = match sampler {
-        Sampler::TwoLevel => {
-            Instances::<AnyLight>::new(scene, 0, BuildParams::default())
-                .expect("sound")
-                .0
-        }
-        _ => build(&arrays.lights, sampler, &BuildParams::default()),
-    };
-    let mut cpu = CpuBackend::<Kinds, WIDTH>::new(bvh);
-    let params = SETTINGS.params([0.0; 3]);
-    let image = cpu
-        .render(&arrays, &params, sampler, integrator)
-        .expect("an image");
-    mean(&image.value)
-}
-
-/// What the floor reflects straight up of irradiance `e`: the diffuse part alone.
-fn diffuse(e: f64) -> f64 {
-    e * f64::from(ALBEDO) * 0.96 / PI
-}
+use crate::textures::{add, plain_floor, reflects};
 
 /// Irradiance at a point of the floor at `x` from below the lamp, which hangs `h` above it.
 fn known(kind: AnalyticKind, h: f64, x: f64) -> f64 {
@@ -84,35 +62,14 @@ fn over(half: [f64; 2], shape: impl Fn(f64, f64) -> [f64; 3], h: f64, x: f64) ->
     sum
 }
 
-/// The gloss of the floor: within what `Material` may reflect beside the diffuse part, at the widest lobe.
-fn gloss(e: f64) -> f64 {
-    // (k + 6) / (8 pi) (n . h)^k of 4 %, k = 1.
-    e * 0.04 * 7.0 / (8.0 * PI)
-}
-
 #[test]
 fn each_kind_has_the_known_irradiance() {
     for kind in ALL {
         for x in [0.0, 1.1] {
             let (h, intensity) = (2.5, 3.0);
-            let scene = floor(
-                x as f32,
-                vec![(down([0.0, h as f32, 0.0]), kind, intensity as f32)],
-            );
-            let e = intensity * known(kind, h, x);
-            let (low, high) = (diffuse(e), diffuse(e) + gloss(e));
-            for sampler in Sampler::ALL {
-                for integrator in [Integrator::Direct, Integrator::Path { bounces: 1 }] {
-                    let (found, error) = rendered(&scene, sampler, integrator);
-                    // Five standard errors, rounding, and the box's quadrature.
-                    let slack = 5.0 * error + 1e-3 * high;
-                    assert!(
-                        found > low - slack && found < high + slack,
-                        "{kind:?} at {x} by {}, {integrator:?}: {found} ± {error}, expected {low} to {high}",
-                        sampler.name()
-                    );
-                }
-            }
+            let mut data = plain_floor([x as f32, 1.0]);
+            add(&mut data, down([0.0, h as f32, 0.0]), kind, intensity as f32);
+            reflects(data, [intensity * known(kind, h, x); 3], [0.5; 3], 1e-3);
         }
     }
 }
@@ -129,15 +86,15 @@ fn skies_have_the_known_irradiance() {
             rotation: [sine, 0.0, 0.0, cosine],
             scale: [1.0; 3],
         };
-        let scene = floor(0.0, vec![(transform, sun, 2.0)]);
-        let e = 2.0 * f64::from(angle).cos();
-        known_light(&scene, e);
+        let mut data = plain_floor([0.0, 1.0]);
+        add(&mut data, transform, sun, 2.0);
+        reflects(data, [2.0 * f64::from(angle).cos(); 3], [0.5; 3], 2e-3);
     }
-    let mut data = floor(0.0, Vec::new()).into_data();
+    let mut data = plain_floor([0.0, 1.0]);
     data.environment = Some(Arc::new(Environment::from_fn(4, |_| [1.5; 3]).expect("a map")));
-    known_light(&Scene::new(data).expect("sound"), 1.5 * PI);
+    reflects(data, [1.5 * PI; 3], [0.5; 3], 2e-3);
     // A small bright patch, which both ways find: weights share it.
-    let mut data = floor(0.0, Vec::new()).into_data();
+    let mut data = plain_floor([0.0, 1.0]);
     let patch = |[x, y, z]: [f32; 3]| {
         let is_bright = x > 0.2 && x < 0.4 && y > 0.7 && z.abs() < 0.1;
         [if is_bright { 200.0 } else { 0.1 }; 3]
@@ -158,21 +115,5 @@ fn skies_have_the_known_irradiance() {
         }
     }
     data.environment = Some(Arc::new(map));
-    known_light(&Scene::new(data).expect("sound"), e);
-}
-
-/// That the floor reflects irradiance `e`, by every sampler, directly and by paths.
-fn known_light(scene: &Scene, e: f64) {
-    let (low, high) = (diffuse(e), diffuse(e) + gloss(e));
-    for sampler in Sampler::ALL {
-        for integrator in [Integrator::Direct, Integrator::Path { bounces: 1 }] {
-            let (found, error) = rendered(scene, sampler, integrator);
-            let slack = 5.0 * error + 2e-3 * high;
-            assert!(
-                found > low - slack && found < high + slack,
-                "by {}, {integrator:?}: {found} ± {error}, expected {low} to {high}",
-                sampler.name()
-            );
-        }
-    }
+    reflects(data, [e; 3], [0.5; 3], 2e-3);
 }

@@ -1,9 +1,7 @@
-//! The renderer over lights of every kind: known answers, the same light described by a mesh and by a formula, and every device
-//! against the CPU, word for word.
+//! The renderer over lights of every kind: known answers, and every device against the CPU, word for word.
 
 mod devices;
 mod known;
-mod rooms;
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -15,7 +13,6 @@ use lightbvh::light::infinite::Environment;
 use lightbvh_host::backend::{
     Backend, Bvh, CpuBackend, DeviceBackend, Integrator, PIXEL_RECORD, Sampler, SceneArrays,
 };
-use lightbvh_host::method::{Importance, Method, Step, Target};
 use lightbvh_host::scene::{
     AnalyticKind, AnalyticLight, Camera, Instances, Material, Node, Scene, SceneData, Transform,
 };
@@ -27,8 +24,6 @@ use lightbvh_tests::devices::on_each_device;
 
 use crate::profiles;
 use crate::textures::{painted_room, sheet};
-
-const ALBEDO: f32 = 0.5;
 
 const ALL: [AnalyticKind; 6] = [
     AnalyticKind::Point,
@@ -68,43 +63,6 @@ pub fn down(translation: [f32; 3]) -> Transform {
         rotation: [-half, 0.0, 0.0, half],
         scale: [1.0; 3],
     }
-}
-
-/// A diffuse floor seen from above by a narrow camera, at `aim` metres from the origin along x: all pixels see about one point.
-fn floor(aim: f32, lights: Vec<(Transform, AnalyticKind, f32)>) -> Scene {
-    let eye = Transform::Matrix([
-        [1.0, 0.0, 0.0],
-        [0.0, 0.0, -1.0],
-        [0.0, 1.0, 0.0],
-        [aim, 1.0, 0.0],
-    ]);
-    let mut data = SceneData {
-        name: String::from("floor"),
-        nodes: vec![node(at([0.0; 3]), Some(0)), node(eye, None)],
-        meshes: vec![sheet(50.0, 0)],
-        materials: vec![Material {
-            base_color: [ALBEDO; 3],
-            metallic: 0.0,
-            // The dielectric's lobe of 4 % is as wide as there is; its share is in the known answers' tolerance.
-            roughness: 1.0,
-            ..Material::default()
-        }],
-        cameras: vec![Camera { node: 1, yfov: 1e-4 }],
-        ..SceneData::default()
-    };
-    for (transform, kind, intensity) in lights {
-        let node_index = data.nodes.len() as u32;
-        data.nodes.push(node(transform, None));
-        data.analytic.push(AnalyticLight {
-            name: String::from("lamp"),
-            node: node_index,
-            kind,
-            color: [1.0; 3],
-            intensity,
-            range: None,
-        });
-    }
-    Scene::new(data).expect("a sound scene")
 }
 
 pub const SETTINGS: RenderSettings = RenderSettings {
@@ -228,7 +186,7 @@ pub fn open_room() -> Scene {
     Scene::new(data).expect("a sound scene")
 }
 
-/// That they do on a scene.
+/// That the images of all samplers agree, of direct light and of paths.
 pub fn agree(scene: &Scene) {
     let settings = RenderSettings {
         width: 48,
@@ -267,4 +225,9 @@ pub fn agree(scene: &Scene) {
             assert!(error < 0.06 * power, "too noisy to tell: {error} of {power}");
         }
     }
+}
+
+#[test]
+fn samplers_agree_on_every_kind() {
+    agree(&open_room());
 }

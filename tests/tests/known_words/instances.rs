@@ -4,7 +4,6 @@ use lightbvh::{
     Bvh, CompactNode, Defensive, Eq4, FluxOverDistance, ImportanceModel, Instance, LightBounds, LightMoments,
     LightNode, MomentNode, Moments, ShadingPoint, Summary, exact,
 };
-use lightbvh_tests::edits::{add_instance, add_mesh};
 use lightbvh_tests::generate::{self, Random, extreme_triangle};
 
 use super::digest::Digest;
@@ -13,12 +12,13 @@ use super::place;
 /// Instances of every scale and brightness.
 fn instances(random: &mut Random) -> Vec<Instance> {
     let mut scene = Bvh::<CompactNode<2>, (), 2>::default();
-    let mesh = add_mesh(&mut scene, generate::small_triangles(3, 3, 1.0, 0.3, true, 1));
+    let triangles = generate::small_triangles(3, 3, 1.0, 0.3, true, 1);
+    let mesh = scene.add_mesh(triangles).expect("a mesh");
     for _ in 0..200 {
         let mut transform = place(random);
         let scale = exact::pow2(random.below(90) as i32 - 60);
         transform.columns = transform.columns.map(|column| column.map(|x| x * scale));
-        add_instance(&mut scene, mesh, transform);
+        scene.add_instance(mesh, transform).expect("an instance");
     }
     let mut instances = scene.instances().to_vec();
     for instance in &mut instances {

@@ -7,7 +7,7 @@ mod digest;
 mod instances;
 mod reservoirs;
 mod scenes;
-mod trees;
+pub mod trees;
 
 use lightbvh::Transform;
 use lightbvh::node::NODE_FORMAT;

@@ -5,21 +5,13 @@ use lightbvh::{
     BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, FluxOverDistance, Heuristic,
     ImportanceModel, LightNode, Lights, MomentNode, Moments, Random64, SampledLight, ShadingPoint, exact,
 };
-use lightbvh_host::backend::{Bvh as TreeOf, Sampler};
-use lightbvh_host::vulkan::{Device, Options};
-use lightbvh_host::workload::build;
-use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice, WIDTH};
-use lightbvh_kernels::query::Query;
-use lightbvh_tests::devices::on_each_device;
 use lightbvh_tests::generate::{self, Random, extreme_triangle, moved, split};
 use lightbvh_tests::oracle::pmf_of;
 
 use super::digest::Digest;
-use crate::broken_kernels::different_of;
-use crate::deep::shrinking;
 
 /// Small lights in clusters, some two-sided, some bright; a few of every extreme kind.
-fn lights() -> Lights {
+pub fn lights() -> Lights {
     let mut random = Random::new(17);
     let mut triangles = generate::small_triangles(400, 9, 20.0, 0.5, true, 17);
     for (i, triangle) in triangles.iter_mut().enumerate() {
@@ -48,7 +40,7 @@ fn lights() -> Lights {
 }
 
 /// On and about the lights, near, far, and in volumes.
-fn points() -> Vec<ShadingPoint> {
+pub fn points() -> Vec<ShadingPoint> {
     let mut random = Random::new(23);
     let mut points: Vec<ShadingPoint> = (0..40).map(|_| generate::point(&mut random, 20.0)).collect();
     for (i, t) in lights().triangles().iter().enumerate().step_by(23) {
@@ -195,49 +187,4 @@ fn moment_nodes() {
         0xde88_c8e1_37b3_a7c2,
         0x81d2_f384_5e36_045b,
     ]);
-}
-
-/// Trees of `lights` in one level and in two, refitted, sampled and evaluated.
-fn same_on<C: TriangleChoice<W>, const W: usize>(device: &Device, lights: &Lights, params: &BuildParams) {
-    let mut random = Random::new(31);
-    let asked: Vec<Query> = points()
-        .into_iter()
-        .cycle()
-        .take(1000)
-        .map(|point| Query {
-            point,
-            words: [random.bits(), random.bits()],
-        })
-        .collect();
-    for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
-        let bvh: TreeOf<C, W> = build(lights, sampler, params);
-        let different = different_of::<C, W>(device, &bvh, &moved(lights, 31), asked.clone());
-        let name = device.name();
-        assert_eq!(
-            different,
-            [0; 3],
-            "{name}: {} {sampler:?}, depth {}",
-            C::NAME,
-            bvh.depth()
-        );
-    }
-}
-
-/// Lights of every extreme kind, and trees nearly as deep as trails are long.
-#[test]
-fn every_exact_device_has_the_words_of_the_cpu() {
-    let deep = shrinking(130, 26, false);
-    on_each_device(Options::default(), |device| {
-        if !device.self_test().expect("a verdict").exact {
-            eprintln!("{}: not exact, its words are its own", device.name());
-            return;
-        }
-        for (lights, params) in [
-            (&lights(), BuildParams::default()),
-            (&deep, split(Heuristic::Sah, 2)),
-        ] {
-            same_on::<Standard, WIDTH>(device, lights, &params);
-            same_on::<Paper, 4>(device, lights, &params);
-        }
-    });
 }

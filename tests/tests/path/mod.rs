@@ -2,4 +2,3 @@
 
 mod sums;
 mod weights;
-mod world;

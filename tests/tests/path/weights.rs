@@ -7,8 +7,7 @@ use lightbvh_kernels::shading::mis::power_heuristic;
 use lightbvh_kernels::shading::pixel::encounter;
 use lightbvh_kernels::shading::ray::{FAR, Ray};
 use lightbvh_tests::generate::Random;
-
-use super::world::{World, glossy, light, matte};
+use lightbvh_tests::world::{World, glossy, light, matte};
 
 #[test]
 fn the_weights_of_both_ways_sum_to_one() {

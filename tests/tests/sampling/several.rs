@@ -1,4 +1,4 @@
-//! Several samples of one point: stratified numbers, batches, candidates.
+//! Several samples: stratified numbers, batches, spaced numbers.
 
 use super::*;
 
@@ -85,86 +85,46 @@ fn stratified_numbers() {
     stratified_numbers_pay::<MomentNode<8>, Moments, 8>(true);
 }
 
-/// Several walks at once are as many walks one by one, however many, and what is longer than the shortest list is left alone.
-fn batches_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
-    let lights = scene(200, 41);
-    let bvh = built::<N, W>(&lights, &BuildParams::default(), two);
+/// Batches and spaced numbers are single samples, uniform choices among them; what is longer than the shortest list is left alone.
+fn several_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
+    let bvh = built::<N, W>(&scene(200, 41), &BuildParams::default(), two);
+    let tree = bvh.by::<I>();
     let random = &mut Random::new(42);
-    for count in (0..=40).chain([1000]) {
+    let untouched = SampledLight {
+        light: 7,
+        instance: 5,
+        pmf: -1.0,
+    };
+    for count in 0..=40_usize {
         let points: Vec<ShadingPoint> = (0..count).map(|_| generate::point(random, 10.0)).collect();
         let numbers: Vec<Random64> = (0..count).map(|_| number(random)).collect();
-        let untouched = SampledLight {
-            light: 7,
-            instance: 5,
-            pmf: -1.0,
-        };
-        let mut sampled = vec![untouched; count + 3];
-        bvh.by::<I>().sample_batch(&points, &numbers, &mut sampled);
-        for k in 0..count {
-            let expected = bvh.by::<I>().sample(&points[k], numbers[k]);
-            assert_eq!(sampled[k], expected, "{k} of {count}");
-        }
-        assert_eq!(sampled[count..], [untouched; 3]);
-        let shorter = count.saturating_sub(5);
-        for (points, numbers, outs) in [
-            (shorter, count, count),
-            (count, shorter, count),
-            (count, count, shorter),
-        ]
-        .map(|(p, n, o)| (&points[..p], &numbers[..n], o))
-        {
-            let mut few = vec![untouched; outs];
-            bvh.by::<I>().sample_batch(points, numbers, &mut few);
-            assert_eq!(few[..shorter], sampled[..shorter]);
-            assert!(few[shorter..].iter().all(|&found| found == untouched));
-        }
-    }
-}
-
-/// Candidates are the samples of numbers at equal distances, in any layout, uniform choices among them.
-fn candidates_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
-    fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
-        bvh: &LightTree<'_, N, I, W>,
-        point: &ShadingPoint,
-        number: Random64,
-    ) {
-        let many = bvh.sample_many::<_, COUNT>(point, number);
-        for (k, found) in (0..).zip(many) {
-            let expected = bvh.sample(point, number.spaced(k, COUNT as u32));
-            assert_eq!(found, expected, "{k} of {COUNT}");
-        }
-    }
-    for count in [1, 3, 200] {
-        let bvh = built::<N, W>(&scene(count, 51), &BuildParams::default(), two);
-        let bvh = bvh.by::<I>();
-        let random = &mut Random::new(52);
-        for _ in 0..200 {
-            let (point, number) = (generate::point(random, 10.0), number(random));
-            check::<N, I, W, 1>(&bvh, &point, number);
-            check::<N, I, W, 5>(&bvh, &point, number);
-            check::<N, I, W, 64>(&bvh, &point, number);
-            let (first, count) = (random.below(70), random.below(150));
-            let mut sampled = vec![SampledLight::NONE; random.below(80) as usize];
-            bvh.sample_spaced(&point, number, first, count, &mut sampled);
-            for (k, found) in (first..).zip(sampled) {
-                assert_eq!(
-                    found,
-                    bvh.sample(&point, number.spaced(k, count)),
-                    "{k} of {count}"
-                );
+        let few = count.saturating_sub(5);
+        for [p, n, o] in [
+            [count, count, count + 3],
+            [few, count, count],
+            [count, few, count],
+            [count, count, few],
+        ] {
+            let mut sampled = vec![untouched; o];
+            tree.sample_batch(&points[..p], &numbers[..n], &mut sampled);
+            let shortest = p.min(n).min(o);
+            for k in 0..shortest {
+                assert_eq!(sampled[k], tree.sample(&points[k], numbers[k]), "{k} of {count}");
             }
+            assert!(sampled[shortest..].iter().all(|&found| found == untouched));
+        }
+        let (point, number) = (generate::point(random, 10.0), number(random));
+        let (first, of) = (random.below(70), random.below(150));
+        let mut sampled = vec![SampledLight::NONE; count];
+        tree.sample_spaced(&point, number, first, of, &mut sampled);
+        for (k, found) in (first..).zip(sampled) {
+            assert_eq!(found, tree.sample(&point, number.spaced(k, of)), "{k} of {of}");
         }
     }
 }
 
 #[test]
-fn candidates() {
-    candidates_are_single_samples::<CompactNode<4>, Defensive<Eq4, 5>, 4>(false);
-    candidates_are_single_samples::<MomentNode<8>, Moments, 8>(true);
-}
-
-#[test]
-fn batches() {
-    batches_are_single_samples::<CompactNode<4>, Defensive<Eq4, 5>, 4>(false);
-    batches_are_single_samples::<MomentNode<8>, Moments, 8>(true);
+fn batches_and_spaced_numbers() {
+    several_are_single_samples::<CompactNode<4>, Defensive<Eq4, 5>, 4>(false);
+    several_are_single_samples::<MomentNode<8>, Moments, 8>(true);
 }

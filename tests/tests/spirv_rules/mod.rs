@@ -1,6 +1,5 @@
 //! The committed kernels belong to the committed sources and obey the rules; modules that do not are refused.
 
-mod atomics;
 mod module;
 mod operations;
 mod shapes;

@@ -2,9 +2,9 @@
 
 use lightbvh_kernels_builder::decorate::decorate;
 use rspirv::dr::Operand;
-use rspirv::spirv::{LoopControl, Op, SelectionControl, StorageClass};
+use rspirv::spirv::{LoopControl, Op, SelectionControl};
 
-use super::module::{complaint, complaint_about, module};
+use super::module::{complaint, module};
 
 /// A loop whose body is a row of `count` selections between two blocks; with `work`, each of the two computes something.
 fn loop_of_selections(count: usize, work: bool) -> Vec<u32> {
@@ -77,19 +77,4 @@ fn a_loop_with_too_many_ways_through_it_is_refused() {
     for arms in [false, true] {
         assert_eq!(complaint(&decorate(&loop_of_selections(40, arms)).unwrap()), "");
     }
-}
-
-#[test]
-fn a_structure_of_pointers_is_refused() {
-    let text = complaint_about(|b, t| {
-        let pointer = b.type_pointer(None, StorageClass::Function, t.float);
-        let closure = b.type_struct([pointer, t.uint]);
-        let variable = b.variable(pointer, None, StorageClass::Function, None);
-        let count = b.constant_bit32(t.uint, 7);
-        b.composite_construct(closure, None, [variable, count]).unwrap();
-    });
-    assert!(
-        text.contains("OpCompositeConstruct") && text.contains("closure"),
-        "{text}"
-    );
 }

@@ -71,7 +71,7 @@ fn pictures_glow() {
                 }
             }
         }
-        reflects(data, e, [0.5; 3], 0.0);
+        reflects(data, e, [0.5; 3], 2e-3);
     }
 }
 

@@ -36,9 +36,9 @@ fn what_is_cut_out_hides_nothing() {
         behind(cut, vec![halves.clone()], 1.0),
         [open(1.0); 3],
         [0.5; 3],
-        0.0,
+        2e-3,
     );
-    reflects(behind(cut, vec![halves], -1.0), [0.0; 3], [0.5; 3], 0.0);
+    reflects(behind(cut, vec![halves], -1.0), [0.0; 3], [0.5; 3], 2e-3);
 }
 
 #[test]
@@ -55,13 +55,13 @@ fn what_is_blended_hides_its_part() {
         behind(blended, vec![halves.clone()], 1.0),
         [0.9 * open(1.0); 3],
         [0.5; 3],
-        0.0,
+        2e-3,
     );
     reflects(
         behind(blended, vec![halves], -1.0),
         [0.5 * open(1.0); 3],
         [0.5; 3],
-        0.0,
+        2e-3,
     );
 }
 
@@ -76,7 +76,7 @@ fn glass_tints() {
         behind(glass, Vec::new(), 1.0),
         [0.8, 0.4, 0.2].map(|tint| tint * open(1.0)),
         [0.5; 3],
-        0.0,
+        2e-3,
     );
 }
 

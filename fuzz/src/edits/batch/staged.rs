@@ -13,10 +13,7 @@ impl Staged {
 
     pub fn add_mesh(&mut self, triangles: Vec<EmissiveTriangle>) -> (Edit, Verdict) {
         let (sound, all) = accepted(&triangles);
-        let verdict = first_wrong(&[
-            (known(!triangles.is_empty()), wrong::EMPTY),
-            (sound, wrong::LIGHT),
-        ]);
+        let verdict = first_wrong(&[(Some(!triangles.is_empty()), "EmptyMesh"), (sound, "Light")]);
         self.meshes.push(all);
         (Edit::AddMesh { triangles }, verdict)
     }
@@ -29,9 +26,9 @@ impl Staged {
             None
         };
         let verdict = first_wrong(&[
-            (known(lives), wrong::MESH),
-            (inside, wrong::TRANSFORM),
-            (shines(radiance), wrong::RADIANCE),
+            (Some(lives), "UnknownMesh"),
+            (inside, "Transform"),
+            (shines(radiance), "Radiance"),
         ]);
         self.added.push((mesh, transform, radiance));
         let edit = Edit::AddInstance {
@@ -45,10 +42,7 @@ impl Staged {
     pub fn move_to(&mut self, instance: InstanceId, transform: Transform) -> (Edit, Verdict) {
         let mesh = self.placed(instance).map(|placed| placed.mesh);
         let inside = mesh.and_then(|mesh| within(&transform, self.model.triangles(mesh)));
-        let verdict = first_wrong(&[
-            (known(mesh.is_some()), wrong::INSTANCE),
-            (inside, wrong::TRANSFORM),
-        ]);
+        let verdict = first_wrong(&[(Some(mesh.is_some()), "UnknownInstance"), (inside, "Transform")]);
         if let Some(placed) = self.placed(instance) {
             placed.transform = transform;
         }
@@ -58,8 +52,8 @@ impl Staged {
     pub fn shine(&mut self, instance: InstanceId, radiance: f32) -> (Edit, Verdict) {
         let placed = self.placed(instance);
         let verdict = first_wrong(&[
-            (known(placed.is_some()), wrong::INSTANCE),
-            (shines(radiance), wrong::RADIANCE),
+            (Some(placed.is_some()), "UnknownInstance"),
+            (shines(radiance), "Radiance"),
         ]);
         if let Some(placed) = placed {
             placed.radiance = radiance;
@@ -72,9 +66,9 @@ impl Staged {
         let old = self.model.meshes.iter().find(|mesh| mesh.id == id);
         let same = old.is_some_and(|mesh| mesh.triangles.len() == triangles.len());
         let mut conditions = vec![
-            (known(old.is_some()), wrong::MESH),
-            (known(same), wrong::COUNT),
-            (sound, wrong::LIGHT),
+            (Some(old.is_some()), "UnknownMesh"),
+            (Some(same), "Count"),
+            (sound, "Light"),
         ];
         self.push_places(id, &all, &mut conditions);
         if let Some(mesh) = self.model.meshes.iter_mut().find(|mesh| mesh.id == id) {
@@ -97,9 +91,9 @@ impl Staged {
         let end = first as usize + triangles.len();
         let inside = old.as_ref().is_some_and(|mesh| end <= mesh.triangles.len());
         let mut conditions = vec![
-            (known(old.is_some()), wrong::MESH),
-            (known(inside), wrong::COUNT),
-            (sound, wrong::LIGHT),
+            (Some(old.is_some()), "UnknownMesh"),
+            (Some(inside), "Range"),
+            (sound, "Light"),
         ];
         if let Some(mesh) = old.filter(|_| inside && sound == Some(true)) {
             mesh.triangles[first as usize..end].copy_from_slice(&some);
@@ -115,7 +109,12 @@ impl Staged {
     }
 
     /// All places of a mesh must have room for it, those of this very batch too.
-    fn push_places(&self, id: MeshId, all: &[EmissiveTriangle], conditions: &mut Vec<(Option<bool>, u8)>) {
+    fn push_places(
+        &self,
+        id: MeshId,
+        all: &[EmissiveTriangle],
+        conditions: &mut Vec<(Option<bool>, &'static str)>,
+    ) {
         let placed = self
             .model
             .instances
@@ -123,7 +122,7 @@ impl Staged {
             .map(|placed| (placed.mesh, placed.transform));
         let added = self.added.iter().map(|&(mesh, transform, _)| (mesh, transform));
         for (_, transform) in placed.chain(added).filter(|&(mesh, _)| mesh == id) {
-            conditions.push((within(&transform, all), wrong::TRANSFORM));
+            conditions.push((within(&transform, all), "Transform"));
         }
     }
 
@@ -135,7 +134,7 @@ impl Staged {
         }
         (
             Edit::RemoveInstance(id),
-            first_wrong(&[(known(lives), wrong::INSTANCE)]),
+            first_wrong(&[(Some(lives), "UnknownInstance")]),
         )
     }
 
@@ -143,7 +142,7 @@ impl Staged {
         let lives = self.lives(id);
         let used = self.model.instances.iter().any(|placed| placed.mesh == id)
             || self.added.iter().any(|&(mesh, ..)| mesh == id);
-        let verdict = first_wrong(&[(known(lives), wrong::MESH), (known(!used), wrong::IN_USE)]);
+        let verdict = first_wrong(&[(Some(lives), "UnknownMesh"), (Some(!used), "InUse")]);
         if lives && !used {
             self.model.meshes.retain(|mesh| mesh.id != id);
             self.model.gone_meshes.push(id);

@@ -2,8 +2,6 @@
 //! points on lights. Devices that flush then agree with those that do not.
 #![cfg(target_arch = "x86_64")]
 
-pub mod scenes;
-
 use bytemuck::{Pod, cast_slice};
 use glam::Vec3;
 use lightbvh::importance::{
@@ -22,6 +20,7 @@ use lightbvh::summary::Summary;
 use lightbvh::{Bvh, Defensive, Eq4, FluxOverDistance, GlossyPoint, Moments, Random64, ShadingPoint, exact};
 use lightbvh_peers::{Falcor, Pbrt};
 use lightbvh_tests::generate::{Random, log_uniform};
+use lightbvh_tests::scenes;
 
 /// Default of the control and status register: every exception masked, round to nearest.
 const IEEE: u32 = 0x1f80;

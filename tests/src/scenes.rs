@@ -1,5 +1,5 @@
-//! Scenes at the ends of the domain: lights of every kind and size, at one place or far apart, in maps that shrink and stretch
-//! them.
+//! Lights of every kind and size, and scenes of them at the ends of the domain: at one place or far apart, in maps that shrink and
+//! stretch them.
 
 use lightbvh::light::{
     AnyLight, BoxLight, DiscLight, LinkedAny, LinkedTriangle, PointLight, ProfileLight, RectangleLight,
@@ -7,12 +7,16 @@ use lightbvh::light::{
 };
 use lightbvh::node::Node;
 use lightbvh::{Bvh, EmissiveTriangle, ShadingPoint, Transform, exact};
-use lightbvh_tests::generate::{Random, across, extreme_triangle, log_uniform};
-use lightbvh_tests::placing;
 
-/// A light of the kind about `p`, of lengths of about `size` metres.
+use crate::generate::{Random, across, extreme_triangle, log_uniform};
+use crate::placing;
+
+/// Lights of a type.
 pub trait Any: Sized {
-    fn any(random: &mut Random, p: [f32; 3], size: f32) -> Self;
+    /// One about `p`, of lengths of about `size` metres, of this radiance or intensity.
+    fn any(random: &mut Random, p: [f32; 3], size: f32, shine: [f32; 3]) -> Self;
+    /// A triangle anywhere in the domain.
+    fn extreme(random: &mut Random) -> Self;
 }
 
 /// Some lengths are none, or the same but for some units in the last place.
@@ -26,7 +30,7 @@ fn vector(random: &mut Random, size: f32) -> [f32; 3] {
 }
 
 /// Radiance or intensity: zero, or of any size.
-fn shine(random: &mut Random) -> [f32; 3] {
+pub fn shine(random: &mut Random) -> [f32; 3] {
     [0; 3].map(|_| match random.below(4) {
         0 => 0.0,
         1 => log_uniform(random, -100, 99),
@@ -35,25 +39,25 @@ fn shine(random: &mut Random) -> [f32; 3] {
 }
 
 impl Any for EmissiveTriangle {
-    fn any(random: &mut Random, p: [f32; 3], size: f32) -> Self {
-        if random.below(8) == 0 {
-            return extreme_triangle(random);
-        }
+    fn any(random: &mut Random, p: [f32; 3], size: f32, shine: [f32; 3]) -> Self {
         let add = |by: [f32; 3]| [p[0] + by[0], p[1] + by[1], p[2] + by[2]];
         Self {
             p: [p, add(vector(random, size)), add(vector(random, size))],
-            radiance: shine(random),
+            radiance: shine,
             mesh: 0,
             flags: random.below(2) * Self::TWO_SIDED,
         }
     }
+
+    fn extreme(random: &mut Random) -> Self {
+        extreme_triangle(random)
+    }
 }
 
 impl Any for AnyLight {
-    fn any(random: &mut Random, p: [f32; 3], size: f32) -> Self {
+    fn any(random: &mut Random, p: [f32; 3], size: f32, shine: [f32; 3]) -> Self {
         let (flags, mesh) = (random.below(2) * EmissiveTriangle::TWO_SIDED, 0);
         let half = [0; 3].map(|_| vector(random, size));
-        let shine = shine(random);
         let axis = random.direction();
         let range = match random.below(3) {
             0 => (8.0 * size).clamp(exact::pow2(-20), exact::pow2(40)),
@@ -61,7 +65,7 @@ impl Any for AnyLight {
         };
         let cos_outer = random.between(-1.0, 0.99);
         match random.below(8) {
-            0 => EmissiveTriangle::any(random, p, size).into(),
+            0 => EmissiveTriangle::any(random, p, size, shine).into(),
             1 => PointLight {
                 p,
                 intensity: shine,
@@ -123,25 +127,30 @@ impl Any for AnyLight {
             .into(),
         }
     }
-}
 
-impl Any for LinkedTriangle {
-    fn any(random: &mut Random, p: [f32; 3], size: f32) -> Self {
-        Self {
-            light: EmissiveTriangle::any(random, p, size),
-            mask: 1 << random.below(4),
-        }
+    fn extreme(random: &mut Random) -> Self {
+        extreme_triangle(random).into()
     }
 }
 
-impl Any for LinkedAny {
-    fn any(random: &mut Random, p: [f32; 3], size: f32) -> Self {
-        Self {
-            light: AnyLight::any(random, p, size),
-            mask: 1 << random.below(4),
+macro_rules! linked {
+    ($linked:ident, $light:ty) => {
+        impl Any for $linked {
+            fn any(random: &mut Random, p: [f32; 3], size: f32, shine: [f32; 3]) -> Self {
+                let (light, mask) = (<$light>::any(random, p, size, shine), 1 << random.below(4));
+                Self { light, mask }
+            }
+
+            fn extreme(random: &mut Random) -> Self {
+                let (light, mask) = (<$light>::extreme(random), 1 << random.below(4));
+                Self { light, mask }
+            }
         }
-    }
+    };
 }
+
+linked!(LinkedTriangle, EmissiveTriangle);
+linked!(LinkedAny, AnyLight);
 
 /// 2^-99 to 2^37: any, about 1, the least, or such that a square is about the least normal number.
 fn size(random: &mut Random) -> f32 {
@@ -182,6 +191,9 @@ fn transform(random: &mut Random) -> Transform {
 }
 
 /// A scene, and lengths that occur in it.
+///
+/// # Panics
+/// If a light is out of the domain.
 pub fn scene<N: Node<W>, const W: usize>(random: &mut Random) -> (Bvh<N, (), W>, Vec<f32>)
 where
     N::Light: Any,
@@ -193,8 +205,12 @@ where
         let (own, apart) = (size(random), [0.0, 1.0, 30.0][random.below(3) as usize]);
         let (count, first) = ([1, 2, 9, 40][random.below(4) as usize], vector(random, own));
         let lights = (0..count).map(|_| {
+            if random.below(8) == 0 {
+                return N::Light::extreme(random);
+            }
             let by = vector(random, (apart * own).min(exact::pow2(38)));
-            N::Light::any(random, [0, 1, 2].map(|k: usize| first[k] + by[k]), own)
+            let (place, shine) = ([0, 1, 2].map(|k: usize| first[k] + by[k]), shine(random));
+            N::Light::any(random, place, own, shine)
         });
         let lights = lights.collect();
         sizes.push(own);
@@ -222,6 +238,9 @@ pub fn normal(random: &mut Random) -> [f32; 3] {
 }
 
 /// A point near what is in the scene, in a volume one time in four.
+///
+/// # Panics
+/// If it is out of the domain.
 pub fn point(random: &mut Random, sizes: &[f32]) -> ShadingPoint {
     let size = sizes[random.below(sizes.len() as u32) as usize] * [0.0, 1.0, 30.0][random.below(3) as usize];
     let n = normal(random);

@@ -1,0 +1,318 @@
+//! Each set of kernels that is shipped, on every device: refits, samples, pmfs and points on lights have the CPU's bits, frame after
+//! frame.
+
+use std::fmt::Debug;
+
+use bytemuck::{Pod, bytes_of};
+use lightbvh::importance::{DefaultImportance, ImportanceModel, LinkedPoint};
+use lightbvh::instance::world_light;
+use lightbvh::light::Light;
+use lightbvh::node::Node;
+use lightbvh::point::Receiver;
+use lightbvh::{
+    BuildParams, Bvh, Edit, Eq4, Heuristic, INVALID, LightNode, LightPoint, Lights, Random64, SampledLight,
+    ShadingPoint,
+};
+use lightbvh_gpu::{EQ4, Kernel, KernelSet, LinkedQuery, MOMENTS, Query, query_push};
+use lightbvh_host::backend::{Mirrored, nodes_in_use};
+use lightbvh_host::vulkan::{Device, Options};
+use lightbvh_kernels::bvh::{AnyNode, Node as MomentsNode, PaperNode};
+use lightbvh_kernels::query::PointsPush;
+use lightbvh_kernels::receivers::{LinkedImportance, LinkedNode};
+use lightbvh_tests::devices::on_each_device;
+use lightbvh_tests::generate::{Random, moved, split};
+use lightbvh_tests::placing;
+use lightbvh_tests::scenes::Any;
+
+use crate::deep::shrinking;
+use crate::known_words::trees;
+
+const QUERIES: usize = 2000;
+
+/// A receiver, and what kernels are asked for it.
+trait Ask: Receiver + Debug {
+    type Query: Pod;
+    fn at(point: ShadingPoint, random: &mut Random) -> Self;
+    fn query(self, words: [u32; 2]) -> Self::Query;
+}
+
+impl Ask for ShadingPoint {
+    type Query = Query;
+
+    fn at(point: ShadingPoint, _: &mut Random) -> Self {
+        point
+    }
+    fn query(self, words: [u32; 2]) -> Query {
+        Query { point: self, words }
+    }
+}
+
+impl Ask for LinkedPoint<ShadingPoint> {
+    type Query = LinkedQuery;
+
+    fn at(point: ShadingPoint, random: &mut Random) -> Self {
+        let mask = [1, 6, 0, u32::MAX, 16][random.below(5) as usize];
+        Self { point, mask }
+    }
+    fn query(self, words: [u32; 2]) -> LinkedQuery {
+        let Self { point, mask } = self;
+        LinkedQuery { point, mask, words }
+    }
+}
+
+/// A tree on a device, with the kernels over it.
+struct Held<'d, N: Node<W>, const W: usize> {
+    arrays: Mirrored<'d, N, W>,
+    kernels: KernelSet,
+}
+
+impl<'d, N: Node<W>, const W: usize> Held<'d, N, W> {
+    fn new(device: &'d Device, kernels: KernelSet) -> Self {
+        let arrays = Mirrored::new(device, kernels).expect("arrays");
+        Self { arrays, kernels }
+    }
+
+    /// The answers of a kernel that walks the tree.
+    fn ask<T: Pod, P: Ask>(&self, kernel: &Kernel, receivers: &[P], words: &[[u32; 2]]) -> Vec<T> {
+        let asked = receivers.iter().zip(words).map(|(&own, &words)| own.query(words));
+        let asked: Vec<P::Query> = asked.collect();
+        let asked = self.arrays.device().upload(&asked).expect("an upload");
+        let push = query_push(words.len() as u32, self.arrays.words());
+        let others = [("queries", asked.bind())];
+        let answers = self.arrays.ask(kernel, words.len(), bytes_of(&push), &others);
+        answers.expect("the answers")
+    }
+
+    /// Follows `bvh`, and compares everything; returns the samples.
+    fn compare<I: ImportanceModel<N, W, P>, P: Ask>(
+        &mut self,
+        bvh: &Bvh<N, (), W>,
+        points: &[ShadingPoint],
+        random: &mut Random,
+    ) -> Vec<(P, SampledLight)> {
+        self.arrays.follow(bvh).expect("a frame");
+        let (device, tree) = (self.arrays.device(), bvh.by::<I>());
+        let (nodes, own) = (
+            self.arrays.nodes().expect("a read"),
+            [bvh.nodes(), bvh.top_nodes()].concat(),
+        );
+        for node in nodes_in_use(bvh) {
+            let node = node as usize..node as usize + 1;
+            same(device, "node", &nodes[node.clone()], &own[node]);
+        }
+        let roots = self.arrays.roots().expect("a read");
+        for root in bvh.plan_of_everything().roots {
+            let root = root as usize..root as usize + 1;
+            same(device, "root", &roots[root.clone()], &bvh.roots()[root]);
+        }
+
+        let receivers: Vec<P> = points.iter().map(|&point| P::at(point, random)).collect();
+        let numbers: Vec<[u32; 2]> = points.iter().map(|_| [random.bits(), random.bits()]).collect();
+        let sampled: Vec<SampledLight> = self.ask(self.kernels.sample, &receivers, &numbers);
+        let expected: Vec<_> = receivers
+            .iter()
+            .zip(&numbers)
+            .map(|(own, &[high, low])| tree.sample(own, Random64 { high, low }))
+            .collect();
+        same(device, self.kernels.sample.name, &sampled, &expected);
+
+        // Some ask for a light that another one sampled.
+        let which = |k: usize| {
+            sampled[if k.is_multiple_of(4) {
+                (k + 1) % sampled.len()
+            } else {
+                k
+            }]
+        };
+        let asked: Vec<_> = (0..points.len())
+            .map(|k| [which(k).light, which(k).instance])
+            .collect();
+        let pmfs: Vec<f32> = self.ask(self.kernels.pmf, &receivers, &asked);
+        let expected: Vec<_> = receivers
+            .iter()
+            .zip(&asked)
+            .map(|(own, &[light, instance])| tree.pmf(own, light, instance))
+            .collect();
+        same(device, self.kernels.pmf.name, &pmfs, &expected);
+
+        // And samples that nothing is behind.
+        let mut picked = sampled.clone();
+        for (k, sample) in picked.iter_mut().enumerate().filter(|(k, _)| k % 16 == 0) {
+            let word = |random: &mut Random| random.bits() >> random.below(32);
+            *sample = SampledLight {
+                light: if k % 64 == 0 { INVALID } else { word(random) },
+                instance: word(random),
+                pmf: 0.5,
+            };
+        }
+        let uv: Vec<[f32; 2]> = picked.iter().map(|_| [random.unit(), random.unit()]).collect();
+        let queries: Vec<Query> = points.iter().map(|&point| point.query([0; 2])).collect();
+        let [queries, samples, numbers] = [
+            device.upload(&queries).expect("an upload").bind(),
+            device.upload(&picked).expect("an upload").bind(),
+            device.upload(&uv).expect("an upload").bind(),
+        ];
+        let count = picked.len() as u32;
+        let others = [("queries", queries), ("samples", samples), ("numbers", numbers)];
+        let kernel = self.kernels.light_points;
+        let found: Vec<LightPoint> = self
+            .arrays
+            .ask(kernel, picked.len(), bytes_of(&PointsPush { count }), &others)
+            .expect("the answers");
+        let expected: Vec<_> = (0..picked.len())
+            .map(|k| {
+                let SampledLight { light, instance, .. } = picked[k];
+                let light = world_light(bvh.triangles(), tree.instances, light, instance);
+                light.point_for(points[k].position(), uv[k])
+            })
+            .collect();
+        same(device, kernel.name, &found, &expected);
+        receivers.into_iter().zip(sampled).collect()
+    }
+}
+
+fn same<T: Pod>(device: &Device, what: &str, found: &[T], expected: &[T]) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    for (k, (found, expected)) in found.iter().zip(expected).enumerate() {
+        assert_eq!(
+            bytes_of(found),
+            bytes_of(expected),
+            "{}: {what} {k}",
+            device.name()
+        );
+    }
+}
+
+/// On every device that is exact.
+fn on_exact(test: impl Fn(&Device)) {
+    on_each_device(Options::default(), |device| {
+        if device.self_test().expect("a verdict").exact {
+            test(device);
+        } else {
+            eprintln!("{}: not exact, its words are its own", device.name());
+        }
+    });
+}
+
+/// Six frames of instances under any maps that move, come and go, and of meshes that change; returns the lights sampled, and for whom.
+fn frames<N: Node<W>, I: ImportanceModel<N, W, P>, P: Ask, const W: usize>(
+    device: &Device,
+    kernels: KernelSet,
+) -> Vec<(P, Option<N::Light>)>
+where
+    N::Light: Any,
+{
+    let random = &mut Random::new(77);
+    let mut bvh = Bvh::<N, (), W>::default();
+    let mesh = |random: &mut Random, count: usize| -> Vec<N::Light> {
+        let light = |_| {
+            let place = [0; 3].map(|_| random.between(-4.0, 4.0));
+            let shine = [0; 3].map(|_| random.between(0.1, 5.0));
+            N::Light::any(random, place, 0.5, shine)
+        };
+        (0..count).map(light).collect()
+    };
+    let place = |random: &mut Random, k: usize| placing::transform(random, placing::Kind::ALL[k % 6], 30.0);
+    let counts = [3, 40, 300];
+    let meshes = counts.map(|count| bvh.add_mesh(mesh(random, count)).expect("a mesh"));
+    let add = |random: &mut Random, k: usize| Edit::AddInstance {
+        mesh: meshes[k % 3],
+        transform: place(random, k),
+        radiance: 1.0,
+    };
+    let all = (0..60).map(|k| add(random, k)).collect();
+    let mut ids = bvh.apply(all).expect("instances").instances;
+    let mut held = Held::new(device, kernels);
+    let mut seen = Vec::new();
+    for frame in 0..6 {
+        if frame > 0 {
+            let mut edits: Vec<_> = (0..10)
+                .map(|k| Edit::SetTransform {
+                    instance: ids[(7 * frame + k) % 60],
+                    transform: place(random, k),
+                })
+                .collect();
+            edits.push(Edit::SetTriangles {
+                mesh: meshes[frame % 3],
+                triangles: mesh(random, counts[frame % 3]),
+            });
+            let at = (7 * frame + 20) % 60;
+            edits.extend([Edit::RemoveInstance(ids[at]), add(random, frame)]);
+            ids[at] = bvh.apply(edits).expect("edits").instances[0];
+        }
+        bvh.refit();
+        let points: Vec<_> = (0..QUERIES)
+            .map(|k| ShadingPoint {
+                p: [0; 3].map(|_| random.between(-30.0, 30.0)),
+                n: if k % 3 == 0 { [0.0; 3] } else { random.direction() },
+            })
+            .collect();
+        let sampled = held.compare::<I, P>(&bvh, &points, random).into_iter();
+        seen.extend(sampled.map(|(own, sample)| (own, bvh.triangle(sample.light, sample.instance))));
+    }
+    seen
+}
+
+/// Trees in one level and in two, as built and refitted to other lights.
+fn built<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(device: &Device, kernels: KernelSet) {
+    let random = &mut Random::new(31);
+    let points: Vec<_> = trees::points().into_iter().cycle().take(1000).collect();
+    for (lights, params) in [
+        (trees::lights(), BuildParams::default()),
+        (shrinking(130, 26, false), split(Heuristic::Sah, 2)),
+    ] {
+        let later = moved(&lights, 31);
+        for build in [Bvh::<N, (), W>::single_level, Bvh::two_level] as [fn(&Lights, &BuildParams) -> _; 2] {
+            let (mut held, mut bvh) = (Held::new(device, kernels), build(&lights, &params));
+            held.compare::<I, ShadingPoint>(&bvh, &points, random);
+            bvh.follow(&later).expect("as many lights");
+            held.compare::<I, ShadingPoint>(&bvh, &points, random);
+        }
+    }
+}
+
+#[test]
+fn triangles_by_moments() {
+    on_exact(|device| {
+        frames::<MomentsNode, DefaultImportance, ShadingPoint, 8>(device, MOMENTS);
+        built::<MomentsNode, DefaultImportance, 8>(device, MOMENTS);
+    });
+}
+
+#[test]
+fn triangles_by_eq_4() {
+    on_exact(|device| {
+        frames::<PaperNode, Eq4, ShadingPoint, 4>(device, EQ4);
+        built::<PaperNode, Eq4, 4>(device, EQ4);
+    });
+}
+
+#[test]
+fn lights_of_every_kind() {
+    on_exact(|device| {
+        let seen = frames::<AnyNode, DefaultImportance, ShadingPoint, 8>(device, KernelSet::ANY);
+        let mut kinds = [0; 8];
+        for (_, light) in seen {
+            light.into_iter().for_each(|own| kinds[own.kind() as usize] += 1);
+        }
+        assert!(kinds.iter().all(|&count| count > 100), "{kinds:?}");
+    });
+}
+
+#[test]
+fn lights_with_masks() {
+    on_exact(|device| {
+        let seen =
+            frames::<LinkedNode, LinkedImportance, LinkedPoint<ShadingPoint>, 8>(device, KernelSet::LINKED);
+        for (receiver, light) in seen {
+            // Masks 0 and 16 have no light.
+            let common = light.map(|own| own.mask & receiver.mask);
+            assert_eq!(
+                common.is_some(),
+                ![0, 16].contains(&receiver.mask),
+                "{receiver:?}"
+            );
+            assert_ne!(common, Some(0), "{receiver:?}");
+        }
+    });
+}
