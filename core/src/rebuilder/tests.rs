@@ -218,6 +218,27 @@ fn walks_find_their_way_where_a_mesh_has_other_subtrees() {
     assert_eq!(meshes, 1);
 }
 
+/// Each voids the builds of the other, and misses frames besides.
+#[test]
+fn two_rebuilders_of_one_scene_lose_no_light() {
+    let random = &mut Random(5);
+    let mut bvh = LightBvh::default();
+    let mut both = [1, 2].map(|after| rebuilder(after, Swap::Deterministic, true));
+    for _ in 0..80 {
+        let takes_part = [0; 2].map(|_| random.below(3) > 0);
+        for (own, _) in both.iter_mut().zip(takes_part).filter(|(_, part)| *part) {
+            own.begin_frame(&mut bvh).expect("no panic");
+        }
+        let _ = bvh.apply(edits(random, &bvh, 8, 60));
+        bvh.refit();
+        sound(&bvh);
+        sound_samples(&bvh);
+        for (own, _) in both.iter_mut().zip(takes_part).filter(|(_, part)| *part) {
+            own.end_frame(&bvh);
+        }
+    }
+}
+
 #[test]
 fn a_scene_left_alone_for_long_is_followed_again() {
     let (mut bvh, ids) = scene(200, 1);
