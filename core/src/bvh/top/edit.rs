@@ -90,7 +90,7 @@ impl<N> Top<N> {
         self.refit_above(nodes);
     }
 
-    /// Call it for a node whose children changed. That moves the centres above, which is no drift: measure it anew from there.
+    /// Call it for a node whose children changed: the centres above move then without drift, so places are noted again.
     fn note_change<const W: usize>(&mut self, node: u32)
     where
         N: Node<W>,
