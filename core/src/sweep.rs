@@ -1,4 +1,4 @@
-//! Refit on the CPU: whole trees in one sweep, lists node by node, long ones on several threads.
+//! Refit on the CPU: whole trees in one sweep, large ones on several threads; lists node by node.
 //!
 //! The shared functions of [`refit`] are the definition, and give every word. Neither the order nor the threads
 //! show in any bit.
@@ -11,19 +11,19 @@ use crate::prefetch::fetch;
 use crate::refit::{self, Room};
 use crate::widest::widest;
 
-/// Shorter lists run on one thread.
+/// Smaller trees run on one thread.
 #[cfg(feature = "rayon")]
 const PARALLEL: usize = 2048;
-/// Nodes that the threads compute before they are put in place: few enough to stay in a cache.
-#[cfg(feature = "rayon")]
-const BLOCK: usize = 1 << 14;
-/// Nodes of one thread's piece of work.
-#[cfg(feature = "rayon")]
-const PIECE: usize = 256;
-
 /// [`refit::bottom`] over `list`, whose nodes are all of one level.
 pub fn bottom<N: Node<W>, const W: usize>(nodes: &mut [N], triangles: &[N::Light], list: &[u32]) {
-    each(nodes, list, |nodes, index| refit::bottom(nodes, triangles, index));
+    widest(
+        #[inline(always)]
+        || {
+            for &index in list {
+                nodes[index as usize] = refit::bottom(nodes, triangles, index);
+            }
+        },
+    );
 }
 
 /// [`refit::bottom`] over all `nodes`, which begin with node `first`: the trees of `roots`, each in depth-first order, one after
@@ -114,45 +114,6 @@ fn subtrees<N: Node<W>, const W: usize>(
     one_by_one(nodes, own, first, triangles);
 }
 
-fn each<N: Copy + Send + Sync>(nodes: &mut [N], list: &[u32], refitted: impl Fn(&[N], u32) -> N + Sync) {
-    #[cfg(feature = "rayon")]
-    if list.len() >= PARALLEL && rayon::current_num_threads() > 1 {
-        return each_parallel(nodes, list, refitted);
-    }
-    widest(
-        #[inline(always)]
-        || {
-            for &index in list {
-                nodes[index as usize] = refitted(nodes, index);
-            }
-        },
-    );
-}
-
-#[cfg(feature = "rayon")]
-fn each_parallel<N: Copy + Send + Sync>(
-    nodes: &mut [N],
-    list: &[u32],
-    refitted: impl Fn(&[N], u32) -> N + Sync,
-) {
-    use rayon::prelude::*;
-
-    let mut computed: Vec<N> = Vec::with_capacity(BLOCK.min(list.len()));
-    for block in list.chunks(BLOCK) {
-        let all = &*nodes;
-        let new = block.par_iter().with_min_len(PIECE).map(|&index| {
-            widest(
-                #[inline(always)]
-                || refitted(all, index),
-            )
-        });
-        new.collect_into_vec(&mut computed);
-        for (&index, new) in block.iter().zip(&computed) {
-            nodes[index as usize] = *new;
-        }
-    }
-}
-
 #[cfg(all(test, feature = "rayon"))]
 mod tests {
     use super::*;
@@ -173,7 +134,7 @@ mod tests {
             }
         };
         let lights = Lights::new((0..60_000).map(light).collect()).expect("in the domain");
-        let bvh = LightBvh::single_level(&lights, &BuildParams::FAST);
+        let bvh = LightBvh::single_level(&lights, &BuildParams::BALANCED);
         let nodes = &bvh.nodes()[..bvh.plan_of_everything().bottom.nodes().len()];
         assert!(nodes.len() > 2 * PARALLEL);
         let bare: Vec<MomentNode<8>> = nodes.iter().map(bare).collect();

@@ -51,12 +51,7 @@ impl Coordinates {
 /// Build parameters, also outside of their range.
 pub fn params(u: &mut Unstructured<'_>) -> Result<BuildParams> {
     let bits: u8 = u.arbitrary()?;
-    let heuristic = [
-        Heuristic::Saoh,
-        Heuristic::Sah,
-        Heuristic::Ward,
-        Heuristic::Morton,
-    ][usize::from(bits & 3)];
+    let heuristic = [Heuristic::Saoh, Heuristic::Sah, Heuristic::Ward][usize::from(bits & 3).min(2)];
     let effort = if bits & 4 == 0 {
         Effort::Usual
     } else {

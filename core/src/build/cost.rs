@@ -15,9 +15,6 @@ pub enum Heuristic {
     Saoh,
     /// Ward's criterion: Σ Φ · variance of position (Ward 1963), wide nodes from the start.
     Ward,
-    /// Clusters of up to `W` lights by Morton code, Ward's criterion above them: several times faster, and 5 to 20 % more
-    /// variance on most scenes.
-    Morton,
 }
 
 impl Heuristic {
@@ -60,7 +57,7 @@ impl Scales {
         match heuristic {
             Heuristic::Sah => count * self.area(group),
             // The wide builder never asks.
-            Heuristic::Saoh | Heuristic::Ward | Heuristic::Morton => {
+            Heuristic::Saoh | Heuristic::Ward => {
                 let flux = group.phi * self.per_phi + DEGENERATE * count;
                 flux * self.area(group) * orientation_measure(cos_theta_o(group))
             }
@@ -73,7 +70,7 @@ impl Scales {
         let extent = (node.high[axis] - node.low[axis]) * self.per_extent;
         match heuristic {
             Heuristic::Sah => 1.0,
-            Heuristic::Saoh | Heuristic::Ward | Heuristic::Morton => 1.0 / max(extent, 1e-6),
+            Heuristic::Saoh | Heuristic::Ward => 1.0 / max(extent, 1e-6),
         }
     }
 

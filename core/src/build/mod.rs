@@ -1,6 +1,5 @@
-//! Builders, for either level and any width: wide nodes by Ward's criterion, with clusters by Morton code below them
-//! where speed counts; and for comparison binned top-down splitting by SAH (paper Eq. 2) or SAOH (Eq. 3), whose binary
-//! tree is collapsed into a wide one.
+//! Builders, for either level and any width: wide nodes by Ward's criterion; and for comparison binned top-down splitting by
+//! SAH (paper Eq. 2) or SAOH (Eq. 3), whose binary tree is collapsed into a wide one.
 //!
 //! A builder decides the topology only; bounds come from [refit](crate::refit), so that a built tree and a refitted one
 //! are the same to the bit. Builders run on the CPU alone, but keep to the same exact arithmetic: every platform builds
@@ -9,7 +8,6 @@
 mod binary;
 mod collapse;
 mod cost;
-mod morton;
 mod primitive;
 mod split;
 mod topology;
@@ -18,7 +16,7 @@ mod ward;
 pub use cost::Heuristic;
 pub(crate) use topology::{Topology, build_each, build_over, build_top};
 
-/// What the builder may be told.
+/// Build options.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuildParams {
     /// How a tree is built.
@@ -51,11 +49,6 @@ pub enum Effort {
 pub const MAX_BUCKETS: u32 = 32;
 
 impl BuildParams {
-    /// The fastest build: clusters by Morton code, Ward's criterion above them.
-    pub const FAST: Self = Self {
-        heuristic: Heuristic::Morton,
-        ..Self::BALANCED
-    };
     /// Ward's criterion all the way, 16 buckets: the default.
     pub const BALANCED: Self = Self {
         heuristic: Heuristic::Ward,

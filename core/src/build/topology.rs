@@ -6,7 +6,7 @@ use super::BuildParams;
 use super::binary::{Binary, LEAF, binary_tree};
 use super::collapse::{Collapse, binary_levels};
 use super::primitive::Primitive;
-use super::ward::{WardPrimitive, build_ward, ward_primitives};
+use super::ward::{WardPrimitive, build_ward};
 use crate::light::Light;
 use crate::node::{Node, kind};
 use crate::summary::Summary;
@@ -47,7 +47,11 @@ pub(crate) fn build_over<N: Node<W>, const W: usize>(
         let mut primitives: Vec<Primitive> = (0..).zip(triangles).map(bounds).collect();
         return build_binary::<N, W>(&mut primitives, kind::LIGHT, params);
     }
-    build_ward::<N, W>(&mut ward_primitives(triangles), kind::LIGHT, params)
+    let primitives = (0..).zip(triangles);
+    let mut primitives: Vec<_> = primitives
+        .map(|(index, light)| WardPrimitive::of_light(index, light))
+        .collect();
+    build_ward::<N, W>(&mut primitives, kind::LIGHT, params)
 }
 
 /// Builds a tree over leaves of the top level, at least one, each a link and a summary. A leaf counts for a flux of at least

@@ -71,8 +71,6 @@ pub enum Builder {
     Saoh,
     /// Ward's criterion.
     Ward,
-    /// Clusters by Morton code, Ward's criterion above them: the fastest.
-    Morton,
 }
 
 /// What a method does.
@@ -179,7 +177,6 @@ impl Builder {
             Self::Sah => BuildParams::paper(Heuristic::Sah),
             Self::Saoh => BuildParams::paper(Heuristic::Saoh),
             Self::Ward => BuildParams::BALANCED,
-            Self::Morton => BuildParams::FAST,
         }
     }
 }

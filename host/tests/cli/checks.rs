@@ -140,7 +140,6 @@ fn bench_reports_every_case() {
             assert!(case["threads"].is_u64());
         }
         for (what, key, value) in [
-            ("build", "preset", "fast"),
             ("build", "preset", "balanced"),
             ("build", "preset", "best"),
             ("refit", "passes", "levels"),

@@ -37,12 +37,7 @@ fn every_sampler_heuristic_and_importance_renders() {
         "single-level-rebuilt",
         "two-level",
     ] {
-        for (heuristic, importance) in [
-            ("sah", "eq4"),
-            ("saoh", "eq4"),
-            ("ward", "moments"),
-            ("morton", "moments"),
-        ] {
+        for (heuristic, importance) in [("sah", "eq4"), ("saoh", "eq4"), ("ward", "moments")] {
             let file = folder.file(&format!("{sampler}-{heuristic}.png"));
             let output = run(&format!(
                 "render street --frame 3 --width 48 --height 27 --spp 1 --sampler {sampler} \

@@ -122,12 +122,7 @@ fn bvh<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: [u64; 3
     let lights = lights();
     let later = moved(&lights, 31);
     let (mut built, mut refitted, mut picked) = (Digest::new(), Digest::new(), Digest::new());
-    for heuristic in [
-        Heuristic::Sah,
-        Heuristic::Saoh,
-        Heuristic::Ward,
-        Heuristic::Morton,
-    ] {
+    for heuristic in [Heuristic::Sah, Heuristic::Saoh, Heuristic::Ward] {
         for (buckets, effort) in [(2, Effort::Usual), (16, Effort::Usual), (32, Effort::Most)] {
             let params = BuildParams {
                 effort,

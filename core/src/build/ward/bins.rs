@@ -1,9 +1,6 @@
 //! Ward's criterion (J. H. Ward, "Hierarchical grouping to optimize an objective function", 1963): the split that leaves
 //! the least sum of flux times squared distance from the flux-weighted centre on both sides.
 
-#[cfg(feature = "rayon")]
-use rayon::prelude::*;
-
 use super::frame::{Along, Extent, Frame};
 use super::primitive::WardPrimitive;
 use super::{CHUNK, SMALL};
@@ -86,23 +83,8 @@ impl Bins {
         squares: [0.0; 3],
     };
 
-    /// Sums over pieces of a fixed size, then over the pieces in order: the same bits for any number of threads.
+    /// Sums over pieces of a fixed size, then over the pieces in order.
     fn gather(&mut self, range: &[WardPrimitive], frame: &Frame) {
-        #[cfg(feature = "rayon")]
-        if super::is_parallel(range.len()) {
-            let pieces: alloc::vec::Vec<Self> = range
-                .par_chunks(CHUNK)
-                .map(|piece| {
-                    let mut sums = Self::EMPTY;
-                    sums.add(piece, frame);
-                    sums
-                })
-                .collect();
-            for piece in &pieces {
-                self.merge(piece);
-            }
-            return;
-        }
         if range.len() <= CHUNK {
             return self.add(range, frame);
         }

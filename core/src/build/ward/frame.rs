@@ -57,7 +57,7 @@ impl Extent {
 
 /// Weight of a primitive without flux, as a part of the brightest one's in its range: lights that emit nothing now are
 /// still told apart by their positions.
-pub(in crate::build) const DARK: f32 = pow2(-20);
+const DARK: f32 = pow2(-20);
 /// Shortest side that is split by planes, metres: the reciprocals of shorter ones come near the end of the range.
 const SHORTEST: f32 = pow2(-118);
 /// Shortest side that is split by planes, as a part of the longest one.

@@ -1,6 +1,5 @@
 //! Which ranges become the children of a wide node.
 
-use super::Leaves;
 use super::range::Range;
 use crate::build::{BuildParams, Effort};
 
@@ -9,10 +8,8 @@ use crate::build::{BuildParams, Effort};
 pub(in crate::build) struct Children<'a, const W: usize> {
     ranges: [Range<'a>; W],
     count: usize,
-    /// Free slots: less than `W − count` where groups give up their place to their lights.
+    /// Free slots.
     slots: usize,
-    /// Bit `i` is set where range `i`, a group, gives up its place to its lights.
-    opened: u32,
 }
 
 /// How the children of a node are found.
@@ -43,21 +40,20 @@ impl<'p> Growth<'p> {
     }
 
     /// Splits `range`, of at most `W · capacity` primitives, into children.
-    pub fn children<'a, const W: usize, L: Leaves>(&self, range: Range<'a>, leaves: &L) -> Children<'a, W> {
+    pub fn children<'a, const W: usize>(&self, range: Range<'a>) -> Children<'a, W> {
         let mut out = Children {
             ranges: core::array::from_fn(|_| Range::default()),
             count: 1,
             slots: W - 1,
-            opened: 0,
         };
         out.ranges[0] = range;
         if out.ranges[0].len() <= W {
-            out.open(0, leaves);
+            out.open(0);
         } else {
             while out.slots > 0 && self.split_costliest(&mut out) {}
         }
         // Every opened one is a node less; the smallest first, so that most of them fit.
-        while out.slots > 0 && out.open_smallest(leaves) {}
+        while out.slots > 0 && out.open_smallest() {}
         out
     }
 
@@ -108,44 +104,22 @@ impl<'a, const W: usize> Children<'a, W> {
         self.ranges[at..self.count].rotate_right(1);
     }
 
-    /// Slots that range `i` takes once it is opened.
-    fn size<L: Leaves>(&self, i: usize, leaves: &L) -> usize {
-        match &*self.ranges[i].here {
-            [only] if self.opened & (1 << i) == 0 => leaves.count(only.index),
-            [_] => 1,
-            many => many.len(),
-        }
-    }
-
-    /// Opens the smallest range of several, if it fits.
-    fn open_smallest<L: Leaves>(&mut self, leaves: &L) -> bool {
-        let mut smallest = None;
-        for i in 0..self.count {
-            let size = self.size(i, leaves);
-            if size > 1 && smallest.is_none_or(|(_, least)| size < least) {
-                smallest = Some((i, size));
-            }
-        }
-        match smallest {
+    /// Opens the smallest range of several primitives, if it fits.
+    fn open_smallest(&mut self) -> bool {
+        let sizes = self.ranges[..self.count].iter().map(Range::len).enumerate();
+        match sizes.filter(|&(_, size)| size > 1).min_by_key(|&(_, size)| size) {
             Some((i, size)) if size <= self.slots + 1 => {
-                self.open(i, leaves);
+                self.open(i);
                 true
             }
             _ => false,
         }
     }
 
-    /// Puts what range `i` holds in its place, at most `slots + 1` children.
-    fn open<L: Leaves>(&mut self, i: usize, leaves: &L) {
-        self.slots -= self.size(i, leaves) - 1;
-        if self.ranges[i].len() == 1 {
-            self.opened |= 1 << i;
-            return;
-        }
+    /// Puts the primitives of range `i` in its place, at most `slots + 1` of them.
+    fn open(&mut self, i: usize) {
         let range = core::mem::take(&mut self.ranges[i]);
-        let more = range.len() as u32 - 1;
-        let before = self.opened & ((1 << i) - 1);
-        self.opened = before | ((self.opened ^ before) << more);
+        self.slots -= range.len() - 1;
         for (at, single) in (i..).zip(range.into_single()) {
             if at == i {
                 self.ranges[i] = single;
@@ -155,17 +129,8 @@ impl<'a, const W: usize> Children<'a, W> {
         }
     }
 
-    /// The children in order, each with whether it gives up its place to its lights.
-    pub fn into_iter(self) -> impl Iterator<Item = (Range<'a>, bool)> {
-        let Self {
-            ranges,
-            count,
-            opened,
-            ..
-        } = self;
-        (0..)
-            .zip(ranges)
-            .take(count)
-            .map(move |(i, range)| (range, opened & (1 << i) != 0))
+    /// The children in order.
+    pub fn into_iter(self) -> impl Iterator<Item = Range<'a>> {
+        self.ranges.into_iter().take(self.count)
     }
 }

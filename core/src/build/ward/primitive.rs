@@ -1,10 +1,5 @@
 //! What the wide builder sorts.
 
-use alloc::vec::Vec;
-
-#[cfg(feature = "rayon")]
-use rayon::prelude::*;
-
 use crate::light::Light;
 
 /// A light, or a group of lights, as Ward's criterion sees it: 20 bytes.
@@ -36,20 +31,4 @@ impl WardPrimitive {
     pub(in crate::build) fn lanes(&self) -> [f32; 4] {
         [self.c[0], self.c[1], self.c[2], self.phi]
     }
-}
-
-/// One primitive for each of the lights, by index.
-#[must_use]
-pub fn ward_primitives<L: Light>(triangles: &[L]) -> Vec<WardPrimitive> {
-    let of = |(i, light): (usize, &L)| WardPrimitive::of_light(i as u32, light);
-    #[cfg(feature = "rayon")]
-    if super::is_parallel(triangles.len()) {
-        return triangles
-            .par_iter()
-            .enumerate()
-            .with_min_len(super::CHUNK)
-            .map(of)
-            .collect();
-    }
-    triangles.iter().enumerate().map(of).collect()
 }

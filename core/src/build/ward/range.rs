@@ -2,9 +2,8 @@
 
 use core::cmp::Ordering;
 
-use super::bins::Measure;
+use super::bins::{Measure, Plane};
 use super::frame::Extent;
-use super::partition::partition;
 use super::primitive::WardPrimitive;
 use crate::build::BuildParams;
 
@@ -93,6 +92,39 @@ impl<'a> Range<'a> {
                 ..Self::default()
             })
     }
+}
+
+/// Primitives that are moved, then looked at again for their box, while they are in the nearest cache.
+const BLOCK: usize = 256;
+
+/// Copies `from` into `to`, those on the left of `plane` to its front in order, the others to its end in reverse order.
+/// Returns the number on the left and the boxes of both sides.
+pub(super) fn partition(
+    from: &[WardPrimitive],
+    to: &mut [WardPrimitive],
+    plane: &Plane,
+) -> (usize, [Extent; 2]) {
+    let to = &mut to[..from.len()];
+    let (mut left, mut right) = (0, to.len());
+    let mut extents = [Extent::EMPTY; 2];
+    let grow = |extent: &mut Extent, primitives: &[WardPrimitive]| {
+        let more = Extent::of(primitives);
+        extent.grow(&more.low, &more.high);
+    };
+    for block in from.chunks(BLOCK) {
+        let (left_before, right_before) = (left, right);
+        for p in block {
+            // Both places are free; one of the copies is written over later.
+            to[left] = *p;
+            to[right - 1] = *p;
+            let is_right = usize::from(plane.is_right(p));
+            left += 1 - is_right;
+            right -= is_right;
+        }
+        grow(&mut extents[0], &to[left_before..left]);
+        grow(&mut extents[1], &to[right..right_before]);
+    }
+    (left, extents)
 }
 
 /// Where to split `count` primitives that a plane parts after `left`. Up to two nodes' worth are one full node and the rest,

@@ -160,12 +160,7 @@ impl Header {
 pub(super) const LENGTH: usize = 2;
 
 /// By code.
-const HEURISTICS: [Heuristic; 4] = [
-    Heuristic::Sah,
-    Heuristic::Saoh,
-    Heuristic::Ward,
-    Heuristic::Morton,
-];
+const HEURISTICS: [Heuristic; 3] = [Heuristic::Sah, Heuristic::Saoh, Heuristic::Ward];
 /// By code.
 const EFFORTS: [Effort; 2] = [Effort::Usual, Effort::Most];
 

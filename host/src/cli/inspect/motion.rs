@@ -71,8 +71,9 @@ impl Motion {
     pub fn of<C: Choice<WIDTH, Light: SceneLight>>(scene: &Scene) -> Result<Self, HostError> {
         let (mut frames, mut rounds) = (0, 0);
         let names = names::<C::Light>(scene);
-        let (_, mut instances) = Instances::new::<C::Node, C::Importance, WIDTH>(scene, 0, BuildParams::FAST)
-            .map_err(|error| HostError::in_frame(scene.name(), 0, error))?;
+        let (_, mut instances) =
+            Instances::new::<C::Node, C::Importance, WIDTH>(scene, 0, BuildParams::BALANCED)
+                .map_err(|error| HostError::in_frame(scene.name(), 0, error))?;
         let mut moves = vec![0_u32; names.len()];
         let mut bends = vec![false; names.len()];
         let carries = keys::carriers(scene.data());

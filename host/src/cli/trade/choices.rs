@@ -55,9 +55,7 @@ pub(super) fn all(
         ]);
     }
     if is_wanted(A::Builder) {
-        for own in [Builder::Morton, saoh] {
-            subjects.push(builder(A::Builder, own).of::<D>(DEFAULT)?);
-        }
+        subjects.push(builder(A::Builder, saoh).of::<D>(DEFAULT)?);
     }
     if is_wanted(A::Levels) {
         let of_paper = With {
