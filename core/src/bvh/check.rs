@@ -1,12 +1,9 @@
 //! Validation of a batch of edits, as a whole, before any of it is done.
 
-mod extents;
-
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
 use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
-use super::ranges::Ranges;
 use super::{Bvh, Trails};
 use crate::light::Light;
 use crate::lights::MAX_LIGHTS;
@@ -20,14 +17,14 @@ const PIECE: usize = 4096;
 
 type Extents = BTreeMap<MeshId, Extent>;
 
-/// What the edits before this one in the batch have done.
-struct Batch<L> {
+/// The effects of the earlier edits of the batch.
+#[derive(Default)]
+struct Batch {
     removed_instances: BTreeSet<InstanceId>,
     removed_meshes: BTreeSet<MeshId>,
     /// Change of a mesh's number of instances.
     uses: BTreeMap<MeshId, i64>,
-    /// Extents of meshes that were deformed or looked at, and transforms of moved instances and of added ones, which have no id
-    /// yet.
+    /// Extents of deformed meshes, and transforms of moved instances and of added ones, which have no id yet.
     extents: Extents,
     transforms: BTreeMap<InstanceId, Transform>,
     added: BTreeMap<MeshId, Vec<Transform>>,
@@ -37,66 +34,21 @@ struct Batch<L> {
     instances: usize,
     lights: usize,
     triangles: usize,
-    /// Which of them are free, where those ends alone would be too great.
-    space: Option<(Ranges, Ranges)>,
     /// Meshes added: number of triangles, and extent.
     meshes: Vec<(usize, Extent)>,
-    /// The triangles of deformed meshes, where extents are to be exact.
-    copies: Option<BTreeMap<MeshId, Vec<L>>>,
-}
-
-// Derived, it would ask the same of lights.
-impl<L> Default for Batch<L> {
-    fn default() -> Self {
-        Self {
-            removed_instances: BTreeSet::new(),
-            removed_meshes: BTreeSet::new(),
-            uses: BTreeMap::new(),
-            extents: Extents::new(),
-            transforms: BTreeMap::new(),
-            added: BTreeMap::new(),
-            deforms: false,
-            instances: 0,
-            lights: 0,
-            triangles: 0,
-            space: None,
-            meshes: Vec::new(),
-            copies: None,
-        }
-    }
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns the extents of meshes that are
-    /// others, or known better, after it.
+    /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns the extents of meshes that
+    /// are deformed.
     pub(super) fn check(&self, edits: &mut [Edit<N::Light>]) -> Result<Extents, EditError> {
-        let (mut is_crowded, mut is_exact) = (false, false);
-        loop {
-            match self.check_all(edits, is_crowded, is_exact) {
-                // Perhaps there is room among what is free.
-                Err(error) if !is_crowded && error.reason == EditReason::TooMany => is_crowded = true,
-                // Perhaps the mesh does not reach as far as is known without looking at all of it.
-                Err(error) if !is_exact && self.may_be_nearer(edits, &error.reason) => is_exact = true,
-                checked => return checked,
-            }
-        }
-    }
-
-    fn check_all(
-        &self,
-        edits: &mut [Edit<N::Light>],
-        is_crowded: bool,
-        is_exact: bool,
-    ) -> Result<Extents, EditError> {
         let deforms =
             |edit: &Edit<N::Light>| matches!(edit, Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. });
         let mut batch = Batch {
             instances: self.placed_ranges.end() as usize,
             lights: self.lights.end() as usize,
             triangles: self.triangle_ranges.end() as usize,
-            space: is_crowded.then(|| (self.lights.clone(), self.triangle_ranges.clone())),
             deforms: edits.iter().any(deforms),
-            copies: is_exact.then(BTreeMap::new),
             ..Batch::default()
         };
         for (index, edit) in edits.iter_mut().enumerate() {
@@ -106,15 +58,17 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         Ok(batch.extents)
     }
 
-    fn check_one(&self, batch: &mut Batch<N::Light>, edit: &mut Edit<N::Light>) -> Result<(), EditReason> {
+    fn check_one(&self, batch: &mut Batch, edit: &mut Edit<N::Light>) -> Result<(), EditReason> {
         if self.single && !matches!(edit, Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. }) {
             return Err(EditReason::SingleLevel);
         }
         match edit {
             Edit::AddMesh { triangles } => {
-                not_empty(triangles)?;
+                if triangles.is_empty() {
+                    return Err(EditReason::EmptyMesh);
+                }
                 checked(triangles)?;
-                batch.take_triangles(triangles.len());
+                batch.triangles += triangles.len();
                 batch.meshes.push((triangles.len(), Extent::of(triangles)));
             }
             &mut Edit::AddInstance {
@@ -133,7 +87,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     batch.added.entry(mesh).or_default().push(transform);
                 }
                 batch.instances += 1;
-                batch.take_lights(count);
+                batch.lights += count;
             }
             &mut Edit::SetTransform { instance, transform } => {
                 let mesh = self.known_instance(batch, instance)?;
@@ -154,12 +108,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     let found = triangles.len();
                     return Err(EditReason::Count { expected, found });
                 }
-                not_empty(triangles)?;
-                checked(triangles)?;
-                if let Some(copies) = &mut batch.copies {
-                    copies.insert(*mesh, triangles.clone());
-                }
-                self.check_users(batch, *mesh, Extent::of(triangles))?;
+                self.check_triangles(batch, *mesh, triangles)?;
             }
             Edit::SetTriangleRange {
                 mesh,
@@ -175,15 +124,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                         triangles: all,
                     });
                 }
-                checked(triangles)?;
-                let known = self.extent(batch, *mesh);
-                let extent = self.extent_with(batch, *mesh, *first, triangles);
-                // All instances are within reach of what is known.
-                if extent.coordinate > known.coordinate || batch.copies.is_some() {
-                    self.check_users(batch, *mesh, extent)?;
-                } else {
-                    batch.extents.insert(*mesh, extent);
-                }
+                self.check_triangles(batch, *mesh, triangles)?;
             }
             &mut Edit::RemoveInstance(id) => {
                 let mesh = self.known_instance(batch, id)?;
@@ -200,9 +141,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     });
                 }
                 batch.removed_meshes.insert(id);
-                if let Some((_, triangles)) = &mut batch.space {
-                    triangles.give(self.meshes[id.index as usize].triangles.clone());
-                }
             }
         }
         let is_full = batch.instances > MAX_PLACES as usize;
@@ -213,7 +151,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Number of triangles of a mesh that is there.
-    fn known_mesh(&self, batch: &Batch<N::Light>, id: MeshId) -> Result<usize, EditReason> {
+    fn known_mesh(&self, batch: &Batch, id: MeshId) -> Result<usize, EditReason> {
         let known = self
             .meshes
             .get(id.index as usize)
@@ -226,7 +164,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// The mesh of an instance that is there.
-    fn known_instance(&self, batch: &Batch<N::Light>, id: InstanceId) -> Result<MeshId, EditReason> {
+    fn known_instance(&self, batch: &Batch, id: InstanceId) -> Result<MeshId, EditReason> {
         match self.live(id) {
             Some(placed) if !batch.removed_instances.contains(&id) => Ok(MeshId {
                 tree: self.id.0,
@@ -237,40 +175,47 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    pub(super) fn mesh_len(&self, id: MeshId) -> usize {
+    fn mesh_len(&self, id: MeshId) -> usize {
         self.meshes[id.index as usize].triangles.len()
     }
-}
 
-impl<L> Batch<L> {
-    fn take_lights(&mut self, count: usize) {
-        self.lights = match &mut self.space {
-            Some((lights, _)) => end_after(lights, count),
-            None => self.lights + count,
-        };
+    /// The farthest that a mesh has reached since it was set as a whole.
+    fn extent(&self, batch: &Batch, id: MeshId) -> Extent {
+        let known = batch.extents.get(&id).copied();
+        known.unwrap_or(self.meshes[id.index as usize].extent)
     }
 
-    fn take_triangles(&mut self, count: usize) {
-        self.triangles = match &mut self.space {
-            Some((_, triangles)) => end_after(triangles, count),
-            None => self.triangles + count,
-        };
-    }
-}
-
-/// The end of `ranges` once `count` more are taken; more than all where that is more than there can be.
-fn end_after(ranges: &mut Ranges, count: usize) -> usize {
-    if count > MAX_LIGHTS || ranges.end() as usize > MAX_LIGHTS {
-        return usize::MAX;
-    }
-    ranges.take(count as u32);
-    ranges.end() as usize
-}
-
-fn not_empty<L>(triangles: &[L]) -> Result<(), EditReason> {
-    match triangles {
-        [] => Err(EditReason::EmptyMesh),
-        _ => Ok(()),
+    /// Whether triangles of a mesh may become these: all its instances, those of the batch included, stay within the domain.
+    fn check_triangles(
+        &self,
+        batch: &mut Batch,
+        mesh: MeshId,
+        triangles: &mut [N::Light],
+    ) -> Result<(), EditReason> {
+        checked(triangles)?;
+        let (known, mut extent) = (self.extent(batch, mesh), Extent::of(triangles));
+        if triangles.len() < self.mesh_len(mesh) {
+            extent.coordinate = extent.coordinate.max(known.coordinate);
+        }
+        if extent.coordinate > known.coordinate {
+            for &index in &self.meshes[mesh.index as usize].users {
+                let placed = &self.placed[index as usize];
+                let id = InstanceId {
+                    tree: self.id.0,
+                    index,
+                    generation: placed.generation,
+                };
+                if !batch.removed_instances.contains(&id) {
+                    let transform = batch.transforms.get(&id).unwrap_or(&placed.transform);
+                    transform.check(&extent).map_err(EditReason::Transform)?;
+                }
+            }
+            for transform in batch.added.get(&mesh).into_iter().flatten() {
+                transform.check(&extent).map_err(EditReason::Transform)?;
+            }
+        }
+        batch.extents.insert(mesh, extent);
+        Ok(())
     }
 }
 

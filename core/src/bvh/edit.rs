@@ -204,7 +204,7 @@ pub enum EditReason {
         /// Their number.
         instances: usize,
     },
-    /// More than 2^30 lights or triangles, or 2^27 instances.
+    /// More than 2^30 numbers of lights or triangles, free ones below the greatest included, or 2^27 instances.
     TooMany,
     /// A single-level BVH has one mesh and one instance, which stay.
     SingleLevel,

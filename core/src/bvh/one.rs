@@ -57,9 +57,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Changes the triangles of a mesh from index `first` on, as many as are given. Takes time in proportion to them and to the
     /// depth of the mesh's tree, of which a [`refit`](Self::refit) then computes the paths to them; all of it where they are
-    /// more than a sixteenth of the mesh, and in a BVH without trails. Only where they reach farther from the mesh's origin
-    /// than any triangle did, each instance of the mesh is looked at; where an instance would then reach beyond 2^40 m, the
-    /// whole mesh.
+    /// more than a sixteenth of the mesh, and in a BVH without trails. If they reach farther from
+    /// the mesh's origin than any triangle did since the mesh was set as a whole, each instance of the mesh is looked at.
     ///
     /// # Errors
     /// [`EditReason`], [`EditReason::Range`] where they are not all in the mesh; nothing is changed then.

@@ -1,5 +1,5 @@
 //! Ranges of an index space that grows: handed out first fit, taken back and joined, each in time of the logarithm of the
-//! number of free ranges.
+//! number of free ranges, plus that of those before the first fit which have half its length.
 //!
 //! What is live is never moved: numbers of lights and indices of instances are their users'. So no rule of fit keeps the space
 //! within a constant factor of what is live, whatever is asked for (Robson 1971, 1974: where ranges are of 1 to *n* indices, at
@@ -7,18 +7,17 @@
 //! log2(*n*) times that (Robson 1977), and is the best rule known in that respect; best fit may need *n* times. Where all
 //! ranges are equally long, as those of instances, meshes and single nodes, the space is the most that was live at once.
 
-mod holes;
-
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use core::ops::Range;
-
-use self::holes::Holes;
 
 /// Which indices below `end` are free.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Ranges {
-    /// No two touch.
-    free: Holes,
+    /// Length by start; no two touch.
+    free: BTreeMap<u32, u32>,
+    /// Starts by the logarithm of the length, rounded down.
+    by_length: [BTreeSet<u32>; 32],
     end: u32,
 }
 
@@ -36,7 +35,7 @@ impl Ranges {
         for range in used.into_iter().chain(core::iter::once(end..end)) {
             let gap = range.start.checked_sub(start)?;
             if gap > 0 {
-                ranges.free.insert(start, gap);
+                ranges.insert(start, gap);
             }
             start = range.end;
         }
@@ -50,8 +49,8 @@ impl Ranges {
 
     /// One more than the greatest index in use.
     pub fn used_end(&self) -> u32 {
-        match self.free.before(self.end) {
-            Some((start, length)) if start + length == self.end => start,
+        match self.free.last_key_value() {
+            Some((&start, &length)) if start + length == self.end => start,
             _ => self.end,
         }
     }
@@ -61,16 +60,14 @@ impl Ranges {
         if count == 0 {
             return 0..0;
         }
-        if let Some(start) = self.free.take_first(count) {
-            return start..start + count;
+        let start = self.first_fit(count).unwrap_or_else(|| self.used_end());
+        let length = self.remove(start);
+        if length > count {
+            self.insert(start + count, length - count);
         }
-        // What is free at the end is part of the new range.
-        let start = self.used_end();
-        if start < self.end {
-            self.free.remove(start);
-        }
-        self.end = start + count;
-        start..self.end
+        // What is free at the end is part of a new range.
+        self.end = self.end.max(start + count);
+        start..start + count
     }
 
     /// Gives a range back.
@@ -79,14 +76,37 @@ impl Ranges {
             return;
         }
         let (mut start, mut length) = (range.start, range.end - range.start);
-        let before = self.free.before(start);
-        if let Some((before, size)) = before.filter(|&(before, size)| before + size == start) {
-            self.free.remove(before);
+        let before = self.free.range(..start).next_back();
+        if let Some((&before, _)) = before.filter(|&(before, size)| before + size == range.start) {
+            length += self.remove(before);
             start = before;
-            length += size;
         }
-        length += self.free.remove(range.end);
+        length += self.remove(range.end);
+        self.insert(start, length);
+    }
+
+    /// Start of the first free range of at least `count`.
+    fn first_fit(&self, count: u32) -> Option<u32> {
+        let own = count.ilog2() as usize;
+        // All of these fit; of the own class some do.
+        let longer = self.by_length[own + 1..].iter().filter_map(BTreeSet::first);
+        let longer = longer.min().copied();
+        let mut own = self.by_length[own].range(..longer.unwrap_or(u32::MAX));
+        own.find(|start| self.free[start] >= count).copied().or(longer)
+    }
+
+    fn insert(&mut self, start: u32, length: u32) {
         self.free.insert(start, length);
+        self.by_length[length.ilog2() as usize].insert(start);
+    }
+
+    /// Removes the free range that begins there, and returns its length: 0 if none does.
+    fn remove(&mut self, start: u32) -> u32 {
+        let length = self.free.remove(&start).unwrap_or(0);
+        if length > 0 {
+            self.by_length[length.ilog2() as usize].remove(&start);
+        }
+        length
     }
 }
 

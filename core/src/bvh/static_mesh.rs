@@ -8,7 +8,6 @@ use super::{Added, Bvh, Trails, WithTrails};
 use crate::node::{Holds, Node};
 #[cfg(feature = "std")]
 use crate::rebuilder::{FrameStart, RebuildError, Rebuilder};
-use crate::transform::Extent;
 use crate::tree::LightTree;
 
 /// A [`Bvh`] whose instances are added, removed, moved and dimmed, and whose meshes do not change. It keeps no triangles, which
@@ -42,11 +41,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     #[must_use]
     pub fn into_static_meshes(mut self) -> StaticMeshBvh<N, I, W, T> {
         self.refit();
-        for mesh in self.meshes.iter_mut().filter(|mesh| !mesh.extent.is_exact) {
-            // The triangles, from which an exact extent is computed, are dropped below.
-            let own = mesh.triangles.start as usize..mesh.triangles.end as usize;
-            mesh.extent = Extent::of(&self.triangles[own]);
-        }
         self.reshaped.clear();
         self.triangles = Vec::new();
         StaticMeshBvh(self)

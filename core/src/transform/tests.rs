@@ -7,10 +7,7 @@ use crate::exact::{self, hash, pow2, unit_f32};
 use crate::light::EmissiveTriangle;
 
 fn extent(coordinate: f64) -> Extent {
-    Extent {
-        coordinate,
-        is_exact: true,
-    }
+    Extent { coordinate }
 }
 
 fn map(columns: [[f32; 3]; 3], translation: [f32; 3]) -> Transform {

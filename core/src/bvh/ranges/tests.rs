@@ -42,7 +42,6 @@ fn the_first_that_fit() {
             used[range.start as usize..range.end as usize].fill(true);
             held.push(range);
         }
-        ranges.free.check();
     }
     let mut ranges = Ranges::default();
     ranges.take(2_000_000);
@@ -60,47 +59,6 @@ fn what_is_not_taken_is_free() {
     assert_eq!((ranges.take(1), ranges.end()), (9..10, 10));
     for wrong in [[0..2, 1..3], [8..10, 0..1]] {
         assert!(Ranges::taken(9, wrong.to_vec()).is_none());
-    }
-}
-
-/// However many ranges are free, a search goes no deeper than 1.44 times the logarithm of their number.
-#[test]
-fn searches_are_logarithmic() {
-    let mut ranges = Ranges::default();
-    ranges.take(1 << 21);
-    for i in 0..1 << 20 {
-        // In order, and in no order.
-        let i = if i % 2 == 0 {
-            i
-        } else {
-            crate::exact::hash(i) >> 12 | 1
-        };
-        let start = 2 * i;
-        if ranges
-            .free
-            .before(start + 1)
-            .is_none_or(|(before, _)| before != start)
-        {
-            ranges.give(start..start + 1);
-        }
-    }
-    let count = ranges.free.check().len() as f64;
-    assert!(
-        f64::from(ranges.free.depth()) <= 1.44 * (count + 2.0).log2(),
-        "{count}"
-    );
-    // As they go again, too.
-    while ranges.free.check().len() > 1000 {
-        for _ in 0..300_000 {
-            if ranges.free.take_first(1).is_none() {
-                break;
-            }
-        }
-        let count = ranges.free.check().len() as f64;
-        assert!(
-            f64::from(ranges.free.depth()) <= 1.44 * (count + 2.0).log2(),
-            "{count}"
-        );
     }
 }
 
