@@ -14,7 +14,7 @@ pub use crate::rebuilder::RebuildError;
 #[cfg(feature = "alloc")]
 pub use crate::transform::TransformError;
 #[cfg(feature = "alloc")]
-pub use crate::validate::{Violation, What};
+pub use crate::validate::Violation;
 
 /// A number in a message: as people write it, by a power of ten only where it is very small or very large.
 pub(crate) struct Number(pub f32);

@@ -7,7 +7,7 @@ use crate::instance::Instance;
 use crate::light::Light;
 use crate::node::Node;
 use crate::transform::Transform;
-use crate::validate::{Violation, What, equal};
+use crate::validate::{Violation, equal};
 
 /// Numbers of a mesh's lights by [`flux_power`](Light::flux_power), where its type of lights has several.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -96,7 +96,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let lights = &self.triangles[own.triangles.start as usize..own.triangles.end as usize];
         let found = own.powers.common::<N::Light>();
         let expected = Powers::of(lights).common::<N::Light>();
-        equal(crate::tree::INVALID, mesh, What::Blas, expected, found)
+        equal(crate::tree::INVALID, mesh, "flux power", expected, found)
     }
 }
 

@@ -6,7 +6,6 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 pub(super) use self::walk::Found;
-use self::walk::bad;
 use super::apply::NO_INSTANCE;
 use super::{Bvh, Trails};
 use crate::instance::Instance;
@@ -16,7 +15,7 @@ use crate::refit;
 use crate::summary::Summary;
 use crate::trail::{leaf_parts, place};
 use crate::tree::{INVALID, OPENED};
-use crate::validate::{Violation, What, contained, equal, same, same_words};
+use crate::validate::{Violation, contained, equal, same, same_words};
 
 /// What a valid scene consists of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +35,7 @@ pub struct Stats {
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Checks every invariant, after a [`refit`](Self::refit):
-    /// - each node in use is reached once, through links that are in range, and knows its place in the node above;
+    /// - each node in use is reached once, through links that are in range, and knows its place above;
     /// - each live instance, or each of its parts, is a leaf of the top level exactly once, each triangle of a mesh a leaf of its
     ///   tree exactly once, and their trails lead there;
     /// - the nodes of a mesh are in depth-first order; heights are those of what is below;
@@ -84,7 +83,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
             if index as usize >= self.live.len() {
                 let listed = self.instances[index as usize].listed;
-                equal(INVALID, index, What::Listed, NO_INSTANCE.listed, listed)?;
+                equal(INVALID, index, "list entry", NO_INSTANCE.listed, listed)?;
             }
         }
         disjoint(used_lights)?;
@@ -100,28 +99,34 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     fn check_mesh(&self, index: u32, seen: &mut [bool]) -> Result<Found, Violation> {
         let mesh = &self.meshes[index as usize];
         let root = self.roots[index as usize].node;
-        equal(root, INVALID, What::Root, mesh.nodes.start, root)?;
+        equal(root, INVALID, "root", mesh.nodes.start, root)?;
         let found = Found::of(&self.nodes, root, kind::LIGHT, seen)?;
         found.check_depth_first(&mesh.nodes)?;
-        equal(root, INVALID, What::Level, found.depth, mesh.depth)?;
+        equal(root, INVALID, "level", found.depth, mesh.depth)?;
         let mut times = alloc::vec![0u32; mesh.triangles.len()];
         for own in &found.leaves {
             let (node, slot) = (own.node, own.slot);
             if !mesh.triangles.contains(&own.link) {
-                return Err(bad(node, slot, What::Owner, mesh.triangles.start, own.link));
+                return Err(Violation::new(
+                    node,
+                    slot,
+                    "light's mesh",
+                    mesh.triangles.start,
+                    own.link,
+                ));
             }
             times[(own.link - mesh.triangles.start) as usize] += 1;
             if T::KEPT {
                 let trail = self.trail_of(own.link);
-                equal(node, slot, What::TrailLow, own.trail.low, trail.low)?;
-                equal(node, slot, What::TrailHigh, own.trail.high, trail.high)?;
+                equal(node, slot, "low trail word", own.trail.low, trail.low)?;
+                equal(node, slot, "high trail word", own.trail.high, trail.high)?;
             }
             if let Some(light) = self.triangles.get(own.link as usize) {
-                equal(node, slot, What::Owner, index, light.mesh())?;
+                equal(node, slot, "light's mesh", index, light.mesh())?;
             }
         }
         for (triangle, &count) in mesh.triangles.clone().zip(&times) {
-            equal(INVALID, triangle, What::Triangle, 1, count)?;
+            equal(INVALID, triangle, "triangle's leaves", 1, count)?;
         }
         // A BVH of static meshes has no triangles.
         if !self.triangles.is_empty() {
@@ -145,7 +150,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let mesh = &self.meshes[placed.mesh as usize];
         let count = mesh.triangles.len() as u32;
         let lights = placed.lights.end - placed.lights.start;
-        equal(INVALID, index, What::First, count, lights)?;
+        equal(INVALID, index, "range of lights", count, lights)?;
         let expected = Instance {
             root: mesh.nodes.start,
             blas: placed.mesh,
@@ -157,11 +162,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         };
         same_words(INVALID, index, &expected, found)?;
         let user = mesh.users.get(placed.user as usize).copied();
-        equal(INVALID, index, What::Listed, index, user.unwrap_or(INVALID))?;
+        equal(INVALID, index, "list entry", index, user.unwrap_or(INVALID))?;
         let listed = self.live.get(placed.listed as usize).copied();
-        equal(INVALID, index, What::Listed, index, listed.unwrap_or(INVALID))?;
+        equal(INVALID, index, "list entry", index, listed.unwrap_or(INVALID))?;
         let listed = self.instances[placed.listed as usize].listed;
-        equal(INVALID, index, What::Listed, index, listed)
+        equal(INVALID, index, "list entry", index, listed)
     }
 
     /// Leaves, links upward, heights and words of the top level.
@@ -178,15 +183,15 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 .get(instance as usize)
                 .is_some_and(|placed| placed.live);
             if !is_live || !top.links_of(instance).contains(&part) {
-                return Err(bad(node, slot, What::Mesh, INVALID, own.link));
+                return Err(Violation::new(node, slot, "instance's leaf", INVALID, own.link));
             }
             times[instance as usize] += 1;
             let at = place::<W>(node, slot);
-            equal(node, slot, What::Place, at, top.place_of(instance, part))?;
+            equal(node, slot, "place above", at, top.place_of(instance, part))?;
             let known = top.leaf(own.link);
             let expected = self.leaf_of(own.link);
             for (e, f) in expected.summary.to_words().iter().zip(known.summary.to_words()) {
-                equal(node, slot, What::Mesh, e.to_bits(), f.to_bits())?;
+                equal(node, slot, "instance's leaf", e.to_bits(), f.to_bits())?;
             }
         }
         for (index, placed) in (0u32..).zip(&self.placed) {
@@ -194,14 +199,14 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 top.links_of(index).len() as u32
             } else {
                 let place = top.places.get(index as usize).copied().unwrap_or(INVALID);
-                equal(INVALID, index, What::Place, INVALID, place)?;
+                equal(INVALID, index, "place above", INVALID, place)?;
                 0
             };
-            equal(INVALID, index, What::Mesh, leaves, times[index as usize])?;
+            equal(INVALID, index, "instance's leaf", leaves, times[index as usize])?;
         }
         for (&instance, own) in top.opened.iter().filter(|(_, own)| own.first != INVALID) {
             let place = top.places[instance as usize];
-            equal(INVALID, instance, What::Parts, OPENED | own.first, place)?;
+            equal(INVALID, instance, "parts", OPENED | own.first, place)?;
         }
         let mut again = bare(&top.nodes, &found);
         for node in found.upward() {
@@ -215,31 +220,31 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 .max();
             let shape = &top.shapes[node as usize];
             for (e, f) in again[node as usize].merged().to_words().iter().zip(shape.words) {
-                equal(node, INVALID, What::Mesh, e.to_bits(), f.to_bits())?;
+                equal(node, INVALID, "instance's leaf", e.to_bits(), f.to_bits())?;
             }
-            equal(node, INVALID, What::Level, height.unwrap_or(1), shape.height)?;
+            equal(node, INVALID, "level", height.unwrap_or(1), shape.height)?;
             let children = (0..W).filter(|&slot| own.kind(slot) != kind::EMPTY).count() as u32;
             if node != top.root {
-                equal(node, INVALID, What::Children, children.max(2), children)?;
+                equal(node, INVALID, "children", children.max(2), children)?;
             }
             for slot in (0..W).filter(|&slot| own.kind(slot) == kind::INNER) {
                 let at = place::<W>(node, slot as u32);
                 let above = top.above[own.link(slot) as usize];
-                equal(node, slot as u32, What::Place, at, above)?;
+                equal(node, slot as u32, "place above", at, above)?;
             }
         }
         let root = top.root;
-        equal(root, INVALID, What::Place, INVALID, top.above[root as usize])?;
+        equal(root, INVALID, "place above", INVALID, top.above[root as usize])?;
         let used = top.shapes.iter().filter(|shape| shape.height > 0).count();
         let listed = top.nodes.len() - top.free.len();
         equal(
             INVALID,
             INVALID,
-            What::Listed,
+            "list entry",
             found.levels.len() as u32,
             used as u32,
         )?;
-        equal(INVALID, INVALID, What::Listed, used as u32, listed as u32)?;
+        equal(INVALID, INVALID, "list entry", used as u32, listed as u32)?;
         Ok(found)
     }
 
@@ -303,7 +308,13 @@ fn disjoint(mut ranges: Vec<Range<u32>>) -> Result<(), Violation> {
     ranges.sort_unstable_by_key(|range| (range.start, range.end));
     for pair in ranges.windows(2) {
         if pair[0].end > pair[1].start {
-            return Err(bad(INVALID, INVALID, What::First, pair[0].end, pair[1].start));
+            return Err(Violation::new(
+                INVALID,
+                INVALID,
+                "range of lights",
+                pair[0].end,
+                pair[1].start,
+            ));
         }
     }
     Ok(())

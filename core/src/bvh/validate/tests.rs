@@ -1,6 +1,7 @@
 //! Each invariant broken by hand, and found.
 
-use alloc::vec;
+use alloc::string::ToString;
+use alloc::{format, vec};
 
 use super::*;
 use crate::kit::triangle;
@@ -41,10 +42,11 @@ fn scene() -> Tree {
 }
 
 #[track_caller]
-fn finds(what: What, break_it: impl FnOnce(&mut Tree)) {
+fn finds(what: &str, break_it: impl FnOnce(&mut Tree)) {
     let mut scene = scene();
     break_it(&mut scene);
-    assert_eq!(scene.validate().expect_err("broken").what, what);
+    let found = scene.validate().expect_err("broken").to_string();
+    assert!(found.contains(what), "{found} without {what}");
 }
 
 #[test]
@@ -76,39 +78,44 @@ fn broken_trees_are_found() {
     let root = scene().top.root;
     let at = root as usize;
     assert_eq!(scene().top.nodes[at].kind(0), kind::INNER);
-    finds(What::Root, |s| s.roots[0].node += 1);
-    finds(What::Link, |s| s.top.nodes[at].relink(0, 9999));
+    finds("root", |s| s.roots[0].node += 1);
+    finds("link", |s| s.top.nodes[at].relink(0, 9999));
     let end = scene().top.nodes.len() as u32;
     let mut broken = scene();
     broken.top.nodes[at].relink(1, end);
-    assert_eq!(broken.validate(), Err(bad(root, 1, What::Link, end - 1, end)));
+    assert_eq!(
+        broken.validate(),
+        Err(Violation::new(root, 1, "link", end - 1, end))
+    );
     let end = scene().placed.len() as u32;
     let mut broken = scene();
     let (node, slot) = place_of(&broken, 2);
     broken.top.nodes[node].relink(slot, end);
-    let found = bad(node as u32, slot as u32, What::Mesh, INVALID, end);
+    let found = Violation::new(node as u32, slot as u32, "instance's leaf", INVALID, end);
     assert_eq!(broken.validate(), Err(found));
-    finds(What::Mesh, |s| {
+    finds("instance's leaf", |s| {
         // A part of an instance that is not opened.
         let (node, slot) = place_of(s, 2);
         s.top.nodes[node].relink(slot, leaf(2, 1));
     });
-    finds(What::Reached, |s| s.top.nodes[at].relink(0, root));
-    finds(What::Reached, |s| {
+    finds("times reached", |s| s.top.nodes[at].relink(0, root));
+    finds("times reached", |s| {
         let nodes = &mut s.nodes[s.meshes[0].nodes.start as usize..];
         nodes[0].set_child(0, kind::INNER, 0);
     });
-    finds(What::Kind, |s| s.top.nodes[at].set_child(0, kind::LIGHT, 0));
-    finds(What::Place, |s| {
+    finds("kind", |s| s.top.nodes[at].set_child(0, kind::LIGHT, 0));
+    finds("place above", |s| {
         let child = s.top.nodes[at].link(0) as usize;
         s.top.above[child] += 1;
     });
-    finds(What::Place, |s| s.top.above[at] = 0);
-    finds(What::Mesh, |s| s.top.nodes[at].set_child(0, kind::EMPTY, 0));
-    finds(What::Level, |s| s.top.shapes[at].height += 1);
-    finds(What::Mesh, |s| s.top.shapes[at].words[0] += 1.0);
-    finds(What::Listed, |s| s.top.free.push(0));
-    finds(What::Children, |s| {
+    finds("place above", |s| s.top.above[at] = 0);
+    finds("instance's leaf", |s| {
+        s.top.nodes[at].set_child(0, kind::EMPTY, 0)
+    });
+    finds("level", |s| s.top.shapes[at].height += 1);
+    finds("instance's leaf", |s| s.top.shapes[at].words[0] += 1.0);
+    finds("list entry", |s| s.top.free.push(0));
+    finds("children", |s| {
         // A node between the root and one of its nodes.
         let below = s.top.nodes[at].link(0);
         let between = s.top.nodes.len() as u32;
@@ -149,9 +156,10 @@ fn trees_deeper_than_a_trail_are_found() {
     let most = max_levels(2);
     chain(most).validate().expect("just deep enough");
     let violation = chain(most + 1).validate().expect_err("too deep");
-    assert_eq!(
-        (violation.what, violation.expected, violation.found),
-        (What::Level, most - 1, most)
+    let deepest = violation.to_string();
+    assert!(
+        deepest.ends_with(&format!("level: expected {}, found {most}", most - 1)),
+        "{deepest}"
     );
 }
 
@@ -169,12 +177,12 @@ fn broken_triangles_are_found() {
         scene().meshes[1].triangles.start - 1,
         scene().meshes[1].triangles.end,
     ] {
-        finds(What::Owner, |s| {
+        finds("light's mesh", |s| {
             let (node, slot) = leaf(s);
             s.nodes[node].relink(slot, triangle);
         });
     }
-    finds(What::TrailLow, |s| {
+    finds("low trail word", |s| {
         let (node, slot) = leaf(s);
         let link = s.nodes[node].link(slot);
         let other = if link == s.meshes[1].triangles.start {
@@ -184,12 +192,12 @@ fn broken_triangles_are_found() {
         };
         s.nodes[node].relink(slot, other);
     });
-    finds(What::Triangle, |s| {
+    finds("triangle's leaves", |s| {
         let (node, slot) = leaf(s);
         s.nodes[node].set_child(slot, kind::EMPTY, 0);
     });
-    finds(What::TrailLow, |s| s.trails[0] ^= 1);
-    finds(What::TrailLow, |s| s.trails[7] ^= 1 << 31);
+    finds("low trail word", |s| s.trails[0] ^= 1);
+    finds("low trail word", |s| s.trails[7] ^= 1 << 31);
     // Trails of two words, the high ones not all zero.
     let wide = |s: &mut Tree| {
         s.trail_words = 2;
@@ -198,28 +206,28 @@ fn broken_triangles_are_found() {
     let mut sound = scene();
     wide(&mut sound);
     sound.validate().expect("sound");
-    finds(What::TrailHigh, |s| {
+    finds("high trail word", |s| {
         wide(s);
         s.trails[1] = 1;
     });
-    finds(What::Owner, |s| s.triangles[3].mesh += 1);
+    finds("light's mesh", |s| s.triangles[3].mesh += 1);
     // Moved without a refit.
-    finds(What::Bounds("least x"), |s| s.triangles[0].p[0][0] -= 8.0);
+    finds("least x after a refit", |s| s.triangles[0].p[0][0] -= 8.0);
 }
 
 #[test]
 fn broken_instances_are_found() {
-    finds(What::Mesh, |s| {
+    finds("instance's leaf", |s| {
         // An instance in use, but in no leaf.
         let (node, slot) = place_of(s, 2);
         s.top.nodes[node].set_child(slot, kind::EMPTY, 0);
     });
-    finds(What::Place, |s| s.top.places[2] ^= 1);
-    finds(What::Place, |s| s.top.places[2] = INVALID);
-    finds(What::Mesh, |s| {
+    finds("place above", |s| s.top.places[2] ^= 1);
+    finds("place above", |s| s.top.places[2] = INVALID);
+    finds("instance's leaf", |s| {
         s.top.leaves[2].as_mut().expect("a leaf")[0] += 1.0
     });
-    finds(What::Mesh, |s| {
+    finds("instance's leaf", |s| {
         s.placed[2].live = false;
         s.instances[2] = Instance {
             listed: s.instances[2].listed,
@@ -227,32 +235,32 @@ fn broken_instances_are_found() {
         };
     });
     // The words of a record, in their order.
-    finds(What::Word(0), |s| s.instances[2].root += 1);
-    finds(What::Word(1), |s| s.instances[2].blas = 1);
-    finds(What::Word(2), |s| s.instances[2].first += 1);
-    finds(What::Word(3), |s| s.instances[2].first_triangle += 1);
-    finds(What::Word(4), |s| s.instances[2].count += 1);
-    finds(What::Word(6), |s| s.placed[2].transform.columns[0][0] = 3.0);
-    finds(What::Word(15), |s| s.instances[2].translation[0] = 0.5);
-    finds(What::First, |s| s.placed[2].lights.end += 1);
+    finds("word 0", |s| s.instances[2].root += 1);
+    finds("word 1", |s| s.instances[2].blas = 1);
+    finds("word 2", |s| s.instances[2].first += 1);
+    finds("word 3", |s| s.instances[2].first_triangle += 1);
+    finds("word 4", |s| s.instances[2].count += 1);
+    finds("word 6", |s| s.placed[2].transform.columns[0][0] = 3.0);
+    finds("word 15", |s| s.instances[2].translation[0] = 0.5);
+    finds("range of lights", |s| s.placed[2].lights.end += 1);
     // The lights of another instance of the mesh.
-    finds(What::First, |s| {
+    finds("range of lights", |s| {
         s.placed[2].lights = s.placed[0].lights.clone();
         s.instances[2].first = s.instances[0].first;
     });
     // The list of instances in use: a wrong entry, and a record that is not at its place.
-    finds(What::Listed, |s| s.instances[2].listed ^= 1);
-    finds(What::Listed, |s| s.live.swap(2, 3));
+    finds("list entry", |s| s.instances[2].listed ^= 1);
+    finds("list entry", |s| s.live.swap(2, 3));
 }
 
 #[test]
 fn broken_bounds_are_found() {
     let root = scene().top.root as usize;
     // The words of flux, two slots each.
-    finds(What::Bounds("flux"), |s| {
+    finds("flux after a refit", |s| {
         bytemuck::cast_slice_mut::<_, u32>(&mut s.top.nodes[root..=root])[10] ^= 1 << 20;
     });
-    finds(What::Bounds("least x"), |s| {
+    finds("least x after a refit", |s| {
         let node = s.meshes[0].nodes.start as usize;
         let mut children = [s.nodes[node].summary(0), s.nodes[node].summary(1)];
         children[0].min -= 1.0;

@@ -6,7 +6,7 @@ use core::ops::Range;
 use crate::node::{Node, kind};
 use crate::trail::{BitTrail, max_levels};
 use crate::tree::INVALID;
-use crate::validate::{Violation, What, equal};
+use crate::validate::{Violation, equal};
 
 /// A leaf as a walk comes to it.
 #[derive(Clone, Copy, Debug)]
@@ -41,15 +41,15 @@ impl Found {
         while let Some((node, (parent, slot), level, trail)) = stack.pop() {
             if node as usize >= nodes.len() {
                 let last = (nodes.len() as u32).wrapping_sub(1);
-                return Err(bad(parent, slot, What::Link, last, node));
+                return Err(Violation::new(parent, slot, "link", last, node));
             }
             if level >= max_levels(W) {
-                return Err(bad(node, INVALID, What::Level, max_levels(W) - 1, level));
+                return Err(Violation::new(node, INVALID, "level", max_levels(W) - 1, level));
             }
             equal(
                 node,
                 INVALID,
-                What::Reached,
+                "times reached",
                 1,
                 1 + u32::from(seen[node as usize]),
             )?;
@@ -71,8 +71,8 @@ impl Found {
                         trail: own_trail,
                     });
                 } else {
-                    equal(node, slot as u32, What::Kind, kind::EMPTY, to)?;
-                    equal(node, slot as u32, What::Link, 0, link)?;
+                    equal(node, slot as u32, "kind", kind::EMPTY, to)?;
+                    equal(node, slot as u32, "link", 0, link)?;
                 }
             }
         }
@@ -83,11 +83,11 @@ impl Found {
     pub fn check_depth_first(&self, range: &Range<u32>) -> Result<(), Violation> {
         let start = range.start;
         let count = self.levels.len() as u32;
-        equal(start, INVALID, What::Listed, range.len() as u32, count)?;
+        equal(start, INVALID, "list entry", range.len() as u32, count)?;
         let mut above = alloc::vec![INVALID; range.len()];
         for (&(_, node), &parent) in self.levels.iter().zip(&self.above) {
             if !range.contains(&node) {
-                return Err(bad(node, INVALID, What::Listed, start, node));
+                return Err(Violation::new(node, INVALID, "list entry", start, node));
             }
             above[(node - start) as usize] = parent;
         }
@@ -96,7 +96,7 @@ impl Found {
         for node in range.clone().rev() {
             let (count, end) = below[(node - start) as usize];
             // A node before its parent is counted by nothing above: then the root has too few.
-            equal(node, INVALID, What::Listed, end - node, count)?;
+            equal(node, INVALID, "list entry", end - node, count)?;
             if node != start {
                 let above = &mut below[(above[(node - start) as usize] - start) as usize];
                 *above = (above.0 + count, above.1.max(end));
@@ -110,15 +110,5 @@ impl Found {
         let mut levels = self.levels.clone();
         levels.sort_unstable_by_key(|&(level, node)| (core::cmp::Reverse(level), node));
         levels.into_iter().map(|(_, node)| node).collect()
-    }
-}
-
-pub(super) fn bad(node: u32, slot: u32, what: What, expected: u32, found: u32) -> Violation {
-    Violation {
-        node,
-        slot,
-        what,
-        expected,
-        found,
     }
 }

@@ -27,7 +27,7 @@ fn node(bounds: &LightBounds) -> PlainNode<2> {
 
 #[test]
 fn what_reaches_out_is_named() {
-    assert_eq!(within(&OUTER, 7, &node(&OUTER)), Ok(()), "equal is within");
+    assert_eq!(contained(&OUTER, 7, &node(&OUTER)), Ok(()), "equal is within");
     let inner = LightBounds {
         min: OUTER.min + 0.5,
         max: OUTER.max - 0.5,
@@ -36,7 +36,7 @@ fn what_reaches_out_is_named() {
         phi: 1.0,
         ..OUTER
     };
-    assert_eq!(within(&OUTER, 7, &node(&inner)), Ok(()));
+    assert_eq!(contained(&OUTER, 7, &node(&inner)), Ok(()));
     let change = |component: usize, by: f32| {
         let mut out = inner;
         match component {
@@ -60,22 +60,18 @@ fn what_reaches_out_is_named() {
         (11, 0.01),
     ] {
         let out = change(component, outward);
-        let violation = Violation {
-            node: 7,
-            slot: 1,
-            what: What::Containment(LightBounds::NAMES[component]),
-            expected: OUTER.to_words()[component].to_bits(),
-            found: out.to_words()[component].to_bits(),
-        };
-        assert_eq!(within(&OUTER, 7, &node(&out)), Err(violation));
-        assert_eq!(within(&OUTER, 7, &node(&change(component, -outward))), Ok(()));
+        let what = format!("{} within the parent's", LightBounds::NAMES[component]);
+        let [e, f] = [OUTER, out].map(|own| format!("{:e}", own.to_words()[component]));
+        let violation = Violation::new(7, 1, what, e, f);
+        assert_eq!(contained(&OUTER, 7, &node(&out)), Err(violation));
+        assert_eq!(contained(&OUTER, 7, &node(&change(component, -outward))), Ok(()));
         // Without flux it means nothing, and neither does it in an empty slot.
         let dark = LightBounds { phi: 0.0, ..out };
-        assert_eq!(within(&OUTER, 7, &node(&dark)), Ok(()));
+        assert_eq!(contained(&OUTER, 7, &node(&dark)), Ok(()));
         let mut empty = node(&out);
         empty.set_child(1, kind::EMPTY, 0);
         empty.set_summaries(&[LightBounds::EMPTY, out]);
-        assert_eq!(within(&OUTER, 7, &empty), Ok(()));
+        assert_eq!(contained(&OUTER, 7, &empty), Ok(()));
     }
 }
 
@@ -115,17 +111,10 @@ fn differences_are_named_by_what_they_mean() {
     for component in 0..12 {
         let mut other = one;
         bytemuck::cast_slice_mut::<_, u32>(core::slice::from_mut(&mut other))[2 * component + 1] ^= 1;
-        let (expected, found) = (
-            OUTER.to_words()[component].to_bits(),
-            OUTER.to_words()[component].to_bits() ^ 1,
-        );
-        let violation = Violation {
-            node: 5,
-            slot: 1,
-            what: What::Bounds(LightBounds::NAMES[component]),
-            expected,
-            found,
-        };
+        let expected = OUTER.to_words()[component];
+        let found = f32::from_bits(expected.to_bits() ^ 1);
+        let what = format!("{} after a refit", LightBounds::NAMES[component]);
+        let violation = Violation::new(5, 1, what, format!("{expected:e}"), format!("{found:e}"));
         assert_eq!(same(5, &one, &other), Err(violation));
     }
     // Kind and link, which are no bounds, in the first and in the second child.
@@ -134,13 +123,13 @@ fn differences_are_named_by_what_they_mean() {
         let words = bytemuck::cast_slice_mut::<_, u32>(core::slice::from_mut(&mut other));
         let before = words[2 * word + slot];
         words[2 * word + slot] ^= 0x8001_0100;
-        let violation = Violation {
-            node: 5,
-            slot: INVALID,
-            what: What::Word((2 * word + slot) as u32),
-            expected: before,
-            found: before ^ 0x8001_0100,
-        };
+        let violation = Violation::new(
+            5,
+            INVALID,
+            format!("word {}", 2 * word + slot),
+            before,
+            before ^ 0x8001_0100,
+        );
         assert_eq!(same(5, &one, &other), Err(violation));
     }
     let record = [1u32, 0x0203_0405, 3];
@@ -148,13 +137,7 @@ fn differences_are_named_by_what_they_mean() {
     for word in 0..3 {
         let mut other = record;
         other[word] ^= 0xff00_0100;
-        let violation = Violation {
-            node: 1,
-            slot: 2,
-            what: What::Word(word as u32),
-            expected: record[word],
-            found: other[word],
-        };
+        let violation = Violation::new(1, 2, format!("word {word}"), record[word], other[word]);
         assert_eq!(same_words(1, 2, &record, &other), Err(violation));
     }
 }
