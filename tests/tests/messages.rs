@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use lightbvh::error::{EditError, EditReason, FollowError, ReadError};
+use lightbvh::error::{EditError, EditReason, FollowError};
 use lightbvh::light::{MAX_RADIANCE, TWO_SIDED};
 use lightbvh::point::MAX_REACH;
 use lightbvh::transform::TransformError;
@@ -227,42 +227,20 @@ fn files() {
     let error = Bvh::<CompactNode<4>, (), 4>::from_words(&words).expect_err("another layout");
     says(&error, &["another layout", "as what was written"]);
     says(
-        &ReadError::Version {
-            expected: 1,
-            found: 9,
-        },
-        &["format 9, expected 1", "build the light BVH anew"],
+        &read(&|words| words[1] = 9),
+        &["format 9, expected", "build the light BVH anew"],
     );
     says(
-        &ReadError::Width {
-            expected: 8,
-            found: 16,
-        },
+        &read(&|words| words[4] = 16),
         &["nodes of 16 children, expected 8"],
     );
-    let word = ReadError::Word {
-        at: 12,
-        what: "number of meshes",
-        found: 5,
-    };
-    says(&word, &["word 12, number of meshes, is 5", "damaged"]);
     says(
-        &ReadError::Places { what: "lights" },
-        &["places of lights overlap", "damaged"],
+        &read(&|words| words[5] = 99),
+        &["word 5, flags, is 99", "damaged"],
     );
-    let error = LightError::Coordinate {
-        vertex: 2,
-        axis: 1,
-        value: 1e20,
-    };
     says(
-        &ReadError::Light { triangle: 4, error },
-        &["light 4: coordinate y of vertex 2"],
-    );
-    let reason = EditReason::Radiance { value: -1.0 };
-    says(
-        &ReadError::Instance { instance: 3, reason },
-        &["instance 3: factor on radiance -1", "nothing shines less than 0"],
+        &read(&|words| words[15] = 5),
+        &["places of the top level's root", "damaged"],
     );
     says(
         &EditReason::Radiance { value: 1e30 },

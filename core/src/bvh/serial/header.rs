@@ -1,7 +1,10 @@
 //! The first words: what follows, and how much of it.
 
-use super::error::ReadError;
-use super::words::Words;
+use alloc::format;
+
+use bytemuck::{Pod, Zeroable};
+
+use super::words::{ReadError, Words, misplaced};
 use crate::build::{BuildParams, Effort, Heuristic};
 use crate::light::{EmissiveTriangle, Light};
 use crate::lights::MAX_LIGHTS;
@@ -12,25 +15,35 @@ use crate::trail::max_levels;
 pub const FORMAT: u32 = 10;
 
 /// "LBVH" as bytes in little-endian order.
-const MAGIC: u32 = u32::from_le_bytes(*b"LBVH");
+pub(super) const MAGIC: u32 = u32::from_le_bytes(*b"LBVH");
 
 /// Words of a header.
 pub(super) const HEADER_WORDS: usize = 20;
 
-const SINGLE: u32 = 1;
-const FORGOTTEN: u32 = 2;
-const OPENS: u32 = 4;
+/// Bits of the flags.
+pub(super) const SINGLE: u32 = 1;
+pub(super) const FORGOTTEN: u32 = 2;
+pub(super) const OPENS: u32 = 4;
 
-fn flag(is_set: bool, bit: u32) -> u32 {
-    if is_set { bit } else { 0 }
-}
+/// By code.
+const HEURISTICS: [Heuristic; 3] = [Heuristic::Sah, Heuristic::Saoh, Heuristic::Ward];
+/// By code.
+const EFFORTS: [Effort; 2] = [Effort::Usual, Effort::Most];
 
-/// What the first words say.
-#[derive(Clone, Copy, Debug)]
+/// The first words, in order.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(super) struct Header {
-    pub params: BuildParams,
-    pub single: bool,
-    pub forgotten: bool,
+    pub magic: u32,
+    pub format: u32,
+    /// Number of all words.
+    pub length: u32,
+    pub layout: u32,
+    pub width: u32,
+    pub flags: u32,
+    /// Codes of heuristic and effort.
+    pub built: u32,
+    pub buckets: u32,
     pub bottom_depth: u32,
     /// Lengths of the arrays, places not in use included.
     pub nodes: u32,
@@ -50,137 +63,98 @@ pub(super) struct Header {
     pub parts: u32,
 }
 
+/// The codes of heuristic and effort.
+pub(super) fn built(params: &BuildParams) -> u32 {
+    let heuristic = HEURISTICS.iter().position(|&own| own == params.heuristic);
+    let effort = EFFORTS.iter().position(|&own| own == params.effort);
+    heuristic.unwrap_or(0) as u32 | ((effort.unwrap_or(0) as u32) << 8)
+}
+
 impl Header {
-    /// The words; that of the length is still to be set, to [`LENGTH`].
-    pub fn words<N: Node<W>, const W: usize>(&self) -> [u32; HEADER_WORDS] {
-        let heuristic = HEURISTICS.iter().position(|&own| own == self.params.heuristic);
-        let effort = EFFORTS.iter().position(|&own| own == self.params.effort);
-        [
-            MAGIC,
-            FORMAT,
-            0,
-            layout_of::<N, W>(),
-            W as u32,
-            flag(self.single, SINGLE) | flag(self.forgotten, FORGOTTEN) | flag(self.params.opens, OPENS),
-            heuristic.unwrap_or(0) as u32 | ((effort.unwrap_or(0) as u32) << 8),
-            self.params.buckets,
-            self.bottom_depth,
-            self.nodes,
-            self.triangles,
-            self.meshes,
-            self.instances,
-            self.lights,
-            self.removed,
-            self.top_root,
-            self.top_nodes,
-            self.top_free,
-            self.opened,
-            self.parts,
-        ]
+    pub fn has(&self, flag: u32) -> bool {
+        self.flags & flag != 0
     }
 
-    pub fn read<N: Node<W>, const W: usize>(words: &mut Words<'_>) -> Result<Self, ReadError> {
-        let found = words.one()?;
-        if found != MAGIC {
-            return Err(ReadError::Magic { found });
+    /// Reads the header, and how trees are built.
+    pub fn read<N: Node<W>, const W: usize>(words: &mut Words<'_>) -> Result<(Self, BuildParams), ReadError> {
+        let own: Self = bytemuck::cast(words.array::<HEADER_WORDS>()?);
+        let (lights, name) = (N::Light::NAME, N::NAME);
+        let refused = |text| Err(ReadError(text));
+        if own.magic != MAGIC {
+            return refused(format!(
+                "the first word is {:#010x}, not that of a light BVH; give what to_words wrote, in little-endian order",
+                own.magic
+            ));
         }
-        let found = words.one()?;
-        if found != FORMAT {
-            return Err(ReadError::Version {
-                expected: FORMAT,
-                found,
-            });
+        if own.format != FORMAT {
+            return refused(format!(
+                "format {}, expected {FORMAT}; build the light BVH anew from its triangles",
+                own.format
+            ));
         }
-        let length = words.one()? as usize;
-        if length != words.len() {
-            return Err(ReadError::Length {
-                expected: length,
-                found: words.len(),
-            });
+        if own.length as usize != words.all.len() {
+            return Err(words.length(own.length as usize));
         }
-        if words.one()? != layout_of::<N, W>() {
-            return Err(ReadError::Layout {
-                expected: N::NAME,
-                lights: N::Light::NAME,
-            });
+        if own.layout != layout::<N, W>() {
+            return refused(format!(
+                "nodes of another layout than \"{name}\" over lights of kind \"{lights}\"; read them as what was written"
+            ));
         }
-        let found = words.one()?;
-        if found as usize != W {
-            return Err(ReadError::Width { expected: W, found });
+        if own.width as usize != W {
+            return refused(format!(
+                "nodes of {} children, expected {W}; read them as what was written",
+                own.width
+            ));
         }
-        let flags = words.one()?;
-        words.expect(flags & !(SINGLE | FORGOTTEN | OPENS) == 0, "flags")?;
-        let built = words.one()?;
-        let heuristic = HEURISTICS.get((built & 255) as usize);
-        let effort = EFFORTS.get((built >> 8) as usize);
-        let (Some(&heuristic), Some(&effort)) = (heuristic, effort) else {
-            return Err(words.wrong("heuristic and effort"));
+        let heuristic = HEURISTICS.get((own.built & 255) as usize);
+        let effort = EFFORTS.get((own.built >> 8) as usize);
+        // Each place of a part was written once, with a leaf.
+        let most_parts = W * words.all.len();
+        for (at, what, holds) in [
+            (5, "flags", own.flags & !(SINGLE | FORGOTTEN | OPENS) == 0),
+            (6, "heuristic and effort", heuristic.is_some() && effort.is_some()),
+            (
+                8,
+                "levels of the bottom levels",
+                own.bottom_depth <= max_levels(W),
+            ),
+            (10, "number of triangles", own.triangles as usize <= MAX_LIGHTS),
+            (
+                13,
+                "end of the lights' numbers",
+                own.lights as usize <= MAX_LIGHTS,
+            ),
+            (19, "number of parts", own.parts as usize <= most_parts),
+        ] {
+            let word = Words {
+                all: words.all,
+                next: at + 1,
+            };
+            word.expect(holds, what)?;
+        }
+        if own.top_root >= own.top_nodes {
+            return Err(misplaced("the top level's root"));
+        }
+        let params = BuildParams {
+            heuristic: heuristic.copied().unwrap_or(Heuristic::Ward),
+            buckets: own.buckets,
+            effort: effort.copied().unwrap_or(Effort::Usual),
+            opens: own.has(OPENS),
         };
-        let buckets = words.one()?;
-        let bottom_depth = words.one()?;
-        words.expect(bottom_depth <= max_levels(W), "levels of the bottom levels")?;
-        let [nodes, triangles] = words.array()?;
-        words.expect(triangles as usize <= MAX_LIGHTS, "number of triangles")?;
-        let [meshes, instances, lights] = words.array()?;
-        words.expect(lights as usize <= MAX_LIGHTS, "end of the lights' numbers")?;
-        let [removed, top_root, top_nodes, top_free, opened, parts] = words.array()?;
-        if top_root >= top_nodes {
-            return Err(ReadError::Places {
-                what: "the top level's root",
-            });
-        }
-        // Each place was written once, with a leaf.
-        words.expect(parts as usize <= W * words.len(), "number of parts")?;
-        Ok(Self {
-            params: BuildParams {
-                heuristic,
-                buckets,
-                effort,
-                opens: flags & OPENS != 0,
-            },
-            single: flags & SINGLE != 0,
-            forgotten: flags & FORGOTTEN != 0,
-            bottom_depth,
-            nodes,
-            triangles,
-            meshes,
-            instances,
-            lights,
-            removed,
-            top_root,
-            top_nodes,
-            top_free,
-            opened,
-            parts,
+        Ok((own, params))
+    }
+}
+
+/// The word of a layout, and of the lights of its trees if they are no emissive triangles: FNV-1a of the bytes of their names.
+pub(super) fn layout<N: Node<W>, const W: usize>() -> u32 {
+    let lights = match N::Light::NAME {
+        EmissiveTriangle::NAME => "",
+        other => other,
+    };
+    N::NAME
+        .bytes()
+        .chain(lights.bytes())
+        .fold(0x811c_9dc5, |hash, byte| {
+            (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
         })
-    }
-}
-
-/// Place of the number of words.
-pub(super) const LENGTH: usize = 2;
-
-/// By code.
-const HEURISTICS: [Heuristic; 3] = [Heuristic::Sah, Heuristic::Saoh, Heuristic::Ward];
-/// By code.
-const EFFORTS: [Effort; 2] = [Effort::Usual, Effort::Most];
-
-/// A layout's name as a word: FNV-1a of its bytes.
-pub(super) fn layout(name: &str) -> u32 {
-    hashed(0x811c_9dc5, name)
-}
-
-fn hashed(start: u32, text: &str) -> u32 {
-    text.bytes().fold(start, |hash, byte| {
-        (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
-    })
-}
-
-/// The word of a layout, and of the lights of its trees where they are no emissive triangles.
-fn layout_of<N: Node<W>, const W: usize>() -> u32 {
-    let own = layout(N::NAME);
-    if N::Light::NAME == EmissiveTriangle::NAME {
-        own
-    } else {
-        hashed(own, N::Light::NAME)
-    }
 }

@@ -5,7 +5,6 @@
 //! and levels are computed again, by the functions that a refit calls: they are bit-identical on every machine.
 //! `docs/format.md` lists every word.
 
-mod error;
 mod header;
 mod read;
 mod restore;
@@ -14,10 +13,10 @@ mod tests;
 mod words;
 mod write;
 
-pub use error::ReadError;
 pub use header::FORMAT;
+pub use words::ReadError;
 
-use self::words::Words;
+use self::words::{Words, damaged};
 use super::Bvh;
 use crate::node::Node;
 
@@ -40,10 +39,12 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// # Errors
     /// [`ReadError`], which says which word is wrong or what of the tree does not hold.
     pub fn from_words(words: &[u32]) -> Result<Self, ReadError> {
-        let mut words = Words::of(words);
+        let mut words = Words { all: words, next: 0 };
         let bvh = Self::read(&mut words)?;
-        words.end()?;
-        bvh.validate().map_err(ReadError::Tree)?;
+        if words.next < words.all.len() {
+            return Err(words.length(words.next));
+        }
+        bvh.validate().map_err(damaged)?;
         Ok(bvh)
     }
 }

@@ -2,9 +2,8 @@
 
 use alloc::vec::Vec;
 
-use super::error::ReadError;
-use super::header::Header;
-use super::words::{Words, taken};
+use super::header::{FORGOTTEN, Header, SINGLE};
+use super::words::{ReadError, Words, damaged, taken};
 use crate::bvh::check::factor;
 use crate::bvh::powers::Powers;
 use crate::bvh::records::Mesh;
@@ -17,10 +16,10 @@ use crate::tree::INVALID;
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     pub(super) fn read(words: &mut Words<'_>) -> Result<Self, ReadError> {
-        let header = Header::read::<N, W>(words)?;
-        let mut bvh = Self::new(header.params);
-        bvh.single = header.single;
-        bvh.forgotten = header.forgotten;
+        let (header, params) = Header::read::<N, W>(words)?;
+        let mut bvh = Self::new(params);
+        bvh.single = header.has(SINGLE);
+        bvh.forgotten = header.has(FORGOTTEN);
         bvh.bottom_depth = header.bottom_depth;
         bvh.read_meshes(words, &header)?;
         bvh.read_instances(words, &header)?;
@@ -29,7 +28,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             let range = words.range(header.lights, "removed lights")?;
             bvh.removed_lights.push(range);
         }
-        words.expect(!header.forgotten || header.removed > 0, "removed lights")?;
+        words.expect(!bvh.forgotten || header.removed > 0, "removed lights")?;
         bvh.read_top(words, &header)?;
         let count = words.need(header.nodes)?;
         bvh.nodes = alloc::vec![N::EMPTY; count];
@@ -192,10 +191,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                     *word = words.one()?;
                 }
             }
-            *light = light.checked().map_err(|error| ReadError::Light {
-                triangle: index,
-                error,
-            })?;
+            let checked = light.checked();
+            *light = checked.map_err(|error| damaged(format_args!("light {index}: {error}")))?;
         }
         for mesh in &mut self.meshes {
             let range = mesh.triangles.start as usize..mesh.triangles.end as usize;
@@ -203,10 +200,11 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             mesh.powers = Powers::of(&self.triangles[range]);
         }
         for (instance, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
-            let wrong = |reason| ReadError::Instance { instance, reason };
             let checked = placed.transform.check(&self.meshes[placed.mesh as usize].extent);
-            checked.map_err(|error| wrong(EditReason::Transform(error)))?;
-            factor(placed.radiance).map_err(wrong)?;
+            checked
+                .map_err(EditReason::Transform)
+                .and_then(|()| factor(placed.radiance))
+                .map_err(|reason| damaged(format_args!("instance {instance}: {reason}")))?;
         }
         Ok(())
     }

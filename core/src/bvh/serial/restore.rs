@@ -3,9 +3,8 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::error::ReadError;
 use super::header::Header;
-use super::words::taken;
+use super::words::{ReadError, damaged, misplaced, taken};
 use crate::bvh::Bvh;
 use crate::bvh::apply::NO_INSTANCE;
 use crate::bvh::log::Log;
@@ -17,13 +16,8 @@ use crate::trail::{leaf, leaf_parts, trail_words};
 use crate::transform::Transform;
 use crate::tree::INVALID;
 
-const NODES: ReadError = ReadError::Places { what: "nodes" };
-const LEAVES: ReadError = ReadError::Places {
-    what: "leaves of the top level",
-};
-const LISTS: ReadError = ReadError::Places {
-    what: "instances in lists",
-};
+const NODES: &str = "nodes";
+const LEAVES: &str = "leaves of the top level";
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     pub(super) fn restore(&mut self, header: &Header) -> Result<(), ReadError> {
@@ -60,7 +54,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             for (list, at) in [(users, placed.user), (&mut self.live, placed.listed)] {
                 match list.get_mut(at as usize) {
                     Some(entry) if *entry == INVALID => *entry = index,
-                    _ => return Err(LISTS),
+                    _ => return Err(misplaced("instances in lists")),
                 }
             }
         }
@@ -77,9 +71,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         used.extend_from_slice(waiting);
         self.lights = taken(header.lights, used, "lights")?;
         if header.lights != self.light_end() {
-            return Err(ReadError::Places {
-                what: "the end of the lights' numbers",
-            });
+            return Err(misplaced("the end of the lights' numbers"));
         }
         Ok(())
     }
@@ -96,17 +88,16 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 continue;
             }
             let (nodes, triangles) = (mesh.nodes.clone(), mesh.triangles.clone());
-            let found =
-                Found::of(&self.nodes, nodes.start, kind::LIGHT, &mut seen).map_err(ReadError::Tree)?;
-            found.check_depth_first(&nodes).map_err(|_| NODES)?;
+            let found = Found::of(&self.nodes, nodes.start, kind::LIGHT, &mut seen).map_err(damaged)?;
+            found.check_depth_first(&nodes).map_err(|_| misplaced(NODES))?;
             if found.depth > self.bottom_depth || found.leaves.len() != triangles.len() {
-                return Err(NODES);
+                return Err(misplaced(NODES));
             }
             for own in &found.leaves {
                 // As many as there are triangles, each for the first time: so all of them.
                 let is_own = triangles.contains(&own.link);
                 if !is_own || core::mem::replace(&mut leaves[own.link as usize], true) {
-                    return Err(NODES);
+                    return Err(misplaced(NODES));
                 }
                 let at = own.link as usize * self.trail_words as usize;
                 self.trails[at] = own.trail.low;
@@ -141,22 +132,22 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let mut opened = core::mem::take(&mut self.top.opened);
         for (&index, own) in &mut opened {
             if !self.placed[index as usize].live {
-                return Err(LEAVES);
+                return Err(misplaced(LEAVES));
             }
             own.parts = self.parts_of(index);
             if own.parts.len() < 2 {
-                return Err(LEAVES);
+                return Err(misplaced(LEAVES));
             }
         }
         self.top.opened = opened;
         let mut seen = alloc::vec![false; self.top.nodes.len()];
         let found = Found::of(&self.top.nodes, self.top.root, kind::MESH, &mut seen);
-        let found = found.map_err(ReadError::Tree)?;
+        let found = found.map_err(damaged)?;
         let used = self.top.shapes.iter().filter(|shape| shape.height > 0).count();
         let is_used = |&(_, node): &(u32, u32)| self.top.shapes[node as usize].height > 0;
         let is_whole = used + self.top.free.len() == self.top.nodes.len();
         if !is_whole || found.levels.len() != used || !found.levels.iter().all(is_used) {
-            return Err(NODES);
+            return Err(misplaced(NODES));
         }
         let mut leaves: Vec<u32> = found.leaves.iter().map(|own| own.link).collect();
         let is_leaf = |&link: &u32| {
@@ -164,13 +155,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             self.placed.get(instance as usize).is_some_and(|own| own.live) && self.top.has_leaf(link)
         };
         if !leaves.iter().all(is_leaf) {
-            return Err(LEAVES);
+            return Err(misplaced(LEAVES));
         }
         let count = leaves.len();
         leaves.sort_unstable();
         leaves.dedup();
         if leaves.len() != count {
-            return Err(LEAVES);
+            return Err(misplaced(LEAVES));
         }
         self.top.note_places::<W>();
         found
@@ -208,9 +199,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         if is_alone {
             Ok(())
         } else {
-            Err(ReadError::Places {
-                what: "the single level",
-            })
+            Err(misplaced("the single level"))
         }
     }
 }

@@ -1,37 +1,50 @@
-//! Words one after another.
+//! Words one after another, and what is wrong with words that are no light BVH.
 
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
+use core::fmt;
 use core::ops::Range;
 
-use super::error::ReadError;
 use crate::bvh::ranges::Ranges;
+
+/// Why words are not read as a light BVH: which word or what of the tree is wrong, and what to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReadError(pub(super) String);
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl core::error::Error for ReadError {}
+
+/// Places in use overlap, or lie outside of their array.
+pub(super) fn misplaced(what: &str) -> ReadError {
+    ReadError(format!(
+        "places of {what} overlap or lie outside; the file is damaged"
+    ))
+}
+
+/// What is wrong with the tree, or with a light or an instance in it.
+pub(super) fn damaged(what: impl fmt::Display) -> ReadError {
+    ReadError(format!("{what}; the file is damaged"))
+}
 
 /// Words that are read in order, never beyond their end.
 #[derive(Debug)]
 pub(super) struct Words<'a> {
-    all: &'a [u32],
-    next: usize,
+    pub all: &'a [u32],
+    pub next: usize,
 }
 
-impl<'a> Words<'a> {
-    pub fn of(all: &'a [u32]) -> Self {
-        Self { all, next: 0 }
-    }
-
-    /// Number of all words.
-    pub fn len(&self) -> usize {
-        self.all.len()
-    }
-
+impl Words<'_> {
     /// The next `COUNT`.
     pub fn array<const COUNT: usize>(&mut self) -> Result<[u32; COUNT], ReadError> {
-        let mut own = [0; COUNT];
-        match self.all[self.next..].get(..COUNT) {
-            Some(words) => own.copy_from_slice(words),
-            None => return Err(self.too_few(COUNT)),
-        }
+        self.need(COUNT as u32)?;
         self.next += COUNT;
-        Ok(own)
+        Ok(core::array::from_fn(|k| self.all[self.next - COUNT + k]))
     }
 
     /// The next one.
@@ -40,7 +53,7 @@ impl<'a> Words<'a> {
     }
 
     /// A range of at least one of `end`.
-    pub fn range(&mut self, end: u32, what: &'static str) -> Result<Range<u32>, ReadError> {
+    pub fn range(&mut self, end: u32, what: &str) -> Result<Range<u32>, ReadError> {
         let [from, to] = self.array()?;
         self.expect(from < to && to <= end, what)?;
         Ok(from..to)
@@ -48,50 +61,37 @@ impl<'a> Words<'a> {
 
     /// `Ok` where at least `count` words are left, so that memory for as many things may be taken.
     pub fn need(&self, count: u32) -> Result<usize, ReadError> {
-        let count = count as usize;
-        if count <= self.all.len() - self.next {
-            Ok(count)
-        } else {
-            Err(self.too_few(count))
+        let end = self.next.saturating_add(count as usize);
+        match end <= self.all.len() {
+            true => Ok(count as usize),
+            false => Err(self.length(end)),
         }
+    }
+
+    /// There are other than `expected` words.
+    pub fn length(&self, expected: usize) -> ReadError {
+        let found = self.all.len();
+        ReadError(format!(
+            "{found} words, expected {expected}; the file is cut or damaged"
+        ))
     }
 
     /// The word read last, called `what`, is out of range.
-    pub fn wrong(&self, what: &'static str) -> ReadError {
+    pub fn wrong(&self, what: &str) -> ReadError {
         let at = self.next.saturating_sub(1);
-        ReadError::Word {
-            at,
-            what,
-            found: self.all.get(at).copied().unwrap_or(0),
-        }
+        let found = self.all.get(at).copied().unwrap_or(0);
+        ReadError(format!(
+            "word {at}, {what}, is {found}, which is out of range; the file is damaged"
+        ))
     }
 
     /// `Ok` where `holds`, which is said of the word read last, called `what`.
-    pub fn expect(&self, holds: bool, what: &'static str) -> Result<(), ReadError> {
+    pub fn expect(&self, holds: bool, what: &str) -> Result<(), ReadError> {
         if holds { Ok(()) } else { Err(self.wrong(what)) }
-    }
-
-    /// `Ok` where none is left.
-    pub fn end(&self) -> Result<(), ReadError> {
-        if self.next == self.all.len() {
-            Ok(())
-        } else {
-            Err(ReadError::Length {
-                expected: self.next,
-                found: self.all.len(),
-            })
-        }
-    }
-
-    fn too_few(&self, count: usize) -> ReadError {
-        ReadError::Length {
-            expected: self.next + count,
-            found: self.all.len(),
-        }
     }
 }
 
 /// The index space of which `used` is in use.
-pub(super) fn taken(end: u32, used: Vec<Range<u32>>, what: &'static str) -> Result<Ranges, ReadError> {
-    Ranges::taken(end, used).ok_or(ReadError::Places { what })
+pub(super) fn taken(end: u32, used: Vec<Range<u32>>, what: &str) -> Result<Ranges, ReadError> {
+    Ranges::taken(end, used).ok_or_else(|| misplaced(what))
 }

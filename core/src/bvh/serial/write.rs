@@ -1,8 +1,9 @@
 //! From a light BVH to words.
 
 use alloc::vec::Vec;
+use core::mem::offset_of;
 
-use super::header::{Header, LENGTH};
+use super::header::{FORGOTTEN, FORMAT, HEADER_WORDS, Header, MAGIC, OPENS, SINGLE, built, layout};
 use crate::bvh::{Bvh, InstanceState};
 use crate::light::Light;
 use crate::node::{Node, kind};
@@ -18,10 +19,18 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// which built them before its refit: refit first where that matters.
     #[must_use]
     pub fn to_words(&self) -> Vec<u32> {
+        let flag = |is_set: bool, bit: u32| if is_set { bit } else { 0 };
         let header = Header {
-            params: self.params,
-            single: self.single,
-            forgotten: self.forgotten,
+            magic: MAGIC,
+            format: FORMAT,
+            length: 0,
+            layout: layout::<N, W>(),
+            width: W as u32,
+            flags: flag(self.single, SINGLE)
+                | flag(self.forgotten, FORGOTTEN)
+                | flag(self.params.opens, OPENS),
+            built: built(&self.params),
+            buckets: self.params.buckets,
             bottom_depth: self.bottom_depth,
             nodes: self.nodes.len() as u32,
             triangles: self.triangles.len() as u32,
@@ -35,7 +44,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             opened: self.top.opened.len() as u32,
             parts: self.top.parts.len() as u32,
         };
-        let mut words = header.words::<N, W>().to_vec();
+        let mut words = bytemuck::cast::<_, [u32; HEADER_WORDS]>(header).to_vec();
         for (index, mesh) in (0u32..).zip(&self.meshes) {
             let is_reshaped = u32::from(self.reshaped.contains(&index));
             let (nodes, triangles) = (&mesh.nodes, &mesh.triangles);
@@ -58,7 +67,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         self.write_top(&mut words);
         self.write_nodes(&mut words);
         self.write_triangles_to(&mut words);
-        words[LENGTH] = words.len() as u32;
+        words[offset_of!(Header, length) / 4] = words.len() as u32;
         words
     }
 

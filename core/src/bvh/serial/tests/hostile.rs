@@ -2,9 +2,10 @@
 
 use alloc::vec::Vec;
 
-use super::{ReadError, alike, read};
+use alloc::string::ToString;
+
+use super::{alike, read};
 use crate::bvh::Bvh;
-use crate::exact::hash;
 use crate::importance::{Eq4, ImportanceModel, Moments};
 use crate::kit::Random;
 use crate::kit::scenes::{edits, lamps, placed};
@@ -95,7 +96,7 @@ fn cut_words_are_refused() {
     for length in 0..words.len() {
         let mut cut = words[..length].to_vec();
         let error = Bvh::<MomentNode<8>, Moments, 8>::from_words(&cut).expect_err("words are missing");
-        assert!(matches!(error, ReadError::Length { .. }), "{error}");
+        assert!(error.to_string().contains("cut or damaged"), "{error}");
         // As long as it says.
         if length > 2 {
             cut[2] = length as u32;
@@ -106,27 +107,7 @@ fn cut_words_are_refused() {
     more.push(0);
     more[2] += 1;
     let error = Bvh::<MomentNode<8>, Moments, 8>::from_words(&more).expect_err("one too many");
-    assert!(matches!(error, ReadError::Length { .. }), "{error}");
-}
-
-#[test]
-fn random_words_are_refused() {
-    let random = &mut Random(9);
-    let header = Bvh::<MomentNode<8>, Moments, 8>::default().to_words();
-    for k in 0..20_000 {
-        let word = |i: u32| hash(hash(k) ^ i) % if k % 2 == 0 { u32::MAX } else { 4 };
-        let mut words: Vec<u32> = (0..random.below(80)).map(word).collect();
-        assert!(Bvh::<MomentNode<8>, Moments, 8>::from_words(&words).is_err());
-        // Past the first checks.
-        let length = words.len() as u32;
-        for (to, from) in words.iter_mut().zip(&header[..8]) {
-            *to = *from;
-        }
-        if length > 2 {
-            words[2] = length;
-        }
-        harmless::<MomentNode<8>, Moments, 8>(&words, k);
-    }
+    assert!(error.to_string().contains("cut or damaged"), "{error}");
 }
 
 /// Numbers and lists that no tree has, written as they are.
@@ -187,7 +168,7 @@ fn nodes_in_another_order_are_refused() {
             match Deep::from_words(&other.to_words()) {
                 Ok(read) => assert!(read.validate().is_ok()),
                 Err(error) => {
-                    assert_eq!(error, ReadError::Places { what: "nodes" });
+                    assert!(error.to_string().starts_with("places of nodes"), "{error}");
                     refused += 1;
                 }
             }
