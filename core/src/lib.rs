@@ -28,45 +28,7 @@
 //! | [`reservoir`] | resampling of light samples, over candidates and over other reservoirs (ReSTIR) |
 //! | [`error`] | why input is refused |
 //!
-#![cfg_attr(
-    feature = "std",
-    doc = r#"
-```
-use lightbvh::{Edit, EmissiveTriangle, LightBvh, Rebuilder, ShadingPoint, Transform};
-
-// A lamp of one triangle that shines down: vertices in metres, radiance in W/(m² sr).
-let lamp = EmissiveTriangle {
-    p: [[0.0, 3.0, 0.0], [0.1, 3.0, 0.0], [0.0, 3.0, 0.1]],
-    radiance: [9.0; 3],
-    mesh: 0,
-    flags: 0,
-};
-let mut bvh = LightBvh::default();
-let mesh = bvh.add_mesh(vec![lamp])?;                                    // validated once
-let row = (0..100).map(|i| Edit::AddInstance {
-    mesh,
-    transform: Transform::at([i as f32, 0.0, 0.0]),
-    radiance: 1.0,
-});
-let lamps = bvh.apply(row.collect())?.instances;                         // a batch: all or nothing, and faster than singly
-let mut rebuilder = Rebuilder::default();                                // builds in the background; `Swap::Deterministic` may wait
-for frame in 0..3 {
-    rebuilder.begin_frame(&mut bvh)?;                                    // swaps in trees built in the background
-    bvh.set_transform(lamps[7], Transform::at([7.0, frame as f32, 0.0]))?;
-    bvh.refit();                                                         // computes the changed nodes; lightbvh_gpu::Mirror updates a device
-    rebuilder.end_frame(&bvh);
-
-    let point = ShadingPoint { p: [5.0, 0.0, 0.0], n: [0.0, 1.0, 0.0] };
-    let sampled = bvh.sample(&point, 0x1234_5678_u32);                   // a light, its instance, its exact probability
-    let pmf = bvh.pmf(&point, sampled.light, sampled.instance);
-    assert_eq!(sampled.pmf.to_bits(), pmf.to_bits());
-    let triangle = bvh.triangle(sampled.light, sampled.instance);        // in the world
-    assert!(triangle.is_some());
-}
-# Ok::<(), Box<dyn std::error::Error>>(())
-```
-"#
-)]
+//! `core/examples` has programs, the first page of the repository a frame with its edits.
 //!
 //! # Papers
 //! - A. Conty Estevez, C. Kulla. Importance sampling of many lights with adaptive tree splitting. HPG 2018.
@@ -133,14 +95,12 @@ mod lights;
 #[cfg(feature = "std")]
 mod rebuilder;
 #[cfg(feature = "alloc")]
-#[doc(hidden)]
-pub mod sweep;
+mod sweep;
 #[cfg(feature = "alloc")]
 #[doc(hidden)]
 pub mod transform;
 #[cfg(feature = "alloc")]
-#[doc(hidden)]
-pub mod validate;
+mod validate;
 #[doc(hidden)]
 pub mod widest;
 

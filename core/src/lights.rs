@@ -51,23 +51,6 @@ impl<L: Light> Lights<L> {
         Ok(Self { triangles, starts })
     }
 
-    /// The same lights moved or changed: as many triangles, of the same mesh lights.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new), and [`LightsError::Changed`] when the triangles are not those of the same mesh lights;
-    /// `self` is then as before.
-    pub fn update(&mut self, triangles: Vec<L>) -> Result<(), LightsError> {
-        let new = Self::new(triangles)?;
-        if new.starts != self.starts {
-            return Err(LightsError::Changed {
-                expected: self.triangles.len(),
-                found: new.triangles.len(),
-            });
-        }
-        *self = new;
-        Ok(())
-    }
-
     /// The triangles.
     #[must_use]
     pub fn triangles(&self) -> &[L] {
@@ -112,13 +95,6 @@ pub enum LightsError {
         /// What the triangle names.
         found: u32,
     },
-    /// An update is not of the same mesh lights.
-    Changed {
-        /// Number of triangles before.
-        expected: usize,
-        /// Number of triangles in the update.
-        found: usize,
-    },
 }
 
 impl fmt::Display for LightsError {
@@ -139,10 +115,6 @@ impl fmt::Display for LightsError {
                 f,
                 "emissive triangle {index} belongs to mesh light {found}, expected {expected} or the one before it; \
                  order the triangles by mesh light"
-            ),
-            Self::Changed { expected, found } => write!(
-                f,
-                "an update has {found} emissive triangles where there were {expected}, or other mesh lights; build anew"
             ),
         }
     }

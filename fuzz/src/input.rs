@@ -146,9 +146,7 @@ pub fn moved(u: &mut Unstructured<'_>, lights: &Lights) -> Result<Lights> {
             _ => {}
         }
     }
-    let mut moved = lights.clone();
-    moved.update(triangles).map_err(|_| Error::IncorrectFormat)?;
-    Ok(moved)
+    Lights::new(triangles).map_err(|_| Error::IncorrectFormat)
 }
 
 /// A point on a light, beside one, or anywhere; with a normal along an axis, across one, or none.

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::powers::Powers;
+use super::powers::common_power;
 use super::records::{Mesh, put};
 use super::refit::SWEPT;
 use super::{Bvh, Trails};
@@ -62,7 +62,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             triangles: range,
             depth: 0,
             extent: Extent::of(triangles),
-            powers: Powers::of(triangles),
+            power: common_power(triangles),
             version: 0,
         };
         put(&mut self.meshes, index, mesh);
@@ -119,13 +119,17 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if self.triangles.len() < range.end as usize {
             self.triangles.resize(range.end as usize, N::Light::DARK);
         }
-        let powers = self.powers_with(index, range.clone(), triangles);
         let own = &mut self.triangles[range.start as usize..range.end as usize];
         for (to, from) in own.iter_mut().zip(triangles) {
             *to = from.of_mesh(index);
         }
         self.log.triangles(range.clone());
-        self.set_powers(index, powers);
+        let power = self.power_of(index);
+        if core::mem::replace(&mut self.meshes[index as usize].power, power) != power {
+            for user in self.meshes[index as usize].users.clone() {
+                self.place(user);
+            }
+        }
         range
     }
 

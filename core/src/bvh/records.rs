@@ -5,7 +5,6 @@ use core::fmt;
 use core::ops::Range;
 use core::sync::atomic::{AtomicU32, Ordering};
 
-use super::powers::Powers;
 use crate::transform::{Extent, Transform};
 
 /// A mesh: triangles and a tree over them in a space of their own, which its instances share.
@@ -22,8 +21,8 @@ pub(super) struct Mesh {
     pub triangles: Range<u32>,
     pub depth: u32,
     pub extent: Extent,
-    /// How the flux of its lights grows with an instance's scale.
-    pub powers: Powers,
+    /// The power of an instance's scale by which the flux of its lights grows.
+    pub power: u32,
     /// Counts edits of its triangles.
     pub version: u64,
 }

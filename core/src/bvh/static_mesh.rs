@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId};
+use super::edit::{Edit, EditError, EditReason, InstanceId};
 use super::{Added, Bvh, Trails, WithTrails};
 use crate::node::{Holds, Node};
 #[cfg(feature = "std")]
@@ -100,28 +100,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
         self.0.lights_of(instance)
     }
 
-    /// As [`Bvh::light_end`].
-    #[must_use]
-    pub fn light_end(&self) -> u32 {
-        self.0.light_end()
-    }
-
-    /// As [`Bvh::light_count`].
-    #[must_use]
-    pub fn light_count(&self) -> usize {
-        self.0.light_count()
-    }
-
     /// As [`Bvh::instance_id`].
     #[must_use]
     pub fn instance_id(&self, instance: u32) -> Option<InstanceId> {
         self.0.instance_id(instance)
-    }
-
-    /// As [`Bvh::mesh_of`].
-    #[must_use]
-    pub fn mesh_of(&self, instance: InstanceId) -> Option<MeshId> {
-        self.0.mesh_of(instance)
     }
 
     /// As [`Bvh::take_removed_lights`].

@@ -130,7 +130,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         // A BVH of static meshes has no triangles.
         if !self.triangles.is_empty() {
-            self.check_powers(index)?;
+            equal(INVALID, index, "flux power", self.power_of(index), mesh.power)?;
             let mut again = bare(&self.nodes, &found);
             for node in found.upward() {
                 again[node as usize] = refit::bottom(&again, &self.triangles, node);

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::header::{FORGOTTEN, Header, SINGLE};
 use super::words::{ReadError, Words, damaged, taken};
 use crate::bvh::check::factor;
-use crate::bvh::powers::Powers;
+use crate::bvh::powers::common_power;
 use crate::bvh::records::Mesh;
 use crate::bvh::top::{Opened, Shape, Top};
 use crate::bvh::{Bvh, EditReason, InstanceState};
@@ -53,7 +53,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 triangles: 0..0,
                 depth: 0,
                 extent: Extent::of::<N::Light>(&[]),
-                powers: Powers::default(),
+                power: 0,
                 version: 0,
             };
             if mesh.live {
@@ -197,7 +197,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         for mesh in &mut self.meshes {
             let range = mesh.triangles.start as usize..mesh.triangles.end as usize;
             mesh.extent = Extent::of(&self.triangles[range.clone()]);
-            mesh.powers = Powers::of(&self.triangles[range]);
+            mesh.power = common_power(&self.triangles[range]);
         }
         for (instance, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
             let checked = placed.transform.check(&self.meshes[placed.mesh as usize].extent);
