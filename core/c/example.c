@@ -75,7 +75,7 @@ int main(void)
     }
     must(lightbvh_add_instances(bvh, mesh, places, 1, LAMPS - 1, lamps));
     place = at((float)k, 0, 0);
-    must(lightbvh_add_instance(bvh, mesh, &place, 1, &lamps[k]));
+    must(lightbvh_add_instances(bvh, mesh, &place, 1, 1, &lamps[k]));
     must(lightbvh_refit(bvh));
 
     /* A frame later: one lamp rises, one is dimmed, one goes, and all of them grow. */
@@ -85,7 +85,6 @@ int main(void)
     gone = lamps[42];
     must(lightbvh_remove_instance(bvh, gone));
     larger.p[1][0] = 0.0625f;
-    must(lightbvh_set_triangles(bvh, mesh, &larger, 1));
     must(lightbvh_set_triangle_range(bvh, mesh, 0, &larger, 1));
     must(lightbvh_refit(bvh));
     must(lightbvh_rebuild(bvh));
@@ -102,12 +101,12 @@ int main(void)
     arrange(panel, &lamp, 1);
     must(lightbvh_add_mesh(bvh, panel, PANEL, &mesh));
     place = at(0, 1, 4);
-    must(lightbvh_add_instance(bvh, mesh, &place, 0.25f, &lamps[42]));
+    must(lightbvh_add_instances(bvh, mesh, &place, 0.25f, 1, &lamps[42]));
     for (frame = 1; frame <= 30; frame++) {
         must(lightbvh_begin_frame(rebuilder, bvh, &start));
         trees += start.swapped + start.meshes;
         arrange(panel, &lamp, frame);
-        must(lightbvh_set_triangles(bvh, mesh, panel, PANEL));
+        must(lightbvh_set_triangle_range(bvh, mesh, 0, panel, PANEL));
         must(lightbvh_refit(bvh));
         must(lightbvh_end_frame(rebuilder, bvh));
     }

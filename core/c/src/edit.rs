@@ -52,36 +52,7 @@ pub unsafe extern "C" fn lightbvh_add_mesh(
     }
 }
 
-/// A mesh put into the world.
-///
-/// # Safety
-/// As [`lightbvh_add_mesh`].
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_add_instance(
-    bvh: *mut Handle,
-    mesh: CMesh,
-    transform: *const CTransform,
-    radiance: f32,
-    instance: *mut CInstance,
-) -> Status {
-    // SAFETY: the caller's promise, here and below.
-    unsafe {
-        Handle::change(bvh, |bvh| {
-            let transform = *raw::shared(transform, "transform")?;
-            let instance = raw::place(instance, "instance")?;
-            let add = Edit::AddInstance {
-                mesh: mesh.id()?,
-                transform: transform.into(),
-                radiance,
-            };
-            let added = bvh.apply(vec![add]).map_err(|error| refused(error.reason))?;
-            instance.write(added.instances[0].into());
-            Ok(())
-        })
-    }
-}
-
-/// Many of them at once.
+/// A mesh put into the world at `count` places, all or none.
 ///
 /// # Safety
 /// As [`lightbvh_add_mesh`], with `count` transforms and instances.
@@ -155,35 +126,6 @@ pub unsafe extern "C" fn lightbvh_set_radiance(
     }
 }
 
-/// New triangles of a mesh.
-///
-/// # Safety
-/// As [`lightbvh_add_mesh`].
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_set_triangles(
-    bvh: *mut Handle,
-    mesh: CMesh,
-    triangles: *const EmissiveTriangle,
-    count: usize,
-) -> Status {
-    // SAFETY: the caller's promise, here and below.
-    unsafe {
-        Handle::change(bvh, |bvh| {
-            let mesh = mesh.id()?;
-            // Before they are read: a wrong count is one of memory that the caller has not.
-            let own = bvh.mesh_triangles(mesh).map(<[_]>::len);
-            if let Some(expected) = own.filter(|&own| own != count) {
-                return Err(refused(EditReason::Count {
-                    expected,
-                    found: count,
-                }));
-            }
-            let triangles = raw::at_most_lights(triangles, count, "triangles")?;
-            bvh.set_triangles(mesh, triangles.to_vec()).map_err(refused)
-        })
-    }
-}
-
 /// New vertices or radiance of some triangles of a mesh.
 ///
 /// # Safety
@@ -199,8 +141,18 @@ pub unsafe extern "C" fn lightbvh_set_triangle_range(
     // SAFETY: the caller's promise, here and below.
     unsafe {
         Handle::change(bvh, |bvh| {
+            let mesh = mesh.id()?;
+            // Before they are read: a wrong count is one of memory that the caller has not.
+            let own = bvh.mesh_triangles(mesh).map(<[_]>::len);
+            if let Some(triangles) = own.filter(|&own| own.saturating_sub(first as usize) < count) {
+                return Err(refused(EditReason::Range {
+                    first,
+                    count,
+                    triangles,
+                }));
+            }
             let triangles = raw::at_most_lights(triangles, count, "triangles")?;
-            bvh.set_triangle_range(mesh.id()?, first, triangles.to_vec())
+            bvh.set_triangle_range(mesh, first, triangles.to_vec())
                 .map_err(refused)
         })
     }
@@ -251,6 +203,21 @@ pub unsafe extern "C" fn lightbvh_rebuild(bvh: *mut Handle) -> Status {
     unsafe {
         Handle::change(bvh, |bvh| {
             bvh.rebuild();
+            Ok(())
+        })
+    }
+}
+
+/// From now on new lights may get those numbers.
+///
+/// # Safety
+/// `bvh` is null or a light BVH that nobody else uses meanwhile.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_forget_removed_lights(bvh: *mut Handle) -> Status {
+    // SAFETY: the caller's promise.
+    unsafe {
+        Handle::change(bvh, |bvh| {
+            bvh.take_removed_lights();
             Ok(())
         })
     }

@@ -60,7 +60,7 @@ impl CInstance {
             INSTANCE => Ok(InstanceId::from_bits(self.words)),
             _ => Err(Fault::new(
                 Status::Refused,
-                "no instance; give what lightbvh_add_instance gave",
+                "no instance; give what lightbvh_add_instances gave",
             )),
         }
     }

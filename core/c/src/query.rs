@@ -215,3 +215,42 @@ pub unsafe extern "C" fn lightbvh_light_count(bvh: *const Handle, count: *mut us
         })
     }
 }
+
+/// Numbers of lights, one after another: `lightbvh_range`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CRange {
+    /// The first of them.
+    pub first: u32,
+    /// How many they are.
+    pub count: u32,
+}
+
+/// The numbers of lights that are no more.
+///
+/// # Safety
+/// `bvh` is null or a light BVH that nobody changes meanwhile; `ranges` has memory of `capacity` ranges, `count` of one number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_removed_lights(
+    bvh: *const Handle,
+    ranges: *mut CRange,
+    capacity: usize,
+    count: *mut usize,
+) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::ask(bvh, |bvh| {
+            let places = raw::places(ranges, capacity, "ranges")?;
+            let count = raw::place(count, "count")?;
+            let removed = bvh.removed_lights();
+            for (place, range) in places.iter_mut().zip(removed) {
+                place.write(CRange {
+                    first: range.start,
+                    count: range.end - range.start,
+                });
+            }
+            count.write(removed.len());
+            Ok(())
+        })
+    }
+}

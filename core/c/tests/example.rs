@@ -183,7 +183,6 @@ fn header_and_library_have_the_same_functions() {
         include_str!("../src/edit.rs"),
         include_str!("../src/error.rs"),
         include_str!("../src/handle.rs"),
-        include_str!("../src/identity.rs"),
         include_str!("../src/query.rs"),
         include_str!("../src/rebuilder.rs"),
     );

@@ -65,7 +65,7 @@ fn null_and_unaligned_pointers_are_refused() {
             lightbvh_add_mesh(bvh, &LAMP, usize::MAX, &mut mesh),
             lightbvh_add_mesh(bvh, &LAMP, 1, null_mut()),
             lightbvh_set_transform(bvh, words([0, 0, 0, 2]), null()),
-            lightbvh_set_triangle_range(bvh, words([0; 4]), 0, null(), 1),
+            lightbvh_set_triangle_range(bvh, words([0, 0, 0, 1]), 0, null(), 1),
             lightbvh_set_triangle_range(null_mut(), words([0; 4]), 0, &LAMP, 1),
             lightbvh_refit(null_mut()),
             lightbvh_rebuild(null_mut()),
@@ -117,12 +117,19 @@ fn counts_and_numbers_out_of_range_are_refused() {
         let many = (1 << 30) + 1;
         refused(lightbvh_add_mesh(bvh, &LAMP, many, &mut mesh));
         assert!(last().contains("1073741825 triangles"), "{}", last());
-        refused(lightbvh_set_triangles(bvh, mesh, &LAMP, 1 << 40));
+        refused(lightbvh_set_triangle_range(bvh, mesh, 0, &LAMP, 1 << 40));
         ok(lightbvh_add_mesh(bvh, &LAMP, 1, &mut mesh));
         // Nobody has 2^29 triangles at that address: reading them would fault.
-        refused(lightbvh_set_triangles(bvh, mesh, &LAMP, 1 << 29));
-        assert!(last().contains("for a mesh of 1"), "{}", last());
-        ok(lightbvh_add_instance(bvh, mesh, &identity(), 1.0, &mut instance));
+        refused(lightbvh_set_triangle_range(bvh, mesh, 0, &LAMP, 1 << 29));
+        assert!(last().contains("of a mesh of 1;"), "{}", last());
+        ok(lightbvh_add_instances(
+            bvh,
+            mesh,
+            &identity(),
+            1.0,
+            1,
+            &mut instance,
+        ));
         ok(lightbvh_refit(bvh));
         for [u, v] in [[f32::NAN, 0.5], [0.5, 1.0], [-5.0, 3.0], [0.5, f32::INFINITY]] {
             let asked = lightbvh_point_of(bvh, 0, 0, u, v, point.insert(std::mem::zeroed()));
@@ -226,11 +233,25 @@ fn wrong_ids_points_and_lights_are_refused() {
         ok(lightbvh_add_mesh(bvh, &LAMP, 1, &mut mesh));
         // Cleared memory, another light BVH, a bad factor.
         let cleared = words([0; 4]);
-        refused(lightbvh_add_instance(bvh, cleared, &place, 1.0, &mut instance));
+        refused(lightbvh_add_instances(
+            bvh,
+            cleared,
+            &place,
+            1.0,
+            1,
+            &mut instance,
+        ));
         assert!(last().contains("lightbvh_add_mesh"), "{}", last());
-        refused(lightbvh_add_instance(other, mesh, &place, 1.0, &mut instance));
-        refused(lightbvh_add_instance(bvh, mesh, &place, f32::NAN, &mut instance));
-        ok(lightbvh_add_instance(bvh, mesh, &place, 1.0, &mut instance));
+        refused(lightbvh_add_instances(other, mesh, &place, 1.0, 1, &mut instance));
+        refused(lightbvh_add_instances(
+            bvh,
+            mesh,
+            &place,
+            f32::NAN,
+            1,
+            &mut instance,
+        ));
+        ok(lightbvh_add_instances(bvh, mesh, &place, 1.0, 1, &mut instance));
         ok(lightbvh_refit(bvh));
         // The second point is bad, so the first one is not answered either.
         let far = ShadingPoint {
