@@ -26,20 +26,13 @@ pub fn bottom<N: Node<W>, const W: usize>(nodes: &mut [N], triangles: &[N::Light
     );
 }
 
-/// [`refit::bottom`] over all `nodes`, which begin with node `first`: the trees of `roots`, each in depth-first order, one after
-/// another. Children come before parents, from the last node to the first, so that memory is read in one direction; subtrees go
-/// to several threads.
-pub fn bottom_sweep<N: Node<W>, const W: usize>(
-    nodes: &mut [N],
-    first: u32,
-    triangles: &[N::Light],
-    roots: &[u32],
-) {
+/// [`refit::bottom`] over all `nodes`, a tree in depth-first order whose root is node `first`. Children come before parents, from
+/// the last node to the first, so that memory is read in one direction; subtrees go to several threads.
+pub fn bottom_sweep<N: Node<W>, const W: usize>(nodes: &mut [N], first: u32, triangles: &[N::Light]) {
     #[cfg(feature = "rayon")]
     if nodes.len() >= PARALLEL && rayon::current_num_threads() > 1 {
-        return subtrees(nodes, first, triangles, roots.to_vec());
+        return subtrees(nodes, first, triangles, alloc::vec![first]);
     }
-    let _ = roots;
     one_by_one(nodes, nodes.len(), first, triangles);
 }
 
@@ -144,7 +137,7 @@ mod tests {
                 .build()
                 .expect("threads");
             let mut swept = bare.clone();
-            pool.install(|| bottom_sweep(&mut swept, 0, bvh.triangles(), &[0]));
+            pool.install(|| bottom_sweep(&mut swept, 0, bvh.triangles()));
             let words: [&[u32]; 2] = [bytemuck::cast_slice(&swept), bytemuck::cast_slice(nodes)];
             assert!(words[0] == words[1], "{threads} threads");
         }

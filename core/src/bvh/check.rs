@@ -11,10 +11,6 @@ use crate::node::Node;
 use crate::trail::MAX_PLACES;
 use crate::transform::{Extent, Transform};
 
-/// Triangles that one thread looks at.
-#[cfg(feature = "rayon")]
-const PIECE: usize = 4096;
-
 type Extents = BTreeMap<MeshId, Extent>;
 
 /// The effects of the earlier edits of the batch.
@@ -219,29 +215,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 }
 
+/// Brings triangles into the domain up to the first that cannot be.
 fn checked<L: Light>(triangles: &mut [L]) -> Result<(), EditReason> {
-    #[cfg(feature = "rayon")]
-    let wrong = {
-        use rayon::prelude::*;
-        triangles
-            .par_chunks_mut(PIECE)
-            .enumerate()
-            .find_map_first(|(i, piece)| first_wrong(piece, i * PIECE))
-    };
-    #[cfg(not(feature = "rayon"))]
-    let wrong = first_wrong(triangles, 0);
-    wrong.map_or(Ok(()), Err)
-}
-
-/// Brings triangles into the domain up to the first that cannot be; they are numbered from `first`.
-fn first_wrong<L: Light>(triangles: &mut [L], first: usize) -> Option<EditReason> {
-    for (index, triangle) in (first..).zip(triangles) {
-        match triangle.checked() {
-            Ok(checked) => *triangle = checked,
-            Err(error) => return Some(EditReason::Light { index, error }),
-        }
+    for (index, triangle) in triangles.iter_mut().enumerate() {
+        let checked = triangle.checked();
+        *triangle = checked.map_err(|error| EditReason::Light { index, error })?;
     }
-    None
+    Ok(())
 }
 
 /// `Ok` for a factor on radiance that may be.

@@ -39,7 +39,7 @@ impl<N: Holds> MeshTree<N> {
         N: Node<W>,
     {
         let mut topology = build_over::<N, W>(&self.triangles, params);
-        sweep::bottom_sweep(&mut topology.nodes, 0, &self.triangles, &[0]);
+        sweep::bottom_sweep(&mut topology.nodes, 0, &self.triangles);
         self.topology = Some(topology);
     }
 }
@@ -178,7 +178,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(super) fn sweep_mesh(&mut self, index: u32) {
         let nodes = self.meshes[index as usize].nodes.clone();
         let own = &mut self.nodes[nodes.start as usize..nodes.end as usize];
-        sweep::bottom_sweep(own, nodes.start, &self.triangles, &[nodes.start]);
+        sweep::bottom_sweep(own, nodes.start, &self.triangles);
         self.compute_root(index);
     }
 

@@ -113,7 +113,7 @@ fn edits_know_of_those_before() {
 
 #[test]
 fn wrong_triangles_are_named_wherever_they_are() {
-    for (count, wrong) in [(1, 0), (9000, 17), (9000, 4500), (9000, 8999)] {
+    for (count, wrong) in [(1, 0), (9000, 17), (9000, 8999)] {
         let mut triangles = triangles(count, 1.0);
         triangles[wrong].p[2][1] = f32::NAN;
         // Not the first that is found, but the first that there is.
