@@ -126,7 +126,7 @@ pub use traverse::{Random64, SampledLight};
 // Short paths to what is documented in a module.
 #[cfg(feature = "alloc")]
 #[doc(hidden)]
-pub use build::{BuildParams, Effort, Heuristic};
+pub use build::{BuildParams, Heuristic};
 #[cfg(feature = "alloc")]
 #[doc(hidden)]
 pub use bvh::{InstanceId, MeshId};

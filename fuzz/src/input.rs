@@ -1,7 +1,6 @@
 //! Lights, points and nodes from the fuzzer's bytes.
 
 use arbitrary::{Error, Result, Unstructured};
-use lightbvh::build::Effort;
 use lightbvh::exact::pow2;
 use lightbvh::{
     BuildParams, Bvh, EmissiveTriangle, Heuristic, INVALID, ImportanceModel, LightNode, Lights, ShadingPoint,
@@ -52,16 +51,10 @@ impl Coordinates {
 pub fn params(u: &mut Unstructured<'_>) -> Result<BuildParams> {
     let bits: u8 = u.arbitrary()?;
     let heuristic = [Heuristic::Saoh, Heuristic::Sah, Heuristic::Ward][usize::from(bits & 3).min(2)];
-    let effort = if bits & 4 == 0 {
-        Effort::Usual
-    } else {
-        Effort::Most
-    };
     let buckets = u32::from(u.arbitrary::<u8>()? % 40);
     Ok(BuildParams {
         heuristic,
         buckets,
-        effort,
         opens: bits & 8 == 0,
     })
 }

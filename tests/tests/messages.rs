@@ -7,8 +7,8 @@ use lightbvh::light::{MAX_RADIANCE, TWO_SIDED};
 use lightbvh::point::MAX_REACH;
 use lightbvh::transform::TransformError;
 use lightbvh::{
-    Bvh, CompactNode, Edit, EmissiveTriangle, INVALID, LightError, Lights, LightsError, RebuildError,
-    ShadingPoint, Transform,
+    Bvh, CompactNode, Edit, EmissiveTriangle, LightError, Lights, LightsError, RebuildError, ShadingPoint,
+    Transform,
 };
 
 #[track_caller]

@@ -24,47 +24,21 @@ pub struct BuildParams {
     /// Buckets per axis, 2..=[`MAX_BUCKETS`]; others are brought into that range. More find better splits and take longer.
     /// [`Heuristic::Ward`] takes half as many for ranges of fewer than 256 lights.
     pub buckets: u32,
-    /// What the wide builder spends; the others do not ask.
-    pub effort: Effort,
     /// Whether the top level may hold the subtrees of a large mesh in place of the whole: less variance where meshes lie within
     /// each other, for a record more of each subtree. Scenes of meshes that are small against the whole stay as they are.
     pub opens: bool,
-}
-
-/// Which ranges of lights [`Heuristic::Ward`] splits on the way to a node's `W` children.
-///
-/// Sets of up to `4·W` lights are always built with [`Most`](Self::Most): a tree of few nodes stays small, and variance
-/// fell to between a quarter and a twentieth on such sets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Effort {
-    /// The costliest of those with more than `W` lights, so that leaf nodes are full.
-    Usual,
-    /// The costliest of all, down to single lights: a costly light stands alone high up in the tree. About twice as many
-    /// nodes, half filled.
-    Most,
 }
 
 /// Most buckets per axis.
 pub const MAX_BUCKETS: u32 = 32;
 
 impl BuildParams {
-    /// Ward's criterion all the way, 16 buckets: the default.
+    /// Ward's criterion, 16 buckets: the default.
     pub const BALANCED: Self = Self {
         heuristic: Heuristic::Ward,
         buckets: 16,
-        effort: Effort::Usual,
         opens: true,
     };
-    /// Ward's criterion down to single lights, 32 buckets: less variance where a few lights dominate, more on some other scenes, in
-    /// twice the bytes (`docs/walk.md`).
-    pub const BEST: Self = Self {
-        heuristic: Heuristic::Ward,
-        buckets: MAX_BUCKETS,
-        effort: Effort::Most,
-        opens: true,
-    };
-
     /// As the paper builds, by its `heuristic`: 16 buckets, meshes left whole.
     #[must_use]
     pub const fn paper(heuristic: Heuristic) -> Self {

@@ -49,7 +49,7 @@ struct Case {
     passes: Option<&'static str>,
     /// Of samples: `one` by one, or in a `batch`.
     variant: Option<&'static str>,
-    /// Of a build: `balanced` (the default) or `best`.
+    /// Of a build: `balanced`, the default.
     preset: Option<&'static str>,
     structure: &'static str,
     lights: u32,
@@ -168,7 +168,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
 }
 
 /// What builders may spend, by name.
-const PRESETS: [(&str, BuildParams); 2] = [("balanced", BuildParams::BALANCED), ("best", BuildParams::BEST)];
+const PRESETS: [(&str, BuildParams); 1] = [("balanced", BuildParams::BALANCED)];
 
 /// What is measured: the pass, and which of its passes, variants or presets.
 type What = (&'static str, [Option<&'static str>; 3]);

@@ -141,7 +141,6 @@ fn bench_reports_every_case() {
         }
         for (what, key, value) in [
             ("build", "preset", "balanced"),
-            ("build", "preset", "best"),
             ("refit", "passes", "levels"),
             ("sample", "variant", "one"),
             ("sample", "variant", "batch"),

@@ -1,9 +1,8 @@
 //! Builds, refits and picks of single trees.
 
-use lightbvh::build::Effort;
 use lightbvh::{
-    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, FluxOverDistance, Heuristic,
-    ImportanceModel, LightNode, Lights, MomentNode, Moments, Random64, SampledLight, ShadingPoint, exact,
+    Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, FluxOverDistance, Heuristic, ImportanceModel,
+    LightNode, Lights, MomentNode, Moments, Random64, SampledLight, ShadingPoint, exact,
 };
 use lightbvh_tests::generate::{self, Random, extreme_triangle, moved, split};
 use lightbvh_tests::oracle::pmf_of;
@@ -123,11 +122,8 @@ fn bvh<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: [u64; 3
     let later = moved(&lights, 31);
     let (mut built, mut refitted, mut picked) = (Digest::new(), Digest::new(), Digest::new());
     for heuristic in [Heuristic::Sah, Heuristic::Saoh, Heuristic::Ward] {
-        for (buckets, effort) in [(2, Effort::Usual), (16, Effort::Usual), (32, Effort::Most)] {
-            let params = BuildParams {
-                effort,
-                ..split(heuristic, buckets)
-            };
+        for buckets in [2, 16, 32] {
+            let params = split(heuristic, buckets);
             for two in [false, true] {
                 let mut bvh = if two {
                     Bvh::<N, (), W>::two_level(&lights, &params)

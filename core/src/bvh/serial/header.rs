@@ -5,7 +5,7 @@ use alloc::format;
 use bytemuck::{Pod, Zeroable};
 
 use super::words::{ReadError, Words, misplaced};
-use crate::build::{BuildParams, Effort, Heuristic};
+use crate::build::{BuildParams, Heuristic};
 use crate::light::{EmissiveTriangle, Light};
 use crate::lights::MAX_LIGHTS;
 use crate::node::Node;
@@ -27,8 +27,6 @@ pub(super) const OPENS: u32 = 4;
 
 /// By code.
 const HEURISTICS: [Heuristic; 3] = [Heuristic::Sah, Heuristic::Saoh, Heuristic::Ward];
-/// By code.
-const EFFORTS: [Effort; 2] = [Effort::Usual, Effort::Most];
 
 /// The first words, in order.
 #[repr(C)]
@@ -41,8 +39,8 @@ pub(super) struct Header {
     pub layout: u32,
     pub width: u32,
     pub flags: u32,
-    /// Codes of heuristic and effort.
-    pub built: u32,
+    /// Code of the heuristic.
+    pub heuristic: u32,
     pub buckets: u32,
     pub bottom_depth: u32,
     /// Lengths of the arrays, places not in use included.
@@ -63,11 +61,9 @@ pub(super) struct Header {
     pub parts: u32,
 }
 
-/// The codes of heuristic and effort.
-pub(super) fn built(params: &BuildParams) -> u32 {
-    let heuristic = HEURISTICS.iter().position(|&own| own == params.heuristic);
-    let effort = EFFORTS.iter().position(|&own| own == params.effort);
-    heuristic.unwrap_or(0) as u32 | ((effort.unwrap_or(0) as u32) << 8)
+/// The code of a heuristic.
+pub(super) fn code(heuristic: Heuristic) -> u32 {
+    HEURISTICS.iter().position(|&own| own == heuristic).unwrap_or(0) as u32
 }
 
 impl Header {
@@ -106,13 +102,12 @@ impl Header {
                 own.width
             ));
         }
-        let heuristic = HEURISTICS.get((own.built & 255) as usize);
-        let effort = EFFORTS.get((own.built >> 8) as usize);
+        let heuristic = HEURISTICS.get(own.heuristic as usize);
         // Each place of a part was written once, with a leaf.
         let most_parts = W * words.all.len();
         for (at, what, holds) in [
             (5, "flags", own.flags & !(SINGLE | FORGOTTEN | OPENS) == 0),
-            (6, "heuristic and effort", heuristic.is_some() && effort.is_some()),
+            (6, "heuristic", heuristic.is_some()),
             (
                 8,
                 "levels of the bottom levels",
@@ -138,7 +133,6 @@ impl Header {
         let params = BuildParams {
             heuristic: heuristic.copied().unwrap_or(Heuristic::Ward),
             buckets: own.buckets,
-            effort: effort.copied().unwrap_or(Effort::Usual),
             opens: own.has(OPENS),
         };
         Ok((own, params))

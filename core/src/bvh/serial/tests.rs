@@ -110,11 +110,7 @@ fn follows<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(params: Bu
 
 #[test]
 fn trees_of_all_layouts_go_on() {
-    for (seed, params) in (0..).zip([
-        BuildParams::BALANCED,
-        BuildParams::BEST,
-        BuildParams::paper(crate::Heuristic::Saoh),
-    ]) {
+    for (seed, params) in (0..).zip([BuildParams::BALANCED, BuildParams::paper(crate::Heuristic::Saoh)]) {
         goes_on::<MomentNode<8>, Moments, 8>(seed, params);
         goes_on::<CompactNode<4>, Eq4, 4>(10 + seed, params);
     }

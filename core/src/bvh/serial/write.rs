@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::mem::offset_of;
 
-use super::header::{FORGOTTEN, FORMAT, HEADER_WORDS, Header, MAGIC, OPENS, SINGLE, built, layout};
+use super::header::{FORGOTTEN, FORMAT, HEADER_WORDS, Header, MAGIC, OPENS, SINGLE, code, layout};
 use crate::bvh::{Bvh, InstanceState};
 use crate::light::Light;
 use crate::node::{Node, kind};
@@ -29,7 +29,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             flags: flag(self.single, SINGLE)
                 | flag(self.forgotten, FORGOTTEN)
                 | flag(self.params.opens, OPENS),
-            built: built(&self.params),
+            heuristic: code(self.params.heuristic),
             buckets: self.params.buckets,
             bottom_depth: self.bottom_depth,
             nodes: self.nodes.len() as u32,

@@ -12,7 +12,11 @@ fn one_level<L: Shines>(light: fn(&mut Random) -> L) {
     let random = &mut Random(1);
     let mut seen = Seen::default();
     for count in [1, 2, 3, 7, 8, 9, 40, 200, 2000] {
-        for params in [BuildParams::BEST, BuildParams::default()] {
+        for buckets in [2, 16] {
+            let params = BuildParams {
+                buckets,
+                ..BuildParams::default()
+            };
             let all = Lights::new(lights(count, random, light)).expect("in the domain");
             let mut bvh = Tree::<L>::single_level(&all, &params);
             let receivers = if count < 1000 { 24 } else { 6 };
