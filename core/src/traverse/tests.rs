@@ -29,9 +29,7 @@ std::thread_local! {
 struct Flux;
 
 impl ImportanceModel<Node, 4> for Flux {
-    const UNIFORM_HALVINGS: u32 = 0;
-
-    fn weights(node: &Node, _: &ShadingPoint) -> [f32; 4] {
+    fn weights_in(node: &Node, _: &ShadingPoint, _: f32) -> [f32; 4] {
         let calls = NODES.get() + 1;
         NODES.set(calls);
         assert!(calls < 1000, "the walk does not end");
