@@ -137,7 +137,6 @@ impl Flat {
                 Cone::SPHERE.axis
             },
             cos_theta_o: if directed { 1.0 - TURN } else { -1.0 },
-            cos_theta_e: 0.0,
             phi: own.emission.phi,
         }
     }

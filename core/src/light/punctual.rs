@@ -83,7 +83,6 @@ pub(super) fn bounds(p: &[f32; 3], phi: f32, cone: Cone) -> LightBounds {
         max: p,
         axis: cone.axis,
         cos_theta_o: cone.cos_theta_o,
-        cos_theta_e: 0.0,
         phi,
     }
 }

@@ -92,7 +92,6 @@ impl Light for SphereLight {
             max: c + half,
             axis: Cone::SPHERE.axis,
             cos_theta_o: -1.0,
-            cos_theta_e: 0.0,
             phi: self.phi(),
         }
     }

@@ -137,7 +137,6 @@ impl Light for BoxLight {
             max: vector(&self.p) + half,
             axis: Cone::SPHERE.axis,
             cos_theta_o: -1.0,
-            cos_theta_e: 0.0,
             phi: self.phi(),
         }
     }
