@@ -119,15 +119,15 @@ fn samples_and_queries_agree() {
         let sky = sky(size);
         for k in 0..20_000 {
             let uv = [hash(k), hash(k ^ 0x5555)].map(crate::exact::unit_f32);
-            let sampled = sky.sample(hash(k ^ 0x1234), uv);
+            let sampled = sky.map().sample(hash(k ^ 0x1234), uv);
             // At the border of two texels rounding may name the other.
             let texel = sky.map().texel_of(sampled.direction);
             if texel == sampled.texel {
                 assert_eq!(
                     sampled.density.to_bits(),
-                    sky.density(sampled.direction).to_bits()
+                    sky.map().density(sampled.direction).to_bits()
                 );
-                assert_eq!(sampled.radiance, sky.radiance(sampled.direction));
+                assert_eq!(sampled.radiance, sky.map().radiance(sampled.direction));
             } else {
                 assert!(uv.iter().any(|x| !(0.001..0.999).contains(x)), "{uv:?} of {size}");
             }
@@ -150,13 +150,13 @@ fn bad_input_is_refused_and_black_is_none() {
         assert!(std::format!("{error}").contains("green"));
     }
     let black = Environment::from_fn(8, |_| [0.0; 3]).expect("no light is no error");
-    let sampled = black.sample(7_u32, [0.5; 2]);
+    let sampled = black.map().sample(7_u32, [0.5; 2]);
     assert_eq!(
         (sampled.pmf, sampled.density, sampled.texel),
         (0.0, 0.0, u32::MAX)
     );
     let blue = Environment::from_fn(8, |_| [0.0, 0.0, 1e-29]).expect("hardly any");
-    assert!(blue.sample(7_u32, [0.5; 2]).pmf > 0.0);
+    assert!(blue.map().sample(7_u32, [0.5; 2]).pmf > 0.0);
     for wrong in [[0.0; 3], [0.5, 0.0, 0.0], [f32::NAN, 1.0, 0.0]] {
         let sun = DistantLight {
             direction: wrong,
