@@ -47,10 +47,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let number = hash(trial);
         let sampled = told.sample(&ray, number);
         let on = lights[sampled.light as usize].point([0.5; 2]);
-        let place = ray.sample(on.p.into(), unit_f32(hash(number ^ 1)));
+        let (part, density) = equiangular(&ray, on.p, unit_f32(hash(number ^ 1)));
         // Trace the shadow ray here, from the place to the lamp.
-        let density = f64::from(sampled.pmf) * f64::from(place.density);
-        let value = sent(&on, ray.at(place.part)) / density / right;
+        let value = sent(&on, ray.at(part)) / (f64::from(sampled.pmf) * density) / right;
         mean += value / f64::from(TRIALS);
         square += (value - 1.0).powi(2) / f64::from(TRIALS);
     }
@@ -58,6 +57,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("squared error {square:.4}, mean {mean:.4} ± {sure:.4}");
     assert!((mean - 1.0).abs() < sure, "biased");
     Ok(())
+}
+
+/// A part of the ray, and its density over length: even over the angle under which `p` sees the ray (Kulla & Fajardo 2012).
+fn equiangular(ray: &RaySegment, p: [f32; 3], u: f32) -> (f32, f64) {
+    let length = distance(ray.from, ray.to);
+    let dot: f64 = (0..3)
+        .map(|k| f64::from(p[k] - ray.from[k]) * f64::from(ray.to[k] - ray.from[k]))
+        .sum();
+    // Where the ray is nearest, and how far away that is.
+    let foot = dot / length;
+    let d = (distance(ray.from, p).powi(2) - foot * foot).sqrt();
+    let [first, last] = [-foot, length - foot].map(|t| (t / d).atan());
+    let t = d * (first + (last - first) * f64::from(u)).tan();
+    let density = d / ((last - first) * (d * d + t * t));
+    (((foot + t) / length) as f32, density)
 }
 
 fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {

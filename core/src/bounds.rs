@@ -22,8 +22,6 @@ pub struct LightBounds {
     pub axis: Vec3,
     /// cos θ_o: the normals lie within θ_o of the axis; −1..=1.
     pub cos_theta_o: f32,
-    /// cos θ_e: emission reaches up to θ_e from a normal; 0 for the diffuse emitters of this crate.
-    pub cos_theta_e: f32,
     /// Radiant flux Φ, W, weighted by luminance; zero, or from 2^-100 up to 2^126.
     pub phi: f32,
 }
@@ -35,7 +33,6 @@ impl LightBounds {
         max: Vec3::new(0.0, 0.0, 0.0),
         axis: Cone::SPHERE.axis,
         cos_theta_o: 1.0,
-        cos_theta_e: 0.0,
         phi: 0.0,
     };
 
@@ -70,7 +67,6 @@ impl LightBounds {
             max: max3(p0, max3(p1, p2)),
             axis: normalized(n),
             cos_theta_o: if any_normal { -1.0 } else { 1.0 - turn_squared },
-            cos_theta_e: 0.0,
             phi: emission.phi,
         }
     }
@@ -91,11 +87,6 @@ impl LightBounds {
             max: select3(both, max3(self.max, other.max), kept.max),
             axis: select3(both, cone.axis, kept.axis),
             cos_theta_o: if both { cone.cos_theta_o } else { kept.cos_theta_o },
-            cos_theta_e: if both {
-                exact::min(self.cos_theta_e, other.cos_theta_e)
-            } else {
-                kept.cos_theta_e
-            },
             phi: if both {
                 exact::min(self.phi + other.phi, MAX_SUM)
             } else {

@@ -158,15 +158,8 @@ impl Instance {
     #[inline]
     #[must_use]
     pub fn vertex(&self, p: [f32; 3]) -> [f32; 3] {
-        let (a, b, c) = (
-            self.column(0) * p[0],
-            self.column(1) * p[1],
-            self.column(2) * p[2],
-        );
-        let v = (flush3(a, LEAST_PRODUCT) + flush3(b, LEAST_PRODUCT)) + flush3(c, LEAST_PRODUCT);
-        let within = |x: f32| flush(exact::clamp(x, -MAX_COORDINATE, MAX_COORDINATE), MIN_COORDINATE);
-        let v = v + self.origin();
-        [within(v.x), within(v.y), within(v.z)]
+        let v = within(self.mapped(vector(&p)) + self.origin());
+        [v.x, v.y, v.z]
     }
 
     /// Triangle `local` of the mesh as it stands in the world, as part of mesh light `index`. Where the map mirrors, two
@@ -230,10 +223,14 @@ impl Instance {
     /// A vector of the mesh in the world, metres: within the domain of coordinates.
     #[inline(always)]
     pub(crate) fn edge_to_world(&self, v: Vec3) -> Vec3 {
+        within(self.mapped(v))
+    }
+
+    /// A v, as the definition of where lights are has it.
+    #[inline(always)]
+    fn mapped(&self, v: Vec3) -> Vec3 {
         let (a, b, c) = (self.column(0) * v.x, self.column(1) * v.y, self.column(2) * v.z);
-        let v = (flush3(a, LEAST_PRODUCT) + flush3(b, LEAST_PRODUCT)) + flush3(c, LEAST_PRODUCT);
-        let within = |x: f32| flush(exact::clamp(x, -MAX_COORDINATE, MAX_COORDINATE), MIN_COORDINATE);
-        Vec3::new(within(v.x), within(v.y), within(v.z))
+        (flush3(a, LEAST_PRODUCT) + flush3(b, LEAST_PRODUCT)) + flush3(c, LEAST_PRODUCT)
     }
 
     /// A direction of the world in the space of the mesh, again of about unit length; zero where the map loses it.
@@ -300,6 +297,13 @@ pub fn world_light<L: Light>(triangles: &[L], instances: &[Instance], light: u32
         }
     }
     out
+}
+
+/// Within the domain of coordinates.
+#[inline(always)]
+fn within(v: Vec3) -> Vec3 {
+    let within = |x: f32| flush(exact::clamp(x, -MAX_COORDINATE, MAX_COORDINATE), MIN_COORDINATE);
+    Vec3::new(within(v.x), within(v.y), within(v.z))
 }
 
 /// Without components that a product could make subnormal.

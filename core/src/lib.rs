@@ -25,7 +25,7 @@
 //! | [`requirements`] | what a scene requires, and the smallest model that is sufficient |
 //! | [`tree`] | a light BVH as borrowed arrays, the same on devices |
 //! | [`refit`], [`exact`] | passes and arithmetic, the same on devices |
-//! | [`reservoir`] | resampling of light samples, over candidates and over other reservoirs (ReSTIR) |
+//! | [`reservoir`] | one of several light samples by what they would contribute (resampled importance sampling) |
 //! | [`error`] | why input is refused |
 //!
 //! `core/examples` has programs, the first page of the repository a frame with its edits.

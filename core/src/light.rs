@@ -49,6 +49,7 @@ pub use profile::ProfileLight;
 pub use punctual::{PointLight, SpotLight};
 pub(crate) use record::shining;
 pub use record::{Light, LightSlots};
+use record::{checked_emission, checked_place};
 pub use sphere::SphereLight;
 pub use volume::BoxLight;
 
@@ -136,24 +137,10 @@ impl EmissiveTriangle {
     /// [`LightError`] for a coordinate or radiance that is not finite or out of range, for negative radiance, and for flags that mean
     /// nothing.
     pub fn checked(mut self) -> Result<Self, LightError> {
-        for vertex in 0..3 {
-            for axis in 0..3 {
-                let value = self.p[vertex][axis];
-                // NaN is in no range.
-                if !(-MAX_COORDINATE..=MAX_COORDINATE).contains(&value) {
-                    return Err(LightError::Coordinate { vertex, axis, value });
-                }
-                self.p[vertex][axis] = exact::flush(value, MIN_COORDINATE);
-            }
-        }
-        for channel in 0..3 {
-            let value = self.radiance[channel];
-            let in_range = value == 0.0 || (MIN_RADIANCE..=MAX_RADIANCE).contains(&value);
-            if !in_range {
-                return Err(LightError::Radiance { channel, value });
-            }
-            self.radiance[channel] = exact::flush(value, MIN_RADIANCE);
-        }
+        self.p[0] = checked_place("first vertex of a triangle", self.p[0])?;
+        self.p[1] = checked_place("second vertex of a triangle", self.p[1])?;
+        self.p[2] = checked_place("third vertex of a triangle", self.p[2])?;
+        self.radiance = checked_emission("radiance of a triangle", self.radiance)?;
         if self.flags & !TWO_SIDED != 0 {
             return Err(LightError::Flags { flags: self.flags });
         }
@@ -165,28 +152,12 @@ impl EmissiveTriangle {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum LightError {
-    /// A coordinate is NaN, infinite or beyond [`MAX_COORDINATE`].
-    Coordinate {
-        /// Which vertex, 0..3.
-        vertex: usize,
-        /// Which coordinate: x, y, z as 0, 1, 2.
-        axis: usize,
-        /// What was found.
-        value: f32,
-    },
-    /// A radiance is NaN, infinite, negative, above [`MAX_RADIANCE`], or positive and below [`MIN_RADIANCE`].
-    Radiance {
-        /// Which channel: R, G, B as 0, 1, 2.
-        channel: usize,
-        /// What was found.
-        value: f32,
-    },
     /// A bit of [`flags`](EmissiveTriangle::flags) that means nothing.
     Flags {
         /// What was found.
         flags: u32,
     },
-    /// A coordinate of a place, an edge or an axis is NaN, infinite or beyond [`MAX_COORDINATE`].
+    /// A coordinate of a vertex, a place, an edge or an axis is NaN, infinite or beyond [`MAX_COORDINATE`].
     Place {
         /// Of what.
         what: &'static str,
@@ -195,7 +166,7 @@ pub enum LightError {
         /// What was found.
         value: f32,
     },
-    /// An intensity, or a radiance per metre, is NaN, infinite, negative, above [`MAX_RADIANCE`], or positive and below [`MIN_RADIANCE`].
+    /// A radiance, an intensity, or a radiance per metre is NaN, infinite, negative, above [`MAX_RADIANCE`], or positive and below [`MIN_RADIANCE`].
     Emission {
         /// Of what.
         what: &'static str,
@@ -246,19 +217,6 @@ pub enum LightError {
 impl core::fmt::Display for LightError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match *self {
-            Self::Coordinate { vertex, axis, value } => write!(
-                f,
-                "coordinate {} of vertex {vertex} is {}, expected a finite number of magnitude at most 2^40 (1.1e12); \
-                 scale the scene or repair the mesh",
-                ['x', 'y', 'z'][axis],
-                Number(value)
-            ),
-            Self::Radiance { channel, value } => write!(
-                f,
-                "{} radiance is {}, expected 0 or a number from 2^-100 to 2^100 (7.9e-31 to 1.3e30); repair the material's emission",
-                ["red", "green", "blue"][channel],
-                Number(value)
-            ),
             Self::Flags { flags } => write!(
                 f,
                 "flags are {flags:#x}, expected 0 or TWO_SIDED ({TWO_SIDED}); clear the other bits"
@@ -266,7 +224,7 @@ impl core::fmt::Display for LightError {
             Self::Place { what, axis, value } => write!(
                 f,
                 "coordinate {} of the {what} is {}, expected a finite number of magnitude at most 2^40 (1.1e12); scale the scene or \
-                 repair the light",
+                 repair it",
                 ['x', 'y', 'z'][axis],
                 Number(value)
             ),

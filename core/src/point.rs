@@ -7,7 +7,7 @@ mod transmissive;
 
 pub use glossy::GlossyPoint;
 pub use linked::LinkedPoint;
-pub use segment::{RaySegment, SegmentSample};
+pub use segment::RaySegment;
 pub use transmissive::TransmissivePoint;
 
 use bytemuck::{Pod, Zeroable};
@@ -140,15 +140,10 @@ pub enum PointError {
         /// What was found.
         mirror: [f32; 3],
     },
-    /// A reflectance or exponent of a [`GlossyPoint`] is NaN.
-    Reflectance {
-        /// What was found.
-        value: f32,
-    },
-    /// A part of a [`TransmissivePoint`] is NaN.
-    Part {
-        /// What was found.
-        value: f32,
+    /// A reflectance or an exponent of a [`GlossyPoint`], or a part of a [`TransmissivePoint`], is NaN.
+    Nan {
+        /// Of what.
+        what: &'static str,
     },
 }
 
@@ -173,14 +168,7 @@ impl core::fmt::Display for PointError {
                 f,
                 "the mirror direction of a glossy point is ({x}, {y}, {z}), expected length 1, or zero for none; normalize it"
             ),
-            Self::Reflectance { value } => write!(
-                f,
-                "a reflectance or exponent of a glossy point is {value}, expected a number; compute it anew"
-            ),
-            Self::Part { value } => write!(
-                f,
-                "a part of a transmissive point is {value}, expected a number from 0 to 1; compute it anew"
-            ),
+            Self::Nan { what } => write!(f, "{what} is NaN, expected a number; compute it again"),
         }
     }
 }

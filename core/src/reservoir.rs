@@ -1,15 +1,13 @@
-//! Reservoirs: resampled importance sampling over a stream of light samples, and over other reservoirs.
-//!
-//! B. Bitterli, C. Wyman, M. Pharr, P. Shirley, A. Lefohn, W. Jarosz, "Spatiotemporal reservoir resampling for real-time
-//! ray tracing with dynamic direct lighting", ACM TOG 39(4), 2020 (below: ReSTIR). Algorithm numbers are theirs.
+//! Resampled importance sampling of light samples: one of several candidates (J. Talbot, D. Cline, P. Egbert, "Importance
+//! Resampling for Global Illumination", 2005), chosen by a reservoir as in ReSTIR (B. Bitterli, C. Wyman, M. Pharr, P. Shirley,
+//! A. Lefohn, W. Jarosz, 2020). Algorithm numbers are those of ReSTIR.
 //!
 //! A sample is a light and two random numbers that choose the point on it, so all densities here are over the lights
-//! times the unit square. That square moves with its light: a sample of the last frame is one of this frame, at the point
-//! that the light's motion has carried it to, and no change of variables comes in.
+//! times the unit square. That square moves with its light.
 //!
-//! What decides anything stays within 2^±116: targets, pmfs, sums and contribution weights are brought into the ranges
-//! that the constants below state. A target may be any function that is positive where the integrand is (ReSTIR section
-//! 2.3), so limiting it costs variance only. The other limits are met where an estimate is beyond 2^±60 of all others.
+//! Targets, pmfs, sums and contribution weights are brought into the ranges that the constants below state. A target may be any
+//! function that is positive where the integrand is (ReSTIR section 2.3), so limiting it costs variance only. The other limits are
+//! met where an estimate is beyond 2^±60 of all others.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -28,8 +26,6 @@ pub const MAX_WEIGHT_SUM: f32 = pow2(80);
 pub const MIN_WEIGHT: f32 = pow2(-60);
 /// Contribution weights count as at most this.
 pub const MAX_WEIGHT: f32 = pow2(60);
-/// Counts of samples stop growing here, so that every product of one with a target and a weight is finite.
-pub const MAX_COUNT: u32 = 1 << 16;
 
 /// A point on a light; 16 bytes.
 #[repr(C)]
@@ -52,47 +48,14 @@ impl LightSample {
     };
 }
 
-/// What remains of a stream of samples: one of them, and what it stands for; 24 bytes.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+/// One of the candidates, and what it stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reservoir {
     /// y, the chosen sample; [`LightSample::NONE`] if every candidate had target zero.
     pub sample: LightSample,
     /// W, the contribution weight: the integrand at y times W estimates the integral (an unbiased estimate of 1 / p(y)).
     /// Zero or in [`MIN_WEIGHT`]`..=`[`MAX_WEIGHT`].
     pub weight: f32,
-    /// M, how many samples it stands for, at most [`MAX_COUNT`].
-    pub count: u32,
-}
-
-const _: () = assert!(size_of::<Reservoir>() == 24);
-
-impl Reservoir {
-    /// Of no samples.
-    pub const EMPTY: Self = Self {
-        sample: LightSample::NONE,
-        weight: 0.0,
-        count: 0,
-    };
-
-    /// The reservoir with M limited: a history that counts for ever would freeze the image (ReSTIR section 5, which
-    /// takes 20 times the current frame's M). M is only a confidence, so this changes no expectation.
-    #[inline]
-    #[must_use]
-    pub fn limited(self, most: u32) -> Self {
-        Self {
-            count: if self.count < most { self.count } else { most },
-            ..self
-        }
-    }
-
-    /// The reservoir after its sample proved to be occluded: it contributes nothing, and its samples still count
-    /// (visibility reuse, Algorithm 5).
-    #[inline]
-    #[must_use]
-    pub fn occluded(self) -> Self {
-        Self { weight: 0.0, ..self }
-    }
 }
 
 /// The domain of targets: zero, or from [`MIN_TARGET`] to [`MAX_TARGET`]. `luminance` is that of the unshadowed
@@ -108,18 +71,18 @@ pub fn target(luminance: f32) -> f32 {
     }
 }
 
-/// A stream that is being resampled for one receiver (Algorithm 2 and its uses).
+/// A stream of candidates that is being resampled for one receiver (Algorithm 2).
 #[derive(Clone, Copy, Debug)]
 pub struct Resampling {
     /// y, the sample chosen so far.
     pub sample: LightSample,
     /// The receiver's target at y.
     pub target: f32,
-    /// Which reservoir y came from: what [`merge`](Self::merge) was told. Of candidates how many came before it.
+    /// The number of candidates before y.
     pub source: u32,
     /// The sum of all weights.
     pub weight_sum: f32,
-    /// M.
+    /// M, the number of candidates.
     pub count: u32,
 }
 
@@ -133,23 +96,12 @@ impl Resampling {
         count: 0,
     };
 
-    /// Weighted reservoir sampling (Algorithm 2, `update`): takes `sample` in place of the one chosen so far with
-    /// probability `weight` over the sum so far. `weight` is finite and zero or at least 2^-100; `random` is 32 random bits.
+    /// Takes a candidate that was drawn with probability `pmf`, which is 0 where none was drawn (Algorithm 3): weight
+    /// p̂ / p. `target` is p̂ as [`target`] gives it. It replaces y with probability weight over the sum so far; `random` is 32
+    /// random bits.
     ///
     /// The random number is an odd multiple of 2^-24 in (0, 1): never zero, so a sample of weight zero is never taken,
     /// and centred, so that each probability is right to 2^-24 on either side.
-    #[inline]
-    fn update(&mut self, sample: LightSample, weight: f32, target: f32, source: u32, random: u32) {
-        self.weight_sum = min(self.weight_sum + weight, MAX_WEIGHT_SUM);
-        let u = unit_f32(random | 0x100);
-        let take = u * self.weight_sum < weight;
-        self.sample = if take { sample } else { self.sample };
-        self.target = if take { target } else { self.target };
-        self.source = if take { source } else { self.source };
-    }
-
-    /// Takes a candidate that was drawn with probability `pmf`, which is 0 where none was drawn (Algorithm 3): weight
-    /// p̂ / p. `target` is p̂ as [`target`] gives it.
     #[inline]
     pub fn candidate(&mut self, sample: LightSample, target: f32, pmf: f32, random: u32) {
         let drawn = pmf > 0.0;
@@ -158,71 +110,126 @@ impl Resampling {
         } else {
             0.0
         };
-        let before = self.count;
-        self.count = plus(before, 1);
-        self.update(sample, weight, target, before, random);
+        self.weight_sum = min(self.weight_sum + weight, MAX_WEIGHT_SUM);
+        let u = unit_f32(random | 0x100);
+        let take = u * self.weight_sum < weight;
+        self.sample = if take { sample } else { self.sample };
+        self.target = if take { target } else { self.target };
+        self.source = if take { self.count } else { self.source };
+        self.count = self.count.wrapping_add(1);
     }
 
-    /// Takes the sample of another reservoir for all those that it stands for (Algorithm 4): weight p̂ W M, with this
-    /// receiver's target p̂ at that sample. `source` tells reservoirs apart.
-    #[inline]
-    pub fn merge(&mut self, reservoir: &Reservoir, target: f32, source: u32, random: u32) {
-        let count = plus(reservoir.count, 0);
-        let weight = min(
-            (target * reservoir.weight) * (count as i32 as f32),
-            MAX_WEIGHT_SUM,
-        );
-        self.update(reservoir.sample, weight, target, source, random);
-        self.count = plus(self.count, count);
-    }
-
-    /// W = sum / (M p̂): every sample counts alike (Algorithms 3 and 4).
-    ///
-    /// Right for candidates that all come from one source. Of reservoirs of other receivers it is **biased**: samples that
-    /// some of them could not have produced are counted as if they could (ReSTIR section 4.2).
+    /// W = sum / (p̂ · `whole`), zero where any of them is. `whole` is [`count`](Self::count) where every candidate counts alike, at
+    /// most 2^60.
     #[inline]
     #[must_use]
-    pub fn finish_equal(&self) -> Reservoir {
-        self.finish(1.0, self.count as i32 as f32)
-    }
-
-    /// W = sum / p̂ · p̂_s / Σ M_j p̂_j: y is counted by the balance heuristic among the reservoirs that could have produced
-    /// it (Algorithm 6 with the weights of ReSTIR section 4.3). **Unbiased** where each p̂_j is zero wherever reservoir j could
-    /// not have produced y with its right weight, and some reservoir could wherever the integrand is positive.
-    ///
-    /// `own` is p̂_s, the target at y of the receiver that y came from; `balance` the sum of M_j p̂_j over all receivers,
-    /// that one included.
-    #[inline]
-    #[must_use]
-    pub fn finish_balanced(&self, own: f32, balance: f32) -> Reservoir {
-        self.finish(own, balance)
-    }
-
-    /// W = sum / p̂ · `share` / `whole`, zero where any of them is; `share` and `whole` are at most 2^60.
-    #[inline]
-    fn finish(&self, share: f32, whole: f32) -> Reservoir {
-        let found = self.target > 0.0 && self.weight_sum > 0.0 && share > 0.0 && whole > 0.0;
+    pub fn finish(&self, whole: f32) -> Reservoir {
+        let found = self.target > 0.0 && self.weight_sum > 0.0 && whole > 0.0;
         let mut weight = 0.0;
         if found {
-            // 2^80 / 2^-40 at most; a share is at most its whole, or 1 over a count.
+            // 2^80 / 2^-40 at most.
             let sum = div(self.weight_sum, self.target);
-            weight = flush(min(sum * div(share, whole), MAX_WEIGHT), MIN_WEIGHT);
+            weight = flush(min(sum * div(1.0, whole), MAX_WEIGHT), MIN_WEIGHT);
         }
         Reservoir {
             sample: self.sample,
             weight,
-            count: self.count,
         }
     }
 }
 
-/// `a + b`, at most [`MAX_COUNT`], for counts of any value.
-#[inline]
-fn plus(a: u32, b: u32) -> u32 {
-    let a = if a < MAX_COUNT { a } else { MAX_COUNT };
-    let b = if b < MAX_COUNT - a { b } else { MAX_COUNT - a };
-    a + b
-}
-
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+
+    fn sample(light: u32) -> LightSample {
+        LightSample {
+            light,
+            instance: light / 2,
+            uv: [0.25, 0.75],
+        }
+    }
+
+    /// Every one of the 2^23 numbers that decide: a weight is taken by its share of them, to one.
+    #[test]
+    fn a_weight_is_taken_by_its_share_of_all_random_numbers() {
+        for (before, weight) in [
+            (1.0_f32, 1.0_f32),
+            (7.0, 0.1),
+            (1e20, 3e18),
+            (0.0, 5.0),
+            (5.0, 0.0),
+        ] {
+            let start = Resampling {
+                weight_sum: before,
+                sample: sample(1),
+                ..Resampling::EMPTY
+            };
+            let mut taken = 0_u32;
+            for number in 0..1_u32 << 23 {
+                let mut stream = start;
+                stream.candidate(sample(2), weight, 1.0, number << 9);
+                taken += u32::from(stream.sample.light == 2);
+            }
+            let share = f64::from(weight) / (f64::from(before) + f64::from(weight));
+            let expected = share * f64::from(1 << 23);
+            assert!(
+                (f64::from(taken) - expected).abs() <= 1.0,
+                "{before} {weight}: {taken} {expected}"
+            );
+        }
+    }
+
+    /// Algorithm 3 over every combination of random numbers that matters: thresholds fall on the eighths that `random` steps
+    /// through, so the mean over all combinations is the expectation itself, Σ f over the candidates' domain.
+    #[test]
+    fn candidates_estimate_the_sum_in_expectation() {
+        // Four lights with pmf 1/4 each, two candidates; f and targets apart from each other, one target zero with its f.
+        let targets = [1.0_f32, 3.0, 4.0, 0.0];
+        let f = [2.0, 1.5, 8.0, 0.0];
+        let (mut mean, mut combinations) = (0.0, 0.0);
+        // The chance that the second is taken is its share. Counted by 840 = 3 · 5 · 7 · 8 steps, which all shares divide.
+        let steps = 840_u32;
+        for pair in 0..16_u32 {
+            let lights = [pair % 4, pair / 4];
+            for step in 0..steps {
+                let random = ((u64::from(step) << 32).div_ceil(u64::from(steps)) + 512) as u32;
+                let mut stream = Resampling::EMPTY;
+                for (light, random) in lights.into_iter().zip([0, random]) {
+                    stream.candidate(sample(light), targets[light as usize], 0.25, random);
+                }
+                assert_eq!(stream.count, 2);
+                let found = stream.finish(2.0);
+                if found.weight > 0.0 {
+                    assert_eq!(found.sample.light, lights[stream.source as usize]);
+                    mean += f[found.sample.light as usize] * f64::from(found.weight);
+                }
+                combinations += 1.0;
+            }
+        }
+        mean /= combinations;
+        let sum: f64 = f.iter().sum();
+        assert!((mean / sum - 1.0).abs() < 1e-6, "{mean} {sum}");
+    }
+
+    /// At the corners of all ranges together, every number is zero or normal and finite, and within its range.
+    #[test]
+    fn no_corner_of_the_domain_leaves_it() {
+        let targets = [0.0, 1e-38, 1e-30, MIN_TARGET, 1.0, MAX_TARGET, 1e30, f32::MAX].map(target);
+        for pmf in [0.0, 1e-38, MIN_PMF, 0.3, 1.0] {
+            for (t0, t1) in targets.iter().flat_map(|&a| targets.map(|b| (a, b))) {
+                for random in [0, u32::MAX] {
+                    let mut stream = Resampling::EMPTY;
+                    stream.candidate(sample(1), t0, pmf, random);
+                    stream.candidate(sample(2), t1, pmf, random);
+                    let sum = stream.weight_sum;
+                    assert!((sum == 0.0 || sum.is_normal()) && sum <= MAX_WEIGHT_SUM);
+                    for whole in [0.0, 1.0, 2.0, pow2(60)] {
+                        let weight = stream.finish(whole).weight;
+                        assert!(weight == 0.0 || (MIN_WEIGHT..=MAX_WEIGHT).contains(&weight));
+                    }
+                }
+            }
+        }
+    }
+}

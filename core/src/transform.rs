@@ -46,16 +46,6 @@ impl Transform {
         }
     }
 
-    /// The map of a 3 × 4 matrix by rows, the translation in the last column, as `VkTransformMatrixKHR` and DXR's instances
-    /// have it.
-    #[must_use]
-    pub const fn from_rows([x, y, z]: [[f32; 4]; 3]) -> Self {
-        Self {
-            columns: [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]],
-            translation: [x[3], y[3], z[3]],
-        }
-    }
-
     /// `light` as it stands in the world where this map puts its mesh, as part of mesh light `mesh`: what a light BVH over
     /// instances makes of it, to the bit, but for the instance's factor on radiance.
     #[must_use]

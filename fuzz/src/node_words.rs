@@ -23,7 +23,7 @@ struct Counting<I>(PhantomData<I>);
 impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W> for Counting<I> {
     const UNIFORM_HALVINGS: u32 = 2;
 
-    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
+    fn weights_in(node: &N, point: &ShadingPoint, _: f32) -> [f32; W] {
         NODES.set(NODES.get() + 1);
         I::weights(node, point)
     }

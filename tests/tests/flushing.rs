@@ -215,25 +215,6 @@ fn triangles_by_moments() {
         let to = scenes::point(random, sizes).p;
         let receiver = RaySegment { from: point.p, to };
         ask::<_, Defensive<Subtended<Moments>, 6>, _, 8>(bvh, &receiver, &point, random, differing);
-        let (u, on) = (random.unit(), scenes::point(random, sizes).p);
-        let both = in_both(|| {
-            [0.0, u, exact::pow2(-24), f32::MIN_POSITIVE]
-                .into_iter()
-                .flat_map(|u| {
-                    let sample = receiver.sample(Vec3::from(on), u);
-                    [
-                        words(&[sample]),
-                        receiver.at(sample.part).map(f32::to_bits).to_vec(),
-                    ]
-                    .concat()
-                })
-                .collect()
-        });
-        note(
-            differing,
-            &format!("a distance for {receiver:?} and {on:?}"),
-            &both,
-        );
     });
 }
 

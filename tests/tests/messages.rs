@@ -35,22 +35,29 @@ fn lights() {
     };
     assert_eq!(
         far(2, 1),
-        LightError::Coordinate {
-            vertex: 2,
+        LightError::Place {
+            what: "third vertex of a triangle",
             axis: 1,
             value: 1e20
         }
     );
     says(
         &far(0, 0),
-        &["coordinate x of vertex 0", "1e20", "2^40", "scale the scene"],
+        &[
+            "coordinate x of the first vertex",
+            "1e20",
+            "2^40",
+            "scale the scene",
+        ],
     );
-    says(&far(1, 2), &["coordinate z of vertex 1"]);
+    says(&far(1, 2), &["coordinate z of the second vertex"]);
     for (channel, name) in ["red", "green", "blue"].into_iter().enumerate() {
         let mut lamp = LAMP;
         lamp.radiance[channel] = -3.0;
         let error = lamp.checked().expect_err("negative");
-        assert_eq!(error, LightError::Radiance { channel, value: -3.0 });
+        let what = "radiance of a triangle";
+        let value = -3.0;
+        assert_eq!(error, LightError::Emission { what, channel, value });
         says(&error, &[name, "-3", "2^-100 to 2^100", "repair"]);
         lamp.radiance[channel] = 2.0 * MAX_RADIANCE;
         lamp.checked().expect_err("too bright");

@@ -49,8 +49,11 @@ fn a_beam_holds_what_a_map_brings_back() {
         // Back to within a part of the way.
         let left = far * 10.0_f64.powf(-6.0 * f64::from(random.unit()));
         let back = turned(p).map(|x| (left * (f64::from(random.signed())) - x) as f32);
-        let columns = core::array::from_fn(|i| [rows[i][0], rows[i][1], rows[i][2], back[i]]);
-        let instance = Transform::from_rows(columns).instance(1.0);
+        let instance = Transform {
+            columns: core::array::from_fn(|j| rows.map(|row| row[j])),
+            translation: back,
+        }
+        .instance(1.0);
         let beam = Beam {
             axis: Vec3::new(0.0, 0.0, -1.0),
             cos_theta_e: 0.9,
@@ -85,22 +88,18 @@ fn a_beam_holds_what_a_map_brings_back() {
 /// third, of the third to the first.
 fn map(random: &mut Random, scale: f64, lengths: [f64; 3], by: [f64; 3]) -> Transform {
     let turn = rotation(random);
-    let columns: [[f64; 3]; 3] = core::array::from_fn(|j| {
+    let columns = core::array::from_fn(|j| {
         let (k, share) = match j {
             1 => (0, by[0]),
             2 => (1, by[1]),
             _ => (2, by[2]),
         };
-        core::array::from_fn(|i| scale * lengths[j] * (turn[i][j] + share * turn[i][k]))
+        core::array::from_fn(|i| (scale * lengths[j] * (turn[i][j] + share * turn[i][k])) as f32)
     });
-    Transform::from_rows(core::array::from_fn(|i| {
-        [
-            columns[0][i] as f32,
-            columns[1][i] as f32,
-            columns[2][i] as f32,
-            [0.5, -8.0, 3.0][i],
-        ]
-    }))
+    Transform {
+        columns,
+        translation: [0.5, -8.0, 3.0],
+    }
 }
 
 /// Maps that change angles are told from those that do not, whichever axes they change.

@@ -128,11 +128,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Numbers of lights that are no more, until [`take_removed_lights`](Self::take_removed_lights), in the order in which they
     /// went; ranges do not overlap, except the first one in the last paragraph. Every other light keeps its number. A temporal method
-    /// replaces each [`Reservoir`](crate::reservoir::Reservoir) of such a light by its
-    /// [`occluded`](crate::reservoir::Reservoir::occluded): the light sends nothing any more, but the samples that it stands
-    /// for still count; an empty reservoir in its place is biased where
-    /// [`finish_balanced`](crate::reservoir::Resampling::finish_balanced) merges them. Its sample still names the light: a
-    /// weight of 0 says not to look it up. In a frame: [`apply`](Self::apply), take the removed lights, replace all that is
+    /// sets the weight of each reservoir of such a light to 0 and keeps its count: the light sends nothing any more, but the samples
+    /// that it stands for still count; an empty reservoir in its place is biased where the balance heuristic merges them. Its sample
+    /// still names the light: a weight of 0 says not to look it up. In a frame: [`apply`](Self::apply), take the removed lights, replace all that is
     /// kept of them, then resample; old surfaces are asked for old lights, so copies of the last frame's
     /// [`triangles`](Self::triangles) and [`instances`](Self::instances) are kept for
     /// [`world_light`](crate::refit::world_light).
@@ -142,7 +140,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// No new light gets such a number before it is taken. The exception keeps numbers from running out where they never are:
     /// once more of them wait than 65,536 and than there are lights (or than half of what is left of 2^30, where that is less),
     /// all of them are free, and the first range is that of every number there was, from 0, lights that are still there included: make
-    /// every reservoir empty then, none occluded. The edit at which that happens takes time
+    /// every reservoir empty then. The edit at which that happens takes time
     /// in proportion to all that waited.
     #[must_use]
     pub fn removed_lights(&self) -> &[Range<u32>] {

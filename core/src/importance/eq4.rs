@@ -24,8 +24,6 @@ pub struct Cluster {
     pub cos_theta_o: f32,
     /// sin θ_o.
     pub sin_theta_o: f32,
-    /// cos θ_e.
-    pub cos_theta_e: f32,
     /// Flux Φ, W.
     pub phi: f32,
 }
@@ -61,10 +59,8 @@ const MIN_DISTANCE_SQUARED: f32 = pow2(-100);
 pub struct Eq4;
 
 impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W> for Eq4 {
-    const UNIFORM_HALVINGS: u32 = 0;
-
     #[inline(always)]
-    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
+    fn weights_in(node: &N, point: &ShadingPoint, _: f32) -> [f32; W] {
         let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let cluster = node.cluster(slot);
@@ -120,7 +116,7 @@ impl Eq4 {
         let facing = (along_axis * cos_alpha + across_axis * sin_alpha) * inverse_squared;
         let surrounded = inside | (sin_alpha < 0.0) | (along_axis >= cos_alpha);
         let reach = if surrounded { 1.0 } else { facing } + SLACK;
-        let orientation = if reach > cluster.cos_theta_e { reach } else { 0.0 };
+        let orientation = if reach > 0.0 { reach } else { 0.0 };
 
         (exact::max(incident * orientation, FLOOR), d_squared)
     }

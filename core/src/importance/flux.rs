@@ -17,10 +17,8 @@ const MIN_DISTANCE_SQUARED: f32 = pow2(-100);
 pub struct FluxOverDistance;
 
 impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for FluxOverDistance {
-    const UNIFORM_HALVINGS: u32 = 0;
-
     #[inline(always)]
-    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
+    fn weights_in(node: &N, point: &ShadingPoint, _: f32) -> [f32; W] {
         let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let summary = node.summary(slot);

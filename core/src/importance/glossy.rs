@@ -32,11 +32,6 @@ impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W,
     const IS_PARTIAL: bool = I::IS_PARTIAL;
 
     #[inline(always)]
-    fn weights(node: &N, receiver: &GlossyPoint) -> [f32; W] {
-        Self::weights_in(node, receiver, 0.0)
-    }
-
-    #[inline(always)]
     fn weights_in(node: &N, receiver: &GlossyPoint, slack: f32) -> [f32; W] {
         let mut weights = I::weights_in(node, &receiver.point, slack);
         for slot in 0..W {

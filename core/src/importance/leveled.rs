@@ -24,11 +24,6 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
     const IS_PARTIAL: bool = I::IS_PARTIAL;
 
     #[inline(always)]
-    fn weights(node: &N, point: &P) -> [f32; W] {
-        Self::weights_in(node, point, 0.0)
-    }
-
-    #[inline(always)]
     fn weights_in(node: &N, point: &P, slack: f32) -> [f32; W] {
         let mut weights = I::weights_in(node, point, slack);
         let mut sum = 0.0;

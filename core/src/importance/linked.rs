@@ -75,11 +75,6 @@ impl<N: Node<W>, I: ImportanceModel<N, W, P>, P, const W: usize> ImportanceModel
     const IS_PARTIAL: bool = true;
 
     #[inline(always)]
-    fn weights(node: &N, receiver: &LinkedPoint<P>) -> [f32; W] {
-        Self::weights_in(node, receiver, 0.0)
-    }
-
-    #[inline(always)]
     fn weights_in(node: &N, receiver: &LinkedPoint<P>, slack: f32) -> [f32; W] {
         let mut weights = I::weights_in(node, &receiver.point, slack);
         let mut greatest = 0.0;

@@ -34,7 +34,7 @@ pub use transmissive::Transmissive;
 use crate::exact;
 use crate::point::ShadingPoint;
 #[doc(inline)]
-pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, SegmentSample, TransmissivePoint};
+pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, TransmissivePoint};
 
 /// A measure of what the lights below each child of a node may contribute at a point. A type chooses it, so that kernels
 /// contain one only.
@@ -43,22 +43,23 @@ pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, SegmentSa
 pub trait ImportanceModel<N, const W: usize, P = ShadingPoint> {
     /// Share of samples that choose among all lights alike, as the number of times that 1 is halved: 5 for 1/32. 0 is for none
     /// and costs nothing. See [`Defensive`].
-    const UNIFORM_HALVINGS: u32;
+    const UNIFORM_HALVINGS: u32 = 0;
     /// Whether lights with flux may have weight zero: such an importance takes no share of uniform choice.
     #[doc(hidden)]
     const IS_PARTIAL: bool = false;
 
     /// The weights of the children of `node` at `point`, a point in the node's space: each zero where the child has no flux,
     /// else positive and at most 2^120. Hostile words may give anything.
-    fn weights(node: &N, point: &P) -> [f32; W];
+    ///
+    /// `slack` is [`Instance::slack`](crate::Instance::slack) of that space: how far, in its metres, the instance's own place may have moved
+    /// points and lights by rounding, which the beams of a [`SpotMomentNode`](crate::node::SpotMomentNode) allow for; below zero where its map is
+    /// no similarity, for angles differ from the world's there and beams do not count. 0 in the world. An importance made of others hands it on.
+    fn weights_in(node: &N, point: &P, slack: f32) -> [f32; W];
 
-    /// The weights in the space of a mesh, with that space's [`Instance::slack`](crate::Instance::slack): how far, in metres of the space, the
-    /// instance's own place may have moved points and lights by rounding, which the beams of a [`SpotMomentNode`](crate::node::SpotMomentNode)
-    /// allow for; below zero where its map is no similarity, for angles differ from the world's there and beams do not count. 0 in the world. The
-    /// same as [`weights`](Self::weights), unless the layout stores beams; an importance made of others asks them this.
+    /// [`weights_in`](Self::weights_in) the world.
     #[inline(always)]
-    fn weights_in(node: &N, point: &P, _slack: f32) -> [f32; W] {
-        Self::weights(node, point)
+    fn weights(node: &N, point: &P) -> [f32; W] {
+        Self::weights_in(node, point, 0.0)
     }
 
     /// The quotient that shares of uniform choice are computed by: correctly rounded, unless the importance takes the processor's own
@@ -94,11 +95,6 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
         );
         HALVINGS
     };
-
-    #[inline(always)]
-    fn weights(node: &N, point: &P) -> [f32; W] {
-        I::weights(node, point)
-    }
 
     #[inline(always)]
     fn weights_in(node: &N, point: &P, slack: f32) -> [f32; W] {

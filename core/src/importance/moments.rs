@@ -20,13 +20,6 @@ use crate::vector::greatest_exponent;
 pub struct Moments<M = ExactMath>(PhantomData<M>);
 
 impl<M: Math, N: MomentLayout<W>, const W: usize> ImportanceModel<N, W> for Moments<M> {
-    const UNIFORM_HALVINGS: u32 = 0;
-
-    #[inline(always)]
-    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
-        Self::weights_in(node, point, 0.0)
-    }
-
     #[inline(always)]
     fn weights_in(node: &N, point: &ShadingPoint, slack: f32) -> [f32; W] {
         node.moment_weights::<M>(point.position(), point.normal(), slack)

@@ -14,10 +14,8 @@ use crate::summary::Summary;
 pub struct Flux;
 
 impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for Flux {
-    const UNIFORM_HALVINGS: u32 = 0;
-
     #[inline(always)]
-    fn weights(node: &N, _: &ShadingPoint) -> [f32; W] {
+    fn weights_in(node: &N, _: &ShadingPoint, _: f32) -> [f32; W] {
         let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let phi = node.summary(slot).phi();

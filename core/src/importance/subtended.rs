@@ -46,10 +46,8 @@ fn weight(phi: f32, mean: f32, scale: i32) -> Scaled {
 impl<M: Math, N: MomentLayout<W>, const W: usize> ImportanceModel<N, W, RaySegment>
     for Subtended<Moments<M>>
 {
-    const UNIFORM_HALVINGS: u32 = 0;
-
     #[inline(always)]
-    fn weights(node: &N, segment: &RaySegment) -> [f32; W] {
+    fn weights_in(node: &N, segment: &RaySegment, _: f32) -> [f32; W] {
         let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let set = node.summary(slot);
@@ -84,10 +82,8 @@ impl<M: Math, N: MomentLayout<W>, const W: usize> ImportanceModel<N, W, RaySegme
 }
 
 impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W, RaySegment> for Subtended<Eq4> {
-    const UNIFORM_HALVINGS: u32 = 0;
-
     #[inline(always)]
-    fn weights(node: &N, segment: &RaySegment) -> [f32; W] {
+    fn weights_in(node: &N, segment: &RaySegment, _: f32) -> [f32; W] {
         let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let cluster = node.cluster(slot);

@@ -7,8 +7,6 @@ mod eq4;
 mod flux;
 mod linked;
 mod moments;
-#[cfg(feature = "alloc")]
-mod trees;
 
 use glam::Vec3;
 

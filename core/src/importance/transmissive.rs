@@ -23,11 +23,6 @@ impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W, Transmis
     const IS_PARTIAL: bool = I::IS_PARTIAL;
 
     #[inline(always)]
-    fn weights(node: &N, receiver: &TransmissivePoint) -> [f32; W] {
-        Self::weights_in(node, receiver, 0.0)
-    }
-
-    #[inline(always)]
     fn weights_in(node: &N, receiver: &TransmissivePoint, slack: f32) -> [f32; W] {
         let front = I::weights_in(node, &receiver.point, slack);
         let back = I::weights_in(node, &receiver.turned(), slack);

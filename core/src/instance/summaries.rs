@@ -44,7 +44,6 @@ impl Instance {
             } else {
                 -1.0
             },
-            cos_theta_e: local.cos_theta_e,
             phi: self.flux_to_world(local.phi, 1.0),
         }
     }

@@ -157,7 +157,6 @@ fn cones_stay_where_lengths_stay() {
             max: Vec3::new(1.0, 1.0, 1.0),
             axis: Vec3::from_array(axis.map(|x| x as f32)),
             cos_theta_o: 0.75,
-            cos_theta_e: 0.0,
             phi: 1.0,
         };
         let found = instance.bounds_to_world(&local);

@@ -77,7 +77,6 @@ impl<const W: usize> BoundsNode<W> for PlainNode<W> {
             axis: bounds.axis,
             cos_theta_o: cosine,
             sin_theta_o: exact::sqrt(exact::max(1.0 - cosine * cosine, 0.0)),
-            cos_theta_e: bounds.cos_theta_e,
             phi: bounds.phi,
         }
     }

@@ -3,7 +3,9 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{Each, Light, checked_emission, checked_place, greatest, of_mesh_at_place, shining};
+use super::record::{
+    Each, Light, bounds, checked_emission, checked_place, greatest, of_mesh_at_place, shining,
+};
 use super::round::disc;
 use super::{INVALID, LightError, LightPoint, MIN_OFFSET, TWO_SIDED};
 use crate::bounds::LightBounds;
@@ -128,18 +130,15 @@ impl Flat {
     fn bounds(&self, shape: Shape, half: Vec3) -> LightBounds {
         let own = self.scaled(shape);
         let directed = !self.is_two_sided() & (own.emission.exponent >= LEAST_NORMAL);
-        LightBounds {
-            min: vector(&self.p) - half,
-            max: vector(&self.p) + half,
-            axis: if directed {
-                normalized(own.emission.normal)
-            } else {
-                Cone::SPHERE.axis
-            },
-            cos_theta_o: if directed { 1.0 - TURN } else { -1.0 },
-            cos_theta_e: 0.0,
-            phi: own.emission.phi,
-        }
+        let cone = if directed {
+            Cone {
+                axis: normalized(own.emission.normal),
+                cos_theta_o: 1.0 - TURN,
+            }
+        } else {
+            Cone::SPHERE
+        };
+        bounds(&self.p, half, cone, own.emission.phi)
     }
 
     #[inline(always)]

@@ -16,7 +16,7 @@
 //! let share = split.choose(0x9000_0000_u32);
 //! let pmf = match share.index {
 //!     0 => 0.0, // bvh.sample(&point, share.rest)
-//!     1 => sky.sample(share.rest, [0.3, 0.7]).density,
+//!     1 => sky.map().sample(share.rest, [0.3, 0.7]).density,
 //!     _ => 1.0,
 //! };
 //! assert!(share.pmf * pmf > 0.0);

@@ -4,8 +4,10 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::infinite::place_of;
-use super::punctual::{at, bounds, moments, phi, phi_per_intensity, within_cone};
-use super::record::{Each, Light, checked_emission, checked_place, of_mesh_at_place, shining, towards, unit};
+use super::punctual::{PER_MEAN_DIRECTION, TWO_PI, at, moments, phi, phi_per_intensity, within_cone};
+use super::record::{
+    Each, Light, bounds, checked_axis, checked_emission, checked_place, of_mesh_at_place, shining, towards,
+};
 use super::{INVALID, LightError, LightPoint};
 use crate::beam::Beam;
 use crate::bounds::LightBounds;
@@ -49,9 +51,6 @@ pub struct ProfileLight {
 
 const _: () = assert!(size_of::<ProfileLight>() == 68);
 
-/// The length of the mean direction of a diffuse emitter is 2/3; a mean normal is that over it.
-const PER_MEAN_DIRECTION: f32 = 1.5;
-const TWO_PI: f32 = 2.0 * core::f32::consts::PI;
 /// Squared length below which a direction across an axis is none.
 const LEAST_ACROSS: f32 = pow2(-20);
 
@@ -104,13 +103,8 @@ impl Light for ProfileLight {
     fn checked(mut self) -> Result<Self, LightError> {
         self.p = checked_place("light with a profile", self.p)?;
         self.intensity = checked_emission("intensity of a light with a profile", self.intensity)?;
-        for axis in [self.axis, self.across] {
-            let squared = length_squared(vector(&axis));
-            // NaN is in no range.
-            if !(1.0 - NORMAL_TOLERANCE..=1.0 + NORMAL_TOLERANCE).contains(&squared) {
-                return Err(LightError::Axis { axis });
-            }
-        }
+        self.axis = checked_axis(self.axis)?;
+        self.across = checked_axis(self.across)?;
         if exact::abs(dot(vector(&self.axis), vector(&self.across))) > NORMAL_TOLERANCE {
             return Err(LightError::Axis { axis: self.across });
         }
@@ -129,8 +123,6 @@ impl Light for ProfileLight {
         if self.flags & !Self::MIRRORED != 0 {
             return Err(LightError::Flags { flags: self.flags });
         }
-        self.axis = unit(self.axis);
-        self.across = unit(self.across);
         Ok(self)
     }
 
@@ -155,8 +147,12 @@ impl Light for ProfileLight {
             cos_theta_o: 1.0,
         };
         let within = self.cos_outer >= 0.0;
-        let moments = self.moments();
-        bounds(&self.p, moments.phi, if within { cone } else { Cone::SPHERE })
+        bounds(
+            &self.p,
+            Vec3::ZERO,
+            if within { cone } else { Cone::SPHERE },
+            self.moments().phi,
+        )
     }
 
     /// As of a [`SpotLight`](super::SpotLight).

@@ -3,7 +3,9 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{Each, Light, checked_emission, checked_place, of_mesh_at_place, shining, towards, unit};
+use super::record::{
+    Each, Light, bounds, checked_axis, checked_emission, checked_place, of_mesh_at_place, shining, towards,
+};
 use super::{INVALID, LightError, LightPoint, MAX_COORDINATE, MIN_RADIANCE};
 use crate::beam::Beam;
 use crate::bounds::LightBounds;
@@ -12,7 +14,6 @@ use crate::emission::{bounded_phi, luminance_of};
 use crate::exact::{self, exponent, pow2, significand};
 use crate::instance::Instance;
 use crate::moments::LightMoments;
-use crate::point::NORMAL_TOLERANCE;
 use crate::vector::{flush3, length_squared, vector};
 
 /// A point that sends the same intensity in every direction. An instance that scales leaves it as it is, and its range.
@@ -55,12 +56,12 @@ pub struct SpotLight {
 /// Least difference of the two cosines that the intensity falls over: a sharp edge is one as wide.
 const LEAST_FALL: f32 = pow2(-20);
 /// Full solid angle over the greatest power of two in it, and its exponent.
-const FOUR_PI: f32 = 4.0 * core::f32::consts::PI;
-const TWO_PI: f32 = 2.0 * core::f32::consts::PI;
+pub(super) const FOUR_PI: f32 = 4.0 * core::f32::consts::PI;
+pub(super) const TWO_PI: f32 = 2.0 * core::f32::consts::PI;
 /// Constants of their own: rust-gpu does not fold an expression of literals.
 const THIRD: f32 = 1.0 / 3.0;
 /// The length of the mean direction of a diffuse emitter is 2/3; a mean normal is that over it.
-const PER_MEAN_DIRECTION: f32 = 1.5;
+pub(super) const PER_MEAN_DIRECTION: f32 = 1.5;
 
 /// What is known of a light without size.
 #[inline(always)]
@@ -72,19 +73,6 @@ pub(super) fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
         along: 0.0,
         m,
         h: Vec3::new(0.0, 0.0, 0.0),
-    }
-}
-
-#[inline(always)]
-pub(super) fn bounds(p: &[f32; 3], phi: f32, cone: Cone) -> LightBounds {
-    let p = vector(p);
-    LightBounds {
-        min: p,
-        max: p,
-        axis: cone.axis,
-        cos_theta_o: cone.cos_theta_o,
-        cos_theta_e: 0.0,
-        phi,
     }
 }
 
@@ -186,7 +174,7 @@ impl Light for PointLight {
 
     #[inline(always)]
     fn bounds(&self) -> LightBounds {
-        bounds(&self.p, phi(&self.intensity, FOUR_PI), Cone::SPHERE)
+        bounds(&self.p, Vec3::ZERO, Cone::SPHERE, phi(&self.intensity, FOUR_PI))
     }
 
     #[inline(always)]
@@ -266,11 +254,7 @@ impl Light for SpotLight {
         self.p = checked_place("spot", self.p)?;
         self.intensity = checked_emission("intensity of a spot", self.intensity)?;
         self.range = checked_range(self.range)?;
-        let squared = length_squared(vector(&self.axis));
-        // NaN is in no range.
-        if !(1.0 - NORMAL_TOLERANCE..=1.0 + NORMAL_TOLERANCE).contains(&squared) {
-            return Err(LightError::Axis { axis: self.axis });
-        }
+        self.axis = checked_axis(self.axis)?;
         let (inner, outer) = (self.cos_inner, self.cos_outer);
         // NaN is in no range.
         if !(-1.0..=1.0).contains(&inner) || !(-1.0..=1.0 - pow2(-20)).contains(&outer) || inner < outer {
@@ -279,7 +263,6 @@ impl Light for SpotLight {
                 cos_outer: outer,
             });
         }
-        self.axis = unit(self.axis);
         Ok(self)
     }
 
@@ -305,7 +288,12 @@ impl Light for SpotLight {
             cos_theta_o: 1.0,
         };
         let within = self.cos_outer >= 0.0;
-        bounds(&self.p, self.phi(), if within { cone } else { Cone::SPHERE })
+        bounds(
+            &self.p,
+            Vec3::ZERO,
+            if within { cone } else { Cone::SPHERE },
+            self.phi(),
+        )
     }
 
     /// A diffuse emitter's mean direction is 2/3 of its normal: the mean normal is 3/2 of the spot's mean direction, at most of length 1.

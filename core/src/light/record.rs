@@ -10,12 +10,14 @@ use super::{
 };
 use crate::beam::Beam;
 use crate::bounds::LightBounds;
+use crate::cone::Cone;
 use crate::emission::has_flux;
 use crate::exact::{self, pow2};
 use crate::instance::Instance;
 use crate::moments::LightMoments;
+use crate::point::NORMAL_TOLERANCE;
 use crate::summary::Triangles;
-use crate::vector::{flush3, greatest_exponent, length_squared};
+use crate::vector::{flush3, greatest_exponent, length_squared, vector};
 
 /// A light as the arrays of a light BVH hold it: plain words, the same on devices.
 ///
@@ -230,6 +232,29 @@ pub(in crate::light) fn checked_emission(
     Ok(emission)
 }
 
+/// A direction of length 1, up to [`NORMAL_TOLERANCE`], at length 1.
+pub(in crate::light) fn checked_axis(axis: [f32; 3]) -> Result<[f32; 3], LightError> {
+    let squared = length_squared(vector(&axis));
+    // NaN is in no range.
+    if (1.0 - NORMAL_TOLERANCE..=1.0 + NORMAL_TOLERANCE).contains(&squared) {
+        Ok(unit(axis))
+    } else {
+        Err(LightError::Axis { axis })
+    }
+}
+
+/// Bounds of lights in a box about `p`.
+#[inline(always)]
+pub(super) fn bounds(p: &[f32; 3], half: Vec3, cone: Cone, phi: f32) -> LightBounds {
+    LightBounds {
+        min: vector(p) - half,
+        max: vector(p) + half,
+        axis: cone.axis,
+        cos_theta_o: cone.cos_theta_o,
+        phi,
+    }
+}
+
 /// What a light of a mesh sends in the world: `factor` times as much, within the range; nothing where it has no flux in the mesh.
 #[inline(always)]
 pub(crate) fn shining(emission: &[f32; 3], factor: f32, has_flux: bool) -> [f32; 3] {
@@ -242,7 +267,7 @@ pub(crate) fn shining(emission: &[f32; 3], factor: f32, has_flux: bool) -> [f32;
 }
 
 /// A direction at length 1, up to 2^-22; one that is so already stays.
-pub(in crate::light) fn unit(direction: [f32; 3]) -> [f32; 3] {
+fn unit(direction: [f32; 3]) -> [f32; 3] {
     let [x, y, z] = direction.map(|x| exact::flush(x, pow2(-60)));
     let squared = x * x + y * y + z * z;
     let is_unit = squared > 1.0 - UNIT && squared < 1.0 + UNIT;

@@ -3,7 +3,9 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{Each, Light, checked_emission, checked_place, greatest, of_mesh_at_place, shining};
+use super::record::{
+    Each, Light, bounds, checked_emission, checked_place, greatest, of_mesh_at_place, shining,
+};
 use super::round::circle;
 use super::{INVALID, LightError, LightPoint};
 use crate::bounds::LightBounds;
@@ -85,16 +87,8 @@ impl Light for SphereLight {
 
     #[inline(always)]
     fn bounds(&self) -> LightBounds {
-        let (c, r) = (vector(&self.p), self.radius);
-        let half = Vec3::new(r, r, r);
-        LightBounds {
-            min: c - half,
-            max: c + half,
-            axis: Cone::SPHERE.axis,
-            cos_theta_o: -1.0,
-            cos_theta_e: 0.0,
-            phi: self.phi(),
-        }
+        let r = self.radius;
+        bounds(&self.p, Vec3::new(r, r, r), Cone::SPHERE, self.phi())
     }
 
     #[inline(always)]

@@ -3,7 +3,10 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{Each, Light, checked_emission, checked_place, greatest, of_mesh_at_place, shining};
+use super::punctual::FOUR_PI;
+use super::record::{
+    Each, Light, bounds, checked_emission, checked_place, greatest, of_mesh_at_place, shining,
+};
 use super::{INVALID, LightError, LightPoint, MIN_OFFSET};
 use crate::bounds::LightBounds;
 use crate::cone::Cone;
@@ -32,7 +35,6 @@ pub struct BoxLight {
 /// Volume over the determinant of the half axes, and its inverse.
 const EIGHT: f32 = 8.0;
 const EIGHTH: f32 = 0.125;
-const FOUR_PI: f32 = 4.0 * core::f32::consts::PI;
 /// Constants of their own: rust-gpu does not fold an expression of literals.
 const NINTH: f32 = 1.0 / 9.0;
 /// The least determinant of axes of about 1: below it a box has no volume.
@@ -131,15 +133,7 @@ impl Light for BoxLight {
 
     #[inline(always)]
     fn bounds(&self) -> LightBounds {
-        let half = self.half();
-        LightBounds {
-            min: vector(&self.p) - half,
-            max: vector(&self.p) + half,
-            axis: Cone::SPHERE.axis,
-            cos_theta_o: -1.0,
-            cos_theta_e: 0.0,
-            phi: self.phi(),
-        }
+        bounds(&self.p, self.half(), Cone::SPHERE, self.phi())
     }
 
     #[inline(always)]

@@ -138,7 +138,6 @@ impl Summary for LightMoments {
             max: self.c + self.h,
             axis: if alike { self.m } else { Cone::SPHERE.axis },
             cos_theta_o: if alike { 1.0 } else { -1.0 },
-            cos_theta_e: 0.0,
             phi: self.phi,
         }
     }

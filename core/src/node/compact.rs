@@ -45,7 +45,7 @@ const AXIS_ERROR_SIN: f32 = pow2(-9);
 const AXIS_ERROR_COS_DEFECT: f32 = pow2(-19);
 
 /// 28 bytes per child: box centre in full, half extents in a shared exponent, axis, cone and flux quantised outward.
-/// cos θ_e is not stored: every light of this crate is a diffuse emitter, cos θ_e = 0.
+/// Lights are diffuse emitters: they reach up to 90° from a normal.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 pub struct CompactNode<const W: usize>([[u32; W]; 7]);
@@ -131,7 +131,6 @@ impl<const W: usize> Node<W> for CompactNode<W> {
             max: center + half,
             axis: normalized(self.axis(slot)),
             cos_theta_o: self.cone(slot).0,
-            cos_theta_e: 0.0,
             phi: self.phi(slot),
         }
     }
@@ -181,7 +180,6 @@ impl<const W: usize> BoundsNode<W> for CompactNode<W> {
             axis: self.axis(slot),
             cos_theta_o,
             sin_theta_o: 2.0 * (half_sine * half_cosine),
-            cos_theta_e: 0.0,
             phi: self.phi(slot),
         }
     }

@@ -45,7 +45,9 @@ impl GlossyPoint {
         .n;
         let within = |value: f32, least: f32, most: f32| {
             if value.is_nan() {
-                Err(PointError::Reflectance { value })
+                Err(PointError::Nan {
+                    what: "a reflectance or exponent of a glossy point",
+                })
             } else {
                 Ok(exact::clamp(value, least, most))
             }

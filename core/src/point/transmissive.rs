@@ -28,7 +28,9 @@ impl TransmissivePoint {
     pub fn checked(self) -> Result<Self, PointError> {
         let part = |value: f32| {
             if value.is_nan() {
-                Err(PointError::Part { value })
+                Err(PointError::Nan {
+                    what: "a part of a transmissive point",
+                })
             } else {
                 Ok(exact::flush(exact::clamp(value, 0.0, 1.0), LEAST_PART))
             }

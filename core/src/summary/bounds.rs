@@ -25,7 +25,7 @@ impl Summary for LightBounds {
         "axis y",
         "axis z",
         "cos θ_o",
-        "cos θ_e",
+        "zero",
         "flux",
     ];
 
@@ -99,9 +99,6 @@ impl Summary for LightBounds {
         if !self.cone().contains(child.cone()) {
             return Some(9);
         }
-        if child.cos_theta_e < self.cos_theta_e {
-            return Some(10);
-        }
         (child.phi > self.phi).then_some(11)
     }
 
@@ -119,7 +116,7 @@ impl Summary for LightBounds {
             a.y,
             a.z,
             self.cos_theta_o,
-            self.cos_theta_e,
+            0.0,
             self.phi,
         ]
     }
@@ -131,7 +128,6 @@ impl Summary for LightBounds {
             max: Vec3::new(words[3], words[4], words[5]),
             axis: Vec3::new(words[6], words[7], words[8]),
             cos_theta_o: words[9],
-            cos_theta_e: words[10],
             phi: words[11],
         }
     }

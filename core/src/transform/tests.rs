@@ -243,14 +243,3 @@ fn extents() {
     }
     assert_eq!(Extent::of::<crate::EmissiveTriangle>(&[]).coordinate, 0.0);
 }
-
-#[test]
-fn rows_are_those_of_a_matrix() {
-    let transform = Transform::from_rows([
-        [1.0, 2.0, 3.0, 4.0],
-        [5.0, 6.0, 7.0, 8.0],
-        [9.0, 10.0, 11.0, 12.0],
-    ]);
-    assert_eq!(transform.columns[1], [2.0, 6.0, 10.0]);
-    assert_eq!(transform.translation, [4.0, 8.0, 12.0]);
-}

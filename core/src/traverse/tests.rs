@@ -29,9 +29,7 @@ std::thread_local! {
 struct Flux;
 
 impl ImportanceModel<Node, 4> for Flux {
-    const UNIFORM_HALVINGS: u32 = 0;
-
-    fn weights(node: &Node, _: &ShadingPoint) -> [f32; 4] {
+    fn weights_in(node: &Node, _: &ShadingPoint, _: f32) -> [f32; 4] {
         let calls = NODES.get() + 1;
         NODES.set(calls);
         assert!(calls < 1000, "the walk does not end");
@@ -164,26 +162,6 @@ fn rings_end_with_the_levels_of_a_trail() {
     assert_eq!(nodes_of(|| ring.pmf(&POINT, 0, 0)), 1 + levels);
 }
 
-/// More walks than take turns at once, each by its own number and point; what is left of a turn too.
-#[test]
-fn a_batch_has_the_words_of_single_samples() {
-    let nodes = [node(&[
-        (1.0, kind::LIGHT, 0),
-        (2.0, kind::LIGHT, 1),
-        (3.0, kind::LIGHT, 2),
-        (4.0, kind::LIGHT, 3),
-    ])];
-    let tree = tree(&nodes, &[], &[0, 0, 1, 0, 2, 0, 3, 0], 1);
-    let randoms: [Random64; 21] =
-        core::array::from_fn(|k| Random64::from((k as u32).wrapping_mul(0x9e37_79b9)));
-    let mut sampled = [SampledLight::NONE; 21];
-    NODES.set(0);
-    tree.sample_batch(&[POINT; 21], &randoms, &mut sampled);
-    for (found, random) in sampled.iter().zip(randoms) {
-        assert_eq!(*found, tree.sample(&POINT, random));
-    }
-}
-
 /// Candidates are the samples of their numbers, and each node that they share is evaluated once.
 #[test]
 fn candidates_are_samples_of_their_numbers() {
@@ -260,19 +238,6 @@ fn uniform_probabilities_hold_for_any_counts() {
         importance: PhantomData,
     };
     assert_eq!(tree.pmf(&POINT, 5, 0), crate::exact::pow2(-37));
-}
-
-/// A single level has one instance, whichever is named, and no other lights than its own.
-#[test]
-fn a_single_level_takes_any_instance() {
-    let nodes = [node(&[(1.0, kind::LIGHT, 0), (3.0, kind::LIGHT, 1)])];
-    let tree = tree(&nodes, &[], &[0, 0, 1, 0], 1);
-    let pmf = tree.pmf(&POINT, 1, INVALID);
-    assert!(pmf > 0.7);
-    for instance in [0, 1, INVALID - 1] {
-        assert_eq!(tree.pmf(&POINT, 1, instance), pmf, "{instance}");
-        assert_eq!(tree.pmf(&POINT, 2, instance), 0.0, "{instance}");
-    }
 }
 
 /// Hostile words: a mesh within a mesh is not entered.

@@ -1,10 +1,11 @@
-//! Numbers that look random and are the same in every run, vectors in `f64`, a room, variances in it.
+//! Numbers that look random and are the same in every run, vectors in `f64`, lights of each kind, a room, variances in it.
 
 use lightbvh::exact::{hash, unit_f32};
-use lightbvh::importance::{ImportanceModel, Linked, LinkedPoint, Receiver};
-use lightbvh::light::LinkedTriangle;
-use lightbvh::node::{LinkedMomentNode, Lit};
-use lightbvh::{BuildParams, Bvh, EmissiveTriangle, LightNode, Lights, Transform};
+use lightbvh::importance::{ImportanceModel, Receiver};
+use lightbvh::light::{
+    AnyLight, BoxLight, DiscLight, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
+};
+use lightbvh::{BuildParams, Bvh, EmissiveTriangle, LightNode, Lights, ShadingPoint, Transform};
 
 /// Hashes of 1, 2, 3 and so on after its seed.
 pub struct Random(pub u32);
@@ -42,6 +43,148 @@ impl Random {
             }
         }
     }
+
+    /// A unit vector at right angles to a unit vector.
+    pub fn across(&mut self, axis: [f32; 3]) -> [f32; 3] {
+        loop {
+            let other = self.unit_vector();
+            let d: f32 = (0..3).map(|k| other[k] * axis[k]).sum();
+            if d.abs() < 0.9 {
+                let v: [f32; 3] = core::array::from_fn(|k| other[k] - d * axis[k]);
+                let length = v.iter().map(|x| x * x).sum::<f32>().sqrt();
+                return v.map(|x| x / length);
+            }
+        }
+    }
+
+    /// On a surface within `reach`, or one of three in a volume.
+    pub fn point(&mut self, reach: f32) -> ShadingPoint {
+        let p = self.vector(reach);
+        let n = match self.below(3) {
+            0 => [0.0; 3],
+            _ => self.unit_vector(),
+        };
+        ShadingPoint { p, n }
+    }
+
+    /// A rotation times `scale` and up to 4 or a fourth of that, one of two mirrored.
+    pub fn similarity(&mut self, reach: f32, scale: f32) -> Transform {
+        let a = self.unit_vector();
+        let b = self.across(a);
+        let c: [f32; 3] =
+            core::array::from_fn(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
+        let s = scale * 4.0_f32.powf(self.signed());
+        let sign = if self.below(2) == 0 { -s } else { s };
+        Transform {
+            columns: [a.map(|x| x * s), b.map(|x| x * s), c.map(|x| x * sign)],
+            translation: self.vector(reach),
+        }
+    }
+
+    /// None in one of ten.
+    fn shine(&mut self) -> [f32; 3] {
+        let dark = self.unit() < 0.1;
+        core::array::from_fn(|_| if dark { 0.0 } else { 0.1 + 5.0 * self.unit() })
+    }
+
+    pub fn triangle(&mut self) -> EmissiveTriangle {
+        EmissiveTriangle {
+            p: core::array::from_fn(|_| self.vector(0.5)),
+            radiance: self.shine(),
+            mesh: 0,
+            flags: u32::from(self.unit() < 0.3),
+        }
+    }
+
+    pub fn bulb(&mut self) -> PointLight {
+        PointLight {
+            p: self.vector(1.0),
+            intensity: self.shine(),
+            range: 0.0,
+            mesh: 0,
+        }
+    }
+
+    pub fn sphere(&mut self) -> SphereLight {
+        SphereLight {
+            p: self.vector(1.0),
+            radius: 0.01 + 0.2 * self.unit(),
+            radiance: self.shine(),
+            mesh: 0,
+        }
+    }
+
+    pub fn rectangle(&mut self) -> RectangleLight {
+        RectangleLight {
+            p: self.vector(1.0),
+            half: [self.vector(0.3), self.vector(0.3)],
+            radiance: self.shine(),
+            mesh: 0,
+            flags: u32::from(self.unit() < 0.3),
+        }
+    }
+
+    pub fn disc(&mut self) -> DiscLight {
+        DiscLight {
+            p: self.vector(1.0),
+            half: [self.vector(0.3), self.vector(0.3)],
+            radiance: self.shine(),
+            mesh: 0,
+            flags: u32::from(self.unit() < 0.3),
+        }
+    }
+
+    pub fn glow(&mut self) -> BoxLight {
+        BoxLight {
+            p: self.vector(1.0),
+            half: [self.vector(0.3), self.vector(0.3), self.vector(0.3)],
+            radiance: self.shine(),
+            mesh: 0,
+        }
+    }
+
+    pub fn spot(&mut self) -> SpotLight {
+        let outer = self.signed() * 0.95;
+        SpotLight {
+            p: self.vector(1.0),
+            intensity: self.shine(),
+            range: 0.0,
+            axis: self.unit_vector(),
+            cos_inner: outer + (1.0 - outer) * self.unit(),
+            cos_outer: outer,
+            mesh: 0,
+        }
+    }
+
+    pub fn profile(&mut self) -> ProfileLight {
+        let axis = self.unit_vector();
+        let outer = self.signed() * 0.95;
+        ProfileLight {
+            p: self.vector(1.0),
+            intensity: self.shine(),
+            axis,
+            across: self.across(axis),
+            cos_outer: outer,
+            whole: 0.1 + 0.9 * (1.0 - outer) * self.unit(),
+            mean_cosine: outer + (1.0 - outer) * self.unit(),
+            mesh: 0,
+            flags: 2 * u32::from(self.unit() < 0.3),
+        }
+    }
+
+    /// A light of kind `kind`, 0 to 7; spots and profiles are the last two.
+    pub fn light(&mut self, kind: u32) -> AnyLight {
+        match kind {
+            0 => self.triangle().into(),
+            1 => self.bulb().into(),
+            2 => self.sphere().into(),
+            3 => self.rectangle().into(),
+            4 => self.disc().into(),
+            5 => self.glow().into(),
+            6 => self.spot().into(),
+            _ => self.profile().into(),
+        }
+    }
 }
 
 pub type Wide = [f64; 3];
@@ -52,6 +195,10 @@ pub fn wide(v: [f32; 3]) -> Wide {
 
 pub fn minus(a: Wide, b: Wide) -> Wide {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+pub fn times(v: Wide, s: f64) -> Wide {
+    v.map(|x| x * s)
 }
 
 pub fn dot(a: Wide, b: Wide) -> f64 {
@@ -115,27 +262,6 @@ pub fn room(random: &mut Random) -> Lights {
     Lights::new((0..200).map(triangle).collect()).expect("in the domain")
 }
 
-/// The first `lights` of a room, in `count` instances that turn, stretch and mirror.
-pub fn rooms<N: LightNode<W>, I, const W: usize>(
-    random: &mut Random,
-    lights: usize,
-    count: u32,
-) -> Bvh<N, I, W> {
-    let mut bvh = Bvh::default();
-    let own = room(random).triangles()[..lights].to_vec();
-    let mesh = bvh.add_mesh(own).expect("in the domain");
-    for k in 0..count {
-        let s = if k % 2 == 0 { 1.0 } else { -1.0 };
-        let map = Transform {
-            columns: [[0.0, 1.5, 0.0], [-0.7, 0.0, 0.2], [0.0, 0.1, s]],
-            translation: random.vector(6.0),
-        };
-        bvh.add_instance(mesh, map).expect("in the domain");
-    }
-    bvh.refit();
-    bvh
-}
-
 /// Mean relative variance of one sample in a room, by enumeration of all lights. `query` returns a
 /// receiver as the importance takes it, and the light that arrives there; receivers without light do not count.
 pub fn variance<N, I, P, F, const W: usize>(
@@ -177,31 +303,4 @@ where
     }
     assert!(reached > 0.9 * f64::from(count), "{reached}");
     all / reached
-}
-
-type LinkedNode = Lit<LinkedMomentNode<8>, LinkedTriangle>;
-
-/// Of the lights of a room, every third has a bit of the receiver, and it alone a probability.
-pub fn masks_go_with<I, P: Receiver>(random: &mut Random, point: impl Fn(&mut Random) -> P)
-where
-    Linked<I>: ImportanceModel<LinkedNode, 8, LinkedPoint<P>>,
-{
-    let own = room(random);
-    let linked = own.triangles().iter().zip(0..).map(|(&light, k)| LinkedTriangle {
-        light,
-        mask: 1 << (k % 3),
-    });
-    let linked = Lights::new(linked.collect()).expect("in the domain");
-    let bvh = Bvh::<LinkedNode, Linked<I>, 8>::two_level(&linked, &BuildParams::default());
-    let receiver = LinkedPoint {
-        point: point(random),
-        mask: 0b100,
-    };
-    let mut sum = 0.0;
-    for (light, own) in (0..).zip(own.triangles()) {
-        let pmf = bvh.tree().pmf(&receiver, light, own.mesh);
-        assert_eq!(pmf > 0.0, light % 3 == 2);
-        sum += f64::from(pmf);
-    }
-    assert!((sum - 1.0).abs() < 1e-5, "{sum}");
 }

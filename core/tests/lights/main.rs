@@ -4,11 +4,9 @@
 #![allow(clippy::disallowed_methods, reason = "nothing here is shared with devices")]
 
 mod face;
-mod glossy;
 mod kinds;
 mod kit;
 mod linked;
-mod segments;
+mod receivers;
 mod smaller;
 mod spots;
-mod transmissive;

@@ -24,10 +24,8 @@ use crate::sight::{FLOOR, Sight, dot, in_volume, over_distance};
 pub struct Falcor;
 
 impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W> for Falcor {
-    const UNIFORM_HALVINGS: u32 = 0;
-
     #[inline(always)]
-    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
+    fn weights_in(node: &N, point: &ShadingPoint, _: f32) -> [f32; W] {
         let n = point.normal();
         on_one_scale(&array::from_fn(|slot| {
             let cluster = node.cluster(slot);

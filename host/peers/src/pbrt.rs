@@ -16,7 +16,7 @@ use crate::sight::{FLOOR, Sight, dot, in_volume, over_distance, root};
 /// - d is the distance of the box's centre and r half the box's diagonal: a length, which pbrt compares with a square. So the metre
 ///   matters, and a scene scaled by a power of two has other probabilities;
 /// - θ' = max(0, max(0, θ_w − θ_o) − θ_b), θ_w from the axis of the normals to the point, θ_b of the sphere around the box; all is
-///   zero where cos θ' ≤ cos θ_e;
+///   zero where cos θ' ≤ 0;
 /// - θ'_i = max(0, θ_i − θ_b), with |cos θ_i|: lights behind an opaque surface count as those before it. In a volume there is no
 ///   such factor.
 ///
@@ -27,16 +27,14 @@ use crate::sight::{FLOOR, Sight, dot, in_volume, over_distance, root};
 pub struct Pbrt;
 
 impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W> for Pbrt {
-    const UNIFORM_HALVINGS: u32 = 0;
-
     #[inline(always)]
-    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
+    fn weights_in(node: &N, point: &ShadingPoint, _: f32) -> [f32; W] {
         let n = point.normal();
         on_one_scale(&array::from_fn(|slot| {
             let cluster = node.cluster(slot);
             let sight = Sight::of_sphere(&cluster, point);
             let emitted = sight.emitted(&cluster);
-            let reaches = emitted > cluster.cos_theta_e;
+            let reaches = emitted > 0.0;
             let bounded = sight.nearest(exact::abs(dot(n, sight.v)));
             let incident = if in_volume(n) { 1.0 } else { bounded };
             let cosines = if reaches { emitted * incident } else { 0.0 };

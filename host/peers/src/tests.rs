@@ -74,7 +74,6 @@ fn known(point: &ShadingPoint, distance: f32) -> LightBounds {
         max: at,
         axis: -up,
         cos_theta_o: -1.0,
-        cos_theta_e: 0.0,
         phi: 1.0,
     }
 }
@@ -94,7 +93,6 @@ fn sight(random: &mut Random) -> (LightBounds, ShadingPoint) {
         max: center + extent,
         axis: random.direction(),
         cos_theta_o: theta_o.cos() as f32,
-        cos_theta_e: 0.0,
         phi: random.power(-10, 10),
     };
     let point = ShadingPoint {
@@ -184,7 +182,6 @@ fn the_centre_of_a_box_has_weight() {
         max: half,
         axis: Vec3::Z,
         cos_theta_o: 0.5,
-        cos_theta_e: 0.0,
         phi: 3.0,
     };
     let point = ShadingPoint {
@@ -215,7 +212,6 @@ fn bounds_of_any_size_have_sound_weights() {
                 max: center + half,
                 axis: random.direction(),
                 cos_theta_o: [1.0, -1.0, 0.0, 2.0 * random.unit() - 1.0][random.below(4) as usize],
-                cos_theta_e: 0.0,
                 phi: [0.0, exact::pow2(-100), exact::pow2(120), 1.0][random.below(4) as usize],
             }
         });

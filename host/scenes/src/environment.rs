@@ -104,7 +104,7 @@ mod tests {
             ([-1.0, -0.5, 1.0], 4),
         ] {
             let expected = f32::from(pixels[pixel][0]) / 128.0;
-            assert_eq!(map.radiance(direction)[0], expected, "{direction:?}");
+            assert_eq!(map.map().radiance(direction)[0], expected, "{direction:?}");
         }
     }
 

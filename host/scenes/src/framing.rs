@@ -143,7 +143,9 @@ fn suns(frame: &Frame) -> Vec<(DVec3, f64)> {
         .map(|sun| (wide(sun.direction), luminance(sun.irradiance)))
         .collect();
     for (i, map) in (0..LIGHTS).flat_map(|i| frame.sky.environment().map(|map| (i, map))) {
-        let sample = map.sample(i as u32 * (u32::MAX / LIGHTS as u32), sequence(i));
+        let sample = map
+            .map()
+            .sample(i as u32 * (u32::MAX / LIGHTS as u32), sequence(i));
         let irradiance = luminance(sample.radiance) / (f64::from(sample.density) * LIGHTS as f64);
         all.push((wide(sample.direction), irradiance));
     }

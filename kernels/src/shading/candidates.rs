@@ -101,7 +101,7 @@ pub fn resampled<L: Emitter, P: PickLight>(
         stream.count as i32 as f32
     };
     Chosen {
-        reservoir: stream.finish_balanced(1.0, whole),
+        reservoir: stream.finish(whole),
         unfound,
     }
 }

@@ -351,7 +351,7 @@ fn one_of_many<L: Emitter, P: PickLight>(
             let number = samples.part.number(samples.first.wrapping_add(sample));
             let random = hash(seed.wrapping_add(Numbers::USED).wrapping_add(number));
             let chosen = resampled(scene, picker, seen, &mut picks, which, random);
-            let Reservoir { sample, weight, .. } = chosen.reservoir;
+            let Reservoir { sample, weight } = chosen.reservoir;
             if weight > 0.0 {
                 let arriving = lit(scene, seen, &sample);
                 let factor = chosen.arrives(scene, seen, &arriving);

@@ -111,7 +111,7 @@ fn skies_have_the_known_irradiance() {
             );
             let (r, angle) = (u.sqrt(), 2.0 * PI * v);
             let d = [r * angle.cos(), (1.0 - u).sqrt(), r * angle.sin()].map(|x| x as f32);
-            e += f64::from(map.radiance(d)[1]) * PI / (f64::from(n) * f64::from(4 * n));
+            e += f64::from(map.map().radiance(d)[1]) * PI / (f64::from(n) * f64::from(4 * n));
         }
     }
     data.environment = Some(Arc::new(map));

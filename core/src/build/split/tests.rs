@@ -85,7 +85,6 @@ fn light(random: &mut Random, kind: Kind) -> LightBounds {
         max: max.into(),
         axis: crate::cone::normalized(axis),
         cos_theta_o,
-        cos_theta_e: 0.0,
         phi,
     }
 }

@@ -124,8 +124,8 @@ fn wrong_triangles_are_named_wherever_they_are() {
         assert_eq!(index, wrong);
         assert!(matches!(
             error,
-            LightError::Coordinate {
-                vertex: 2,
+            LightError::Place {
+                what: "third vertex of a triangle",
                 axis: 1,
                 ..
             }

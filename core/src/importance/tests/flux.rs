@@ -61,7 +61,6 @@ fn flux_over_distance_of_bounds() {
                 max: center + extent,
                 axis: random.direction(),
                 cos_theta_o: 0.5,
-                cos_theta_e: 0.0,
                 phi: random.power(-5, 5),
             }
         });

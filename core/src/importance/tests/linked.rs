@@ -14,9 +14,7 @@ struct Extremes;
 const WEIGHTS: [f32; 4] = [exact::pow2(120), exact::pow2(-120), f32::MIN_POSITIVE, 0.0];
 
 impl<N> ImportanceModel<N, 4> for Extremes {
-    const UNIFORM_HALVINGS: u32 = 0;
-
-    fn weights(_: &N, _: &ShadingPoint) -> [f32; 4] {
+    fn weights_in(_: &N, _: &ShadingPoint, _: f32) -> [f32; 4] {
         WEIGHTS
     }
 }
@@ -95,9 +93,7 @@ fn children_without_flux_are_in_no_union() {
 struct Steps;
 
 impl<N> ImportanceModel<N, 8> for Steps {
-    const UNIFORM_HALVINGS: u32 = 0;
-
-    fn weights(_: &N, _: &ShadingPoint) -> [f32; 8] {
+    fn weights_in(_: &N, _: &ShadingPoint, _: f32) -> [f32; 8] {
         [1.0, 0.0, 2e-3, 1e-3, 1e-4, 1e-12, 0.5, 0.0]
     }
 }

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::error::LightError;
 use crate::exact;
-use crate::light::record::{checked_emission, unit};
+use crate::light::record::{checked_axis, checked_emission};
 use crate::point::ShadingPoint;
 use crate::vector::{dot, vector};
 
@@ -25,17 +25,7 @@ impl DistantLight {
     /// # Errors
     /// [`LightError::Axis`] or [`LightError::Emission`].
     pub fn checked(mut self) -> Result<Self, LightError> {
-        let point = ShadingPoint {
-            p: [0.0; 3],
-            n: self.direction,
-        };
-        let is_none = self.direction == [0.0; 3];
-        match point.checked() {
-            Ok(point) if !is_none => self.direction = unit(point.n),
-            _ => {
-                return Err(LightError::Axis { axis: self.direction });
-            }
-        }
+        self.direction = checked_axis(self.direction)?;
         self.irradiance = checked_emission("distant light", self.irradiance)?;
         Ok(self)
     }

@@ -4,12 +4,11 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use super::counts::counts_of;
-use super::environment::{EnvironmentMap, EnvironmentSample, MAX_LEVELS, start_of};
+use super::environment::{EnvironmentMap, MAX_LEVELS, start_of};
 use super::octahedron::direction_at;
 use crate::emission::luminance_of;
 use crate::error::Number;
 use crate::light::{MAX_RADIANCE, MIN_RADIANCE};
-use crate::traverse::Random64;
 
 /// Places of a texel, in each direction, by whose mean it is known.
 const PLACES: u32 = 4;
@@ -134,24 +133,6 @@ impl Environment {
             counts: &self.counts,
             radiance: &self.radiance,
         }
-    }
-
-    /// Chooses a direction: see [`EnvironmentMap::sample`].
-    #[must_use]
-    pub fn sample(&self, random: impl Into<Random64>, uv: [f32; 2]) -> EnvironmentSample {
-        self.map().sample(random, uv)
-    }
-
-    /// See [`EnvironmentMap::density`].
-    #[must_use]
-    pub fn density(&self, direction: [f32; 3]) -> f32 {
-        self.map().density(direction)
-    }
-
-    /// See [`EnvironmentMap::radiance`].
-    #[must_use]
-    pub fn radiance(&self, direction: [f32; 3]) -> [f32; 3] {
-        self.map().radiance(direction)
     }
 
     /// Mean luminance over all directions, W/(m² sr): π times it is what a surface that sees half of it receives on average, for a

@@ -106,62 +106,55 @@ fn extremes_stay_finite() {
             for place in [0.0, s, exact::pow2(39)] {
                 let radiance = [shine; 3];
                 let p = [place, -place, 0.0];
+                let intensity = radiance;
                 check(PointLight {
                     p,
-                    intensity: radiance,
-                    range: 0.0,
-                    mesh: 0,
+                    intensity,
+                    ..PointLight::DARK
                 });
                 check(SpotLight {
                     p,
-                    intensity: radiance,
+                    intensity,
                     ..spot(0.9, 0.5)
                 });
-                check(ProfileLight {
-                    p,
-                    intensity: radiance,
-                    ..profile()
-                });
-                check(ProfileLight {
-                    whole: 0.0,
-                    ..profile()
-                });
+                for whole in [0.0, 0.25] {
+                    check(ProfileLight {
+                        p,
+                        intensity,
+                        whole,
+                        ..profile()
+                    });
+                }
                 check(SphereLight {
                     p,
                     radius: s,
                     radiance,
                     mesh: 0,
                 });
-                let half = [[s, 0.0, 0.0], [0.0, s * exact::pow2(-20), s]];
-                check(RectangleLight {
-                    p,
-                    half,
-                    radiance,
-                    mesh: 0,
-                    flags: 0,
-                });
-                check(DiscLight {
-                    p,
-                    half,
-                    radiance,
-                    mesh: 0,
-                    flags: TWO_SIDED,
-                });
-                check(RectangleLight {
-                    half: [[s, 0.0, 0.0]; 2],
-                    ..rectangle(0)
-                });
-                let half = [[s, 0.0, 0.0], [0.0, s, 0.0], [0.0, s, s * exact::pow2(-20)]];
-                check(BoxLight {
-                    p,
-                    half,
-                    radiance,
-                    mesh: 0,
-                });
-                check(BoxLight {
-                    half: [[s, 0.0, 0.0]; 3],
-                    ..glow()
-                });
+                let thin = s * exact::pow2(-20);
+                for half in [[[s, 0.0, 0.0], [0.0, thin, s]], [[s, 0.0, 0.0]; 2]] {
+                    check(RectangleLight {
+                        p,
+                        half,
+                        radiance,
+                        ..rectangle(0)
+                    });
+                    check(DiscLight {
+                        p,
+                        half,
+                        radiance,
+                        ..disc(TWO_SIDED)
+                    });
+                }
+                let thin = [[s, 0.0, 0.0], [0.0, s, 0.0], [0.0, s, thin]];
+                for half in [thin, [[s, 0.0, 0.0]; 3]] {
+                    check(BoxLight {
+                        p,
+                        half,
+                        radiance,
+                        mesh: 0,
+                    });
+                }
             }
         }
     }

@@ -15,7 +15,6 @@ pub struct Seen {
     pub half: Wide,
     pub axis: Wide,
     pub theta_o: f64,
-    pub cos_theta_e: f64,
     /// Zero in a volume.
     pub n: Wide,
 }
@@ -31,7 +30,6 @@ impl Seen {
             half: wide(cluster.extent),
             axis: wide(cluster.axis),
             theta_o: f64::from(cluster.cos_theta_o).clamp(-1.0, 1.0).acos(),
-            cos_theta_e: cluster.cos_theta_e.into(),
             n: wide(point.normal()),
         }
     }
@@ -66,7 +64,7 @@ impl Seen {
         (dot(self.n, self.v) / self.d()).clamp(-1.0, 1.0)
     }
 
-    /// pbrt's cosines, of the emitters and of the receiver; the first is zero from θ_e on.
+    /// pbrt's cosines, of the emitters and of the receiver; the first is zero from 90° on.
     pub fn pbrt(&self) -> [f64; 2] {
         let theta_b = self.sphere();
         let emitted = cos_sub((self.theta() - self.theta_o).max(0.0), theta_b);
@@ -75,7 +73,7 @@ impl Seen {
         } else {
             cos_sub(self.cos_theta_i().abs().acos(), theta_b)
         };
-        [if emitted <= self.cos_theta_e { 0.0 } else { emitted }, incident]
+        [if emitted <= 0.0 { 0.0 } else { emitted }, incident]
     }
 
     /// max(d², half the diagonal).

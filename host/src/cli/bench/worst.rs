@@ -32,7 +32,7 @@ struct Counting<I>(std::marker::PhantomData<I>);
 impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W> for Counting<I> {
     const UNIFORM_HALVINGS: u32 = I::UNIFORM_HALVINGS;
 
-    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
+    fn weights_in(node: &N, point: &ShadingPoint, _: f32) -> [f32; W] {
         EVALUATED.with(|count| count.set(count.get() + 1));
         I::weights(node, point)
     }

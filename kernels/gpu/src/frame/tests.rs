@@ -183,7 +183,7 @@ struct Choice;
 impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for Choice {
     const UNIFORM_HALVINGS: u32 = 2;
 
-    fn weights(node: &N, _: &ShadingPoint) -> [f32; W] {
+    fn weights_in(node: &N, _: &ShadingPoint, _: f32) -> [f32; W] {
         core::array::from_fn(|slot| node.summary(slot).phi())
     }
 }

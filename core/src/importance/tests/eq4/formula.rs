@@ -22,7 +22,6 @@ pub struct Lights {
     pub half: Wide,
     pub axis: Wide,
     pub theta_o: f64,
-    pub cos_theta_e: f64,
 }
 
 impl Lights {
@@ -35,7 +34,6 @@ impl Lights {
             half: times(minus(max, min), 0.5),
             axis: normalize(wide(b.axis)),
             theta_o: f64::from(b.cos_theta_o).clamp(-1.0, 1.0).acos(),
-            cos_theta_e: b.cos_theta_e.into(),
         }
     }
 
@@ -82,15 +80,13 @@ impl Lights {
     /// Both cosines' factor, where the emitters' cosine is off by `error`.
     pub fn factor(&self, n: Wide, error: f64) -> f64 {
         let emitted = (self.emitted() + error).clamp(0.0, 1.0 + SLACK);
-        let reaches = self.emitted() > self.cos_theta_e;
+        let reaches = self.emitted() > 0.0;
         (self.incident(n) * if reaches { emitted } else { 0.0 }).max(FLOOR)
     }
 
-    /// Whether rounding decides: at the horizon, at θ_e, and on the sphere around the box.
+    /// Whether rounding decides: at the horizon, at 90° from the cone, and on the sphere around the box.
     pub fn at_a_step(&self, n: Wide, margin: f64) -> bool {
         let horizon = n != [0.0; 3] && (self.height(n) + HORIZON).abs() < 1e-5;
-        horizon
-            || (self.emitted() - self.cos_theta_e).abs() < margin
-            || (self.d() / self.r() - 1.0).abs() < margin
+        horizon || self.emitted().abs() < margin || (self.d() / self.r() - 1.0).abs() < margin
     }
 }

@@ -1,0 +1,405 @@
+//! Light linking against an exhaustive oracle: a light has a probability just where it has flux and a bit in common with the
+//! receiver, through edits, refits, rebuilds and files.
+
+use crate::kit::Random;
+use lightbvh::bvh::{RebuilderParams, StaticMeshBvh, Swap};
+use lightbvh::importance::{
+    Leveled, Linked, LinkedPoint, RaySegment, Subtended, Transmissive, TransmissivePoint,
+};
+use lightbvh::light::{Light, LinkedAny, LinkedTriangle};
+use lightbvh::node::{LinkedMomentNode, Lit, Node};
+use lightbvh::tree::{LightTree, OPENED};
+use lightbvh::{
+    BuildParams, Bvh, Flux, Glossy, GlossyPoint, ImportanceModel, Lights, MomentNode, Moments, Random64,
+    Rebuilder, Receiver, SampledLight, ShadingPoint, Transform,
+};
+
+type Layout = Lit<LinkedMomentNode<8>, LinkedAny>;
+
+type Tree = Bvh<Layout, Linked<Moments>, 8>;
+
+impl Random {
+    /// Of few bits, so that some receivers have few lights; none for one in eight, all for one in eight.
+    fn mask(&mut self) -> u32 {
+        match self.below(8) {
+            0 => 0,
+            1 => u32::MAX,
+            2 => 1 << 31,
+            _ => 1 << self.below(12),
+        }
+    }
+
+    fn receiver(&mut self, reach: f32) -> LinkedPoint<ShadingPoint> {
+        LinkedPoint {
+            point: self.point(reach),
+            mask: match self.below(6) {
+                0 => self.word(),
+                _ => self.mask(),
+            },
+        }
+    }
+
+    /// Emission over six orders of magnitude: what is left may be far dimmer than what is masked out. One in eight has none.
+    fn linked(&mut self) -> LinkedAny {
+        let kind = self.below(8);
+        let level = 10.0_f32.powf(3.0 * self.signed());
+        let level = if self.below(8) == 0 { 0.0 } else { level };
+        let light = self.light(kind);
+        LinkedAny {
+            light: light.with_emission(light.emission().map(|x| x * level)),
+            mask: self.mask(),
+        }
+    }
+
+    fn place(&mut self) -> Transform {
+        let mut place = self.similarity(30.0, 1.0);
+        place.columns[0] = place.columns[0].map(|x| x * 2.0);
+        place
+    }
+}
+
+fn lights(random: &mut Random, count: u32) -> Vec<LinkedAny> {
+    (0..count).map(|_| random.linked()).collect()
+}
+
+/// A light's number, its instance, and whether it has flux.
+struct Known {
+    light: u32,
+    instance: u32,
+    shines: bool,
+    mask: u32,
+}
+
+fn known(bvh: &Tree) -> Vec<Known> {
+    let known = |light, instance, own: &LinkedAny, on| Known {
+        light,
+        instance,
+        shines: on && own.has_flux(),
+        mask: own.mask,
+    };
+    if bvh.is_single_level() {
+        let all = (0..).zip(bvh.triangles());
+        return all
+            .map(|(light, own)| known(light, u32::MAX, own, true))
+            .collect();
+    }
+    let mut all = Vec::new();
+    for id in (0..bvh.instances().len() as u32).filter_map(|k| bvh.instance_id(k)) {
+        let mesh = bvh.mesh_of(id).expect("of an instance");
+        let own = bvh.mesh_triangles(mesh).expect("of a mesh");
+        let on = bvh.instances()[id.index() as usize].radiance > 0.0;
+        let numbers = bvh.lights_of(id).expect("of an instance");
+        all.extend(
+            numbers
+                .zip(own)
+                .map(|(light, own)| known(light, id.index(), own, on)),
+        );
+    }
+    all
+}
+
+/// What was seen, so that no case is missing.
+#[derive(Debug, Default)]
+struct Seen {
+    without: u32,
+    partial: u32,
+    of_one: u32,
+}
+
+fn check<N: Node<8>, I: ImportanceModel<N, 8, LinkedPoint<P>>, P: Receiver>(
+    tree: &LightTree<'_, N, I, 8>,
+    known: &[Known],
+    receiver: &LinkedPoint<P>,
+    random: &mut Random,
+    seen: &mut Seen,
+) {
+    let (mut sum, mut allowed, mut shining) = (0.0, 0, 0);
+    let mut pmfs = Vec::with_capacity(known.len());
+    for own in known {
+        let pmf = tree.pmf(receiver, own.light, own.instance);
+        let is_allowed = own.shines && own.mask & receiver.mask != 0;
+        assert_eq!(
+            pmf > 0.0,
+            is_allowed,
+            "light {} of {}: pmf {pmf}, mask {:#x} & {:#x}",
+            own.light,
+            own.instance,
+            own.mask,
+            receiver.mask
+        );
+        sum += f64::from(pmf);
+        allowed += u32::from(is_allowed);
+        shining += u32::from(own.shines);
+        pmfs.push(pmf);
+    }
+    seen.without += u32::from(allowed == 0);
+    seen.partial += u32::from(0 < allowed && allowed < shining);
+    seen.of_one += u32::from(allowed == 1);
+    let expected = if allowed > 0 { 1.0 } else { 0.0 };
+    assert!((sum - expected).abs() < 1e-5, "pmfs sum to {sum}");
+    for k in 0..26 {
+        let number = match k {
+            0 => Random64 { high: 0, low: 0 },
+            1 => Random64::from(u64::MAX),
+            _ => Random64::from(random.word()),
+        };
+        let sampled = tree.sample(receiver, number);
+        if allowed == 0 {
+            assert_eq!(sampled, SampledLight::NONE);
+        } else {
+            let at = known.iter().position(|own| {
+                own.light == sampled.light && (own.instance == sampled.instance || own.instance == u32::MAX)
+            });
+            assert_eq!(sampled.pmf.to_bits(), pmfs[at.expect("a light")].to_bits());
+            assert!(sampled.pmf > 0.0);
+        }
+        let many = tree.sample_many::<LinkedPoint<P>, 5>(receiver, number);
+        assert_eq!(many[3], tree.sample(receiver, number.spaced(3, 5)));
+        let mut batch = [SampledLight::NONE; 2];
+        tree.sample_batch(&[*receiver; 2], &[number; 2], &mut batch);
+        assert_eq!(batch, [sampled; 2]);
+    }
+}
+
+/// The same for receivers of every kind in the bright, masked-out light `near`.
+fn check_all(bvh: &Tree, receivers: u32, random: &mut Random, seen: &mut Seen) {
+    bvh.validate().expect("nodes are what refit makes");
+    let known = known(bvh);
+    for _ in 0..receivers {
+        let receiver = random.receiver(if bvh.is_single_level() { 2.0 } else { 32.0 });
+        check(&bvh.tree(), &known, &receiver, random, seen);
+    }
+    let near = known.get(random.below(known.len().max(1) as u32) as usize);
+    let Some((own, light)) = near.and_then(|own| Some((own, bvh.triangle(own.light, own.instance)?))) else {
+        return;
+    };
+    let point = ShadingPoint {
+        p: light.centroid(),
+        n: [0.0, 1.0, 0.0],
+    };
+    let mask = !own.mask;
+    let receiver = LinkedPoint { point, mask };
+    check(&bvh.tree(), &known, &receiver, random, seen);
+    check(&bvh.by::<Linked<Flux>>(), &known, &receiver, random, seen);
+    let leveled = bvh.by::<Linked<Leveled<Moments, 9>>>();
+    check(&leveled, &known, &receiver, random, seen);
+    let glossy = GlossyPoint {
+        point,
+        mirror: [0.0, 1.0, 0.0],
+        diffuse: 0.0,
+        specular: 1.0,
+        exponent: 65_536.0,
+    };
+    let glossy = LinkedPoint { point: glossy, mask };
+    check(
+        &bvh.by::<Linked<Glossy<Moments>>>(),
+        &known,
+        &glossy,
+        random,
+        seen,
+    );
+    let leaf = TransmissivePoint {
+        point,
+        front: 0.4,
+        back: 0.6,
+    };
+    let leaf = LinkedPoint { point: leaf, mask };
+    check(
+        &bvh.by::<Linked<Transmissive<Moments>>>(),
+        &known,
+        &leaf,
+        random,
+        seen,
+    );
+    let point = RaySegment {
+        from: point.p,
+        to: random.vector(20.0),
+    };
+    let ray = LinkedPoint { point, mask };
+    check(
+        &bvh.by::<Linked<Subtended<Moments>>>(),
+        &known,
+        &ray,
+        random,
+        seen,
+    );
+}
+
+#[test]
+fn one_level() {
+    let random = &mut Random(1);
+    let mut seen = Seen::default();
+    for count in [1, 2, 3, 7, 8, 9, 40, 200, 2000] {
+        let all = Lights::new(lights(random, count)).expect("in the domain");
+        let mut bvh = Tree::single_level(&all, &BuildParams::default());
+        let receivers = if count < 1000 { 48 } else { 6 };
+        check_all(&bvh, receivers, random, &mut seen);
+        // New masks of some lights alone.
+        let mesh = bvh.mesh_id(0).expect("one mesh");
+        let first = random.below(count);
+        let some = 1 + random.below(count - first);
+        bvh.set_triangle_range(mesh, first, lights(random, some))
+            .expect("in the mesh");
+        bvh.refit();
+        check_all(&bvh, receivers, random, &mut seen);
+    }
+    assert!(
+        seen.without > 50 && seen.partial > 100 && seen.of_one > 20,
+        "{seen:?}"
+    );
+}
+
+#[test]
+fn two_levels_go_on_by_edits() {
+    let mut seen = Seen::default();
+    for seed in 0..4 {
+        let random = &mut Random(1000 * seed + 7);
+        let mut bvh = Tree::default();
+        let mut ids = Vec::new();
+        for _ in 0..2 + random.below(6) {
+            let count = if seed == 3 { 300 } else { 1 + random.below(40) };
+            let mesh = bvh.add_mesh(lights(random, count)).expect("in the domain");
+            for _ in 0..=random.below(8) {
+                ids.push(bvh.add_instance(mesh, random.place()).expect("in the domain"));
+            }
+        }
+        bvh.refit();
+        let mut rebuilder = Rebuilder::new(RebuilderParams {
+            swap: Swap::Deterministic,
+            ..RebuilderParams::default()
+        });
+        for frame in 0..30 {
+            rebuilder.begin_frame(&mut bvh).expect("no panic");
+            let at = random.below(ids.len() as u32) as usize;
+            let mesh = bvh.mesh_of(ids[at]).expect("a mesh");
+            let count = bvh.mesh_triangles(mesh).expect("a mesh").len() as u32;
+            match random.below(6) {
+                0 => bvh.set_transform(ids[at], random.place()).expect("in the domain"),
+                1 => bvh
+                    .set_radiance(ids[at], [0.0, 1.0, 40.0][random.below(3) as usize])
+                    .expect("a factor"),
+                2 | 3 => {
+                    let first = random.below(count);
+                    let some = 1 + random.below(count - first);
+                    bvh.set_triangle_range(mesh, first, lights(random, some))
+                        .expect("in the mesh");
+                }
+                4 if ids.len() > 2 => {
+                    bvh.remove_instance(ids.swap_remove(at)).expect("it is there");
+                }
+                _ => ids.push(bvh.add_instance(mesh, random.place()).expect("in the domain")),
+            }
+            bvh.refit();
+            rebuilder.end_frame(&bvh);
+            if frame % 3 == 0 {
+                check_all(&bvh, 3, random, &mut seen);
+            }
+        }
+        bvh.rebuild();
+        check_all(&bvh, 6, random, &mut seen);
+        let words = bvh.to_words();
+        let read = Tree::from_words(&words).expect("what was written");
+        assert!(read.to_words() == words);
+        check_all(&read, 4, random, &mut seen);
+        assert!(Bvh::<Lit<MomentNode<8>, LinkedAny>, Moments, 8>::from_words(&words).is_err());
+    }
+    assert!(seen.without > 30 && seen.partial > 100, "{seen:?}");
+}
+
+/// A large mesh among small ones is opened: parts of it are leaves of the top level, whose masks differ.
+#[test]
+fn opened_meshes() {
+    let random = &mut Random(77);
+    let mut bvh = Tree::new(BuildParams {
+        opens: true,
+        ..BuildParams::default()
+    });
+    let mut large = lights(random, 1500);
+    for own in &mut large {
+        own.mask = 1 << ((own.centroid()[0] + 1.0) * 8.0) as u32;
+    }
+    let mesh = bvh.add_mesh(large.clone()).expect("in the domain");
+    let large_one = bvh.add_instance(mesh, Transform::IDENTITY).expect("an instance");
+    for _ in 0..20 {
+        let small = bvh.add_mesh(lights(random, 3)).expect("in the domain");
+        bvh.add_instance(small, random.place()).expect("in the domain");
+    }
+    bvh.refit();
+    let place = bvh.tree().links.places[large_one.index() as usize];
+    assert!(place != u32::MAX && place & OPENED != 0, "nothing is tested");
+    let mut seen = Seen::default();
+    check_all(&bvh, 10, random, &mut seen);
+    for own in &mut large {
+        own.mask = own.mask.rotate_left(7);
+    }
+    bvh.set_triangles(mesh, large).expect("as many");
+    bvh.refit();
+    check_all(&bvh, 10, random, &mut seen);
+    // Without triangles, nodes alone know the masks.
+    let all = known(&bvh);
+    let mut meshes: StaticMeshBvh<_, _, 8> = bvh.clone().into_static_meshes();
+    meshes.refit();
+    let fixed = bvh.clone().into_static();
+    for _ in 0..4 {
+        let receiver = random.receiver(6.0);
+        check(&meshes.tree(), &all, &receiver, random, &mut seen);
+        check(&fixed.tree(), &all, &receiver, random, &mut seen);
+    }
+    assert!(seen.partial > 10, "{seen:?}");
+}
+
+/// With every bit in common, light and probability are those of the importance, to the bit; and other importances do not see masks.
+#[test]
+fn masks_that_allow_all_change_nothing() {
+    let random = &mut Random(9);
+    let own: Vec<_> = (0..700).map(|_| random.triangle()).collect();
+    let linked = Lights::new(own.iter().map(|&own| LinkedTriangle::from(own)).collect());
+    let plain = Lights::new(own).expect("in the domain");
+    let plain: Bvh<MomentNode<8>, Moments, 8> = Bvh::single_level(&plain, &BuildParams::default());
+    let masked: Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Moments>, 8> =
+        Bvh::single_level(&linked.expect("in the domain"), &BuildParams::default());
+    // The words of a node but for the last row are those without masks.
+    let row = size_of::<[u32; 8]>();
+    assert_eq!(plain.nodes().len(), masked.nodes().len());
+    for (a, b) in plain.nodes().iter().zip(masked.nodes()) {
+        let b = bytemuck::bytes_of(b);
+        assert_eq!(bytemuck::bytes_of(a), &b[..b.len() - row]);
+    }
+    for k in 0..3000 {
+        let mut receiver = random.receiver(2.0);
+        receiver.mask |= 1 << (k % 32);
+        let number = random.word();
+        let sampled = plain.sample(&receiver.point, number);
+        assert_eq!(sampled, masked.sample(&receiver, number));
+        assert_eq!(sampled, masked.by::<Moments>().sample(&receiver.point, number));
+        assert_eq!(
+            plain.pmf(&receiver.point, k % 700, 0).to_bits(),
+            masked.tree().pmf(&receiver, k % 700, 0).to_bits()
+        );
+    }
+}
+
+/// A least share of each child is a least probability of each light, of those that are allowed.
+#[test]
+fn least_shares_bound_probabilities() {
+    const LEAST: f64 = 1.0 / 512.0;
+    let random = &mut Random(12);
+    let all = Lights::new(lights(random, 600)).expect("in the domain");
+    let bvh = Tree::single_level(&all, &BuildParams::default());
+    // What is raised adds to the sum; shares are whole numbers of 2^21 at least.
+    let of_node = LEAST / (1.0 + 8.0 * LEAST) - 2f64.powi(-20);
+    let bound = of_node.powi(bvh.depth() as i32);
+    let tree = bvh.by::<Linked<Leveled<Moments, 9>>>();
+    let mut below = 0;
+    for _ in 0..40 {
+        let receiver = random.receiver(2.0);
+        for light in 0..600 {
+            let plain = bvh.tree().pmf(&receiver, light, 0);
+            let pmf = f64::from(tree.pmf(&receiver, light, 0));
+            assert_eq!(plain > 0.0, pmf > 0.0);
+            assert!(pmf == 0.0 || pmf >= bound, "{pmf} of {bound}");
+            below += u32::from(plain > 0.0 && f64::from(plain) < bound);
+        }
+    }
+    assert!(below > 0, "nothing is tested");
+}

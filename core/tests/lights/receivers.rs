@@ -1,0 +1,657 @@
+//! Receivers that say more than a shading point: weights against formulas and integrals in `f64`, and how much less variance they
+//! have.
+
+use glam::Vec3;
+use lightbvh::error::PointError;
+use lightbvh::exact::{self, hash, pow2};
+use lightbvh::importance::{
+    Flux, Glossy, ImportanceModel, RaySegment, Receiver, Subtended, Transmissive, TransmissivePoint,
+};
+use lightbvh::node::kind;
+use lightbvh::{
+    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, GlossyPoint, LightMoments, LightNode,
+    MomentNode, Moments, Node, ShadingPoint, Summary, Transform,
+};
+
+use crate::kit::{self, Random, Wide, cross, dot, length, minus, room, times, wide};
+
+/// The least of `variance` over a mean of it by what says less, for one level and two, must be below `most`.
+fn pays(name: &str, most: f64, variance: impl Fn(bool) -> [f64; 2]) {
+    for two in [false, true] {
+        let [without, with] = variance(two);
+        println!("{name}, two levels {two}: {without:.3}, told more {with:.3}");
+        assert!(with < most * without, "{name}: {with} of {without}");
+    }
+}
+
+/// From 2^`low` to 2^`high`, as often in each octave.
+fn power(random: &mut Random, low: i32, high: i32) -> f32 {
+    let octave = low + random.below((high - low) as u32) as i32;
+    exact::pow2(octave) * (1.0 + random.unit())
+}
+
+/// A surface at the origin of a view `to` away from it.
+fn glossy(p: [f32; 3], n: [f32; 3], to: [f64; 3], specular: f32, log2: u32) -> GlossyPoint {
+    let normal = n.map(f64::from);
+    let along = 2.0 * dot(normal, to);
+    GlossyPoint {
+        point: ShadingPoint { p, n },
+        mirror: minus(times(normal, along), to).map(|x| x as f32),
+        diffuse: 0.5 * (1.0 - specular),
+        specular,
+        exponent: exact::pow2(log2 as i32),
+    }
+}
+
+/// Within a cube of twice `size`.
+fn any_glossy(random: &mut Random, size: f32) -> GlossyPoint {
+    let (p, n) = (random.vector(size), random.unit_vector());
+    let mut to = wide(random.unit_vector());
+    if dot(to, wide(n)) < 0.0 {
+        to = times(to, -1.0);
+    }
+    let specular = [0.0, 0.3, 1.0][random.below(3) as usize];
+    let log2 = random.below(17);
+    glossy(p, n, to, specular, log2)
+}
+
+#[test]
+fn glossy_factors_are_their_formula() {
+    let random = &mut Random(1);
+    let (mut within, mut beside, mut wide_of) = (0, 0, 0);
+    for _ in 0..20_000 {
+        let size = power(random, -20, 20);
+        let receiver = any_glossy(random, size);
+        let sets = [0; 4].map(|_| {
+            let to = if random.below(2) == 0 {
+                Vec3::from_array(random.unit_vector())
+            } else {
+                Vec3::from_array(receiver.mirror) + Vec3::from_array(random.vector(0.2))
+            };
+            LightMoments {
+                phi: 1.0,
+                c: receiver.point.position() + to * (size * power(random, -4, 4)),
+                across: size * power(random, -8, 1),
+                along: 0.0,
+                m: Vec3::ZERO,
+                h: Vec3::ZERO,
+            }
+        });
+        let mut node = MomentNode::<4>::EMPTY;
+        for slot in 0..4 {
+            node.set_child(slot, kind::LIGHT, slot as u32);
+        }
+        node.set_summaries(&sets);
+        let sets = [0, 1, 2, 3].map(|slot| node.summary(slot));
+        let found = Glossy::<Flux>::weights(&node, &receiver);
+        for slot in 0..4 {
+            let away = minus(wide(sets[slot].c.to_array()), wide(receiver.point.p));
+            let d2 = dot(away, away);
+            let k = f64::from(receiver.exponent);
+            let spread = f64::from(sets[slot].across).powi(2) * 2.0 + f64::from(sets[slot].along).powi(2);
+            let u2 = 0.5 * spread / d2.max(spread * 2f64.powi(-20));
+            let widened = 1.0 + 0.25 * k * u2;
+            let mirror = receiver.mirror.map(f64::from);
+            let z = 0.25 * k / widened * (1.0 - dot(mirror, away) / d2.sqrt());
+            let lobe = f64::from(receiver.specular) * (k + 6.0) / 8.0 / widened / (1.0 + z / 4.0).powi(4);
+            let expected = (f64::from(receiver.diffuse) + lobe).max(2f64.powi(-20));
+            assert!(
+                (f64::from(found[slot]) / expected - 1.0).abs() < 1e-3,
+                "{found:?}, {slot} expected {expected}: {sets:?} at {receiver:?}"
+            );
+            let lit = receiver.specular > 0.0 && k > 32.0;
+            within += u32::from(lit && z < 1.0 && u2 < 0.1);
+            beside += u32::from(lit && z > 5.0);
+            wide_of += u32::from(lit && widened > 2.0);
+        }
+    }
+    for seen in [within, beside, wide_of] {
+        assert!(seen > 500, "{within} {beside} {wide_of}");
+    }
+}
+
+/// The least and the greatest that an importance may give.
+struct Extremes;
+
+impl<N> ImportanceModel<N, 4> for Extremes {
+    fn weights_in(_: &N, _: &ShadingPoint, _: f32) -> [f32; 4] {
+        [exact::pow2(120), exact::pow2(-120), f32::MIN_POSITIVE, 0.0]
+    }
+}
+
+#[test]
+fn glossy_weights_stay_in_their_range() {
+    let lights = room(&mut Random(9));
+    let bvh: Bvh<CompactNode<4>, Eq4, 4> = Bvh::single_level(&lights, &BuildParams::default());
+    let tree = bvh.tree();
+    let at = tree.nodes[0].summary(0).center().to_array();
+    for (p, log2, specular) in [([9.0; 3], 0, 0.0), (at, 16, 1.0), ([0.0; 3], 16, 1.0)] {
+        let receiver = glossy(p, [0.0, 1.0, 0.0], [0.0, 1.0, 0.0], specular, log2);
+        for mirror in [[0.0; 3], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]] {
+            let receiver = GlossyPoint {
+                mirror,
+                diffuse: 0.0,
+                ..receiver
+            };
+            let [most, least, tiny, none] = Glossy::<Extremes>::weights(&tree.nodes[0], &receiver);
+            let range = exact::pow2(-120)..=exact::pow2(120);
+            assert!(
+                [most, least, tiny].iter().all(|w| range.contains(w)),
+                "{most} {least} {tiny}"
+            );
+            assert_eq!(none, 0.0);
+        }
+    }
+}
+
+/// What a triangle reflects from its centroid, unshadowed: diffuse and Blinn's lobe.
+fn reflected(triangle: &EmissiveTriangle, receiver: &GlossyPoint) -> f64 {
+    let p = triangle.p.map(|v| v.map(f64::from));
+    let center = [0, 1, 2].map(|k| (p[0][k] + p[1][k] + p[2][k]) / 3.0);
+    let across = cross(minus(p[1], p[0]), minus(p[2], p[0]));
+    let v = minus(center, receiver.point.p.map(f64::from));
+    let (n, d2) = (receiver.point.n.map(f64::from), dot(v, v));
+    let received = dot(n, v).max(0.0);
+    let emitted = kit::emitted(triangle, -dot(across, v));
+    let mirror = receiver.mirror.map(f64::from);
+    let view = minus(times(n, 2.0 * dot(n, mirror)), mirror);
+    let to = times(v, 1.0 / d2.sqrt());
+    let half = [0, 1, 2].map(|k| to[k] + view[k]);
+    let k = f64::from(receiver.exponent);
+    let lobe = (k + 6.0) / 8.0 * (dot(n, half) / length(half)).max(0.0).powf(k);
+    let reflectance = f64::from(receiver.diffuse) + f64::from(receiver.specular) * lobe;
+    f64::from(triangle.radiance[0]) * reflectance * received * emitted / (d2 * d2)
+}
+
+/// Less variance than of the importance that knows nothing of the lobe where it is sharp, about as much where it is broad, the
+/// same without a lobe.
+#[test]
+fn the_lobe_pays() {
+    type D = Defensive<Moments, 6>;
+    type G = Defensive<Glossy<Moments>, 6>;
+    fn variance<I: ImportanceModel<MomentNode<8>, 8, P>, P: Receiver>(
+        two: bool,
+        lobe: (f32, i32),
+        told: fn(&GlossyPoint) -> P,
+    ) -> f64 {
+        kit::variance::<MomentNode<8>, I, P, _, 8>(two, 200, |random| {
+            let receiver = GlossyPoint {
+                diffuse: 0.5 * (1.0 - lobe.0),
+                specular: lobe.0,
+                exponent: pow2(lobe.1),
+                ..any_glossy(random, 5.0)
+            };
+            let of = move |light: &EmissiveTriangle| reflected(light, &receiver);
+            (told(&receiver), of)
+        })
+    }
+    for (lobe, most) in [
+        ((0.0, 4), 1.001),
+        ((0.3, 4), 1.1),
+        ((0.3, 8), 0.85),
+        ((0.9, 6), 1.0),
+        ((0.9, 10), 0.6),
+    ] {
+        pays(&format!("lobe {lobe:?}"), most, |two| {
+            let without = variance::<D, _>(two, lobe, |g| g.point);
+            let with = variance::<G, _>(two, lobe, |g| *g);
+            assert!(lobe.0 > 0.0 || (with / without - 1.0).abs() < 1e-3);
+            [without, with]
+        });
+    }
+}
+
+/// An instance turned and scaled is chosen from as its triangles in the world are. The map takes axes to axes, so that boxes
+/// stay boxes, and is not its own inverse.
+#[test]
+fn lobes_turn_with_instances() {
+    type G = Glossy<Moments>;
+    let mut map = Transform::at([3.0, -1.0, 2.0]);
+    map.columns = [[0.0, 2.0, 0.0], [0.0, 0.0, 2.0], [2.0, 0.0, 0.0]];
+    let (mut compared, mut sharp) = (0, 0);
+    for seed in 0..60 {
+        let random = &mut Random(seed);
+        let mut mesh = room(random).triangles()[..8].to_vec();
+        for triangle in &mut mesh {
+            triangle.mesh = 0;
+        }
+        let placed = |triangles: Vec<EmissiveTriangle>, transform| {
+            let mut bvh: Bvh<MomentNode<8>, G, 8> = Bvh::default();
+            let mesh = bvh.add_mesh(triangles).expect("within the domain");
+            bvh.add_instance(mesh, transform).expect("an instance");
+            bvh.refit();
+            bvh
+        };
+        let turned = placed(mesh, map);
+        let world = placed(turned.world_lights(), Transform::IDENTITY);
+        for _ in 0..8 {
+            let mut receiver = any_glossy(random, 5.0);
+            receiver.specular = 1.0;
+            receiver.diffuse = 0.0;
+            let pmf = |bvh: &Bvh<MomentNode<8>, G, 8>, light| bvh.tree().pmf(&receiver, light, 0);
+            for light in 0..8 {
+                let [a, b] = [pmf(&turned, light), pmf(&world, light)];
+                // Words of nodes are rounded in other places.
+                assert!(
+                    exact::abs(a - b) < 0.02 + 0.1 * b,
+                    "{a} and {b} of {light}: {receiver:?}"
+                );
+                compared += 1;
+                sharp += u32::from(b > 0.9);
+            }
+        }
+    }
+    assert!(compared > 3000 && sharp > 20, "{compared} {sharp}");
+}
+
+/// Irradiance, W/m², of both sides of a surface at `p` by a triangle: the integral over it, by `N`² pieces.
+fn irradiance<const N: usize>(triangle: &EmissiveTriangle, point: &ShadingPoint) -> [f64; 2] {
+    let (across, places) = kit::pieces::<N>(triangle);
+    let (p, n) = (wide(point.p), wide(point.n));
+    let mut sides = [0.0; 2];
+    for place in places {
+        let to = minus(place, p);
+        let d2 = dot(to, to);
+        let emitted = kit::emitted(triangle, -dot(across, to));
+        let received = dot(n, to);
+        let sent = f64::from(triangle.radiance[0]) * 0.5 * emitted * received.abs() / (d2 * d2);
+        sides[usize::from(received < 0.0)] += sent / (N * N) as f64;
+    }
+    sides
+}
+
+fn through<const N: usize>(triangle: &EmissiveTriangle, receiver: &TransmissivePoint) -> f64 {
+    let [front, back] = irradiance::<N>(triangle, &receiver.point);
+    f64::from(receiver.front) * front + f64::from(receiver.back) * back
+}
+
+const PARTS: [[f32; 2]; 5] = [[1.0, 0.0], [0.0, 1.0], [0.5, 0.5], [0.8, 0.1], [0.02, 0.6]];
+
+fn leaf(random: &mut Random, [front, back]: [f32; 2]) -> TransmissivePoint {
+    TransmissivePoint {
+        point: ShadingPoint {
+            p: random.vector(5.0),
+            n: random.unit_vector(),
+        },
+        front,
+        back,
+    }
+}
+
+/// A weight is the sum of those of both sides, to rounding, and positive where there is flux.
+fn weights_are_sums<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>() {
+    let random = &mut Random(1);
+    let lights = room(random);
+    let bvh: Bvh<N, I, W> = Bvh::single_level(&lights, &BuildParams::default());
+    let mut compared = 0;
+    for _ in 0..60 {
+        for [front, back] in PARTS {
+            let receiver = leaf(random, [front, back]);
+            let turned = ShadingPoint {
+                n: receiver.point.n.map(|x| -x),
+                ..receiver.point
+            };
+            for node in bvh.nodes() {
+                let found = Transmissive::<I>::weights(node, &receiver);
+                let (w, v) = (I::weights(node, &receiver.point), I::weights(node, &turned));
+                let of = |slot: usize| {
+                    f64::from(front) * f64::from(w[slot]) + f64::from(back) * f64::from(v[slot])
+                };
+                for (slot, &found) in found.iter().enumerate() {
+                    assert_eq!(found > 0.0, node.kind(slot) != 0);
+                    let scale = f64::from(front.max(back));
+                    let expected = of(slot) / scale;
+                    assert!(
+                        (f64::from(found) - expected).abs() <= 4e-7 * expected,
+                        "{found} and {expected}"
+                    );
+                    compared += u32::from(expected > 0.0);
+                }
+            }
+        }
+    }
+    assert!(compared > 10_000, "{compared}");
+}
+
+#[test]
+fn weights_are_the_sum_of_both_sides() {
+    weights_are_sums::<MomentNode<8>, Moments, 8>();
+    weights_are_sums::<CompactNode<4>, Eq4, 4>();
+}
+
+/// Where no part is positive both sides count alike.
+#[test]
+fn a_part_of_one_side_is_that_side_to_the_bit() {
+    let random = &mut Random(2);
+    let bvh: Bvh<MomentNode<8>, Defensive<Transmissive<Moments>, 6>, 8> =
+        Bvh::two_level(&room(random), &BuildParams::default());
+    let plain = bvh.by::<Defensive<Moments, 6>>();
+    for k in 0..2000 {
+        let front = leaf(random, [0.3, 0.0]);
+        let number = hash(k);
+        assert_eq!(bvh.sample(&front, number), plain.sample(&front.point, number));
+        let back = leaf(random, [0.0, 0.7]);
+        let turned = ShadingPoint {
+            n: back.point.n.map(|x| -x),
+            ..back.point
+        };
+        assert_eq!(bvh.sample(&back, number), plain.sample(&turned, number));
+        let none = leaf(random, [0.0, 0.0]);
+        let alike = TransmissivePoint {
+            front: 0.5,
+            back: 0.5,
+            ..none
+        };
+        assert_eq!(bvh.sample(&none, number), bvh.sample(&alike, number));
+    }
+}
+
+/// Against a point in a volume at the same place.
+#[test]
+fn both_sides_pay() {
+    type D = Defensive<Moments, 6>;
+    type T = Defensive<Transmissive<Moments>, 6>;
+    fn variance<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
+        two: bool,
+        parts: [f32; 2],
+        told: fn(&TransmissivePoint) -> P,
+    ) -> f64 {
+        kit::variance::<N, I, P, _, W>(two, 60, |random| {
+            let receiver = leaf(random, parts);
+            let of = move |light: &EmissiveTriangle| through::<6>(light, &receiver);
+            (told(&receiver), of)
+        })
+    }
+    let volume = |t: &TransmissivePoint| ShadingPoint {
+        n: [0.0; 3],
+        ..t.point
+    };
+    for (parts, most) in PARTS.into_iter().zip([0.7, 0.7, 0.9, 0.8, 0.8]) {
+        pays(&format!("parts {parts:?}"), most, |two| {
+            let without = variance::<MomentNode<8>, D, _, 8>(two, parts, volume);
+            [without, variance::<MomentNode<8>, T, _, 8>(two, parts, |t| *t)]
+        });
+    }
+    pays("Eq. 4, both sides", 1.0, |two| {
+        let without = variance::<CompactNode<4>, Eq4, _, 4>(two, PARTS[3], volume);
+        [
+            without,
+            variance::<CompactNode<4>, Transmissive<Eq4>, _, 4>(two, PARTS[3], |t| *t),
+        ]
+    });
+}
+
+impl Random {
+    /// About `length` long, within about `reach` of the origin.
+    fn segment(&mut self, reach: f32, length: f32) -> RaySegment {
+        let (from, along) = (self.vector(reach), self.unit_vector());
+        RaySegment {
+            from,
+            to: core::array::from_fn(|k| from[k] + along[k] * length),
+        }
+    }
+}
+
+fn at(segment: &RaySegment, part: f64) -> Wide {
+    let (from, to) = (wide(segment.from), wide(segment.to));
+    core::array::from_fn(|k| from[k] + (to[k] - from[k]) * part)
+}
+
+/// The mean of `f` over the segment, steps even in the angle that `center` sees: parts of the segment, by the tangent.
+fn mean_along(segment: &RaySegment, center: Wide, steps: u32, f: impl Fn(Wide) -> f64) -> f64 {
+    let (from, to) = (wide(segment.from), wide(segment.to));
+    let chord = minus(to, from);
+    let len = length(chord);
+    let along = chord.map(|x| x / len);
+    let foot = dot(minus(center, from), along);
+    let across: Wide = core::array::from_fn(|k| center[k] - from[k] - along[k] * foot);
+    let d = length(across).max(1e-6 * len);
+    let (first, last) = ((-foot / d).atan(), ((len - foot) / d).atan());
+    let step = (last - first) / f64::from(steps);
+    let mut sum = 0.0;
+    for k in 0..steps {
+        let t = (first + step * (f64::from(k) + 0.5)).tan();
+        let part = (t * d + foot) / len;
+        sum += f(at(segment, part)) * d * (1.0 + t * t) * step / len;
+    }
+    sum
+}
+
+/// What the segment receives of a triangle, W/m: the fluence over all directions along it, from `N`² pieces of the triangle.
+fn along<const N: usize>(triangle: &EmissiveTriangle, segment: &RaySegment, steps: u32) -> f64 {
+    let (across, places) = kit::pieces::<N>(triangle);
+    let mut sum = 0.0;
+    for place in places {
+        sum += mean_along(segment, place, steps, |p| {
+            let to = minus(p, place);
+            let d2 = dot(to, to);
+            let emitted = kit::emitted(triangle, 0.5 * dot(across, to) / d2.sqrt());
+            f64::from(triangle.radiance[0]) * emitted / d2
+        });
+    }
+    sum / (N * N) as f64 * length(minus(wide(segment.to), wide(segment.from)))
+}
+
+/// Sets with and without size and normals: the weights are the means along the segment.
+#[test]
+fn weights_are_means_along_the_segment() {
+    let random = &mut Random(1);
+    let (mut worst_plain, mut worst, mut total, mut count) = (1.0_f64, 1.0_f64, 0.0, 0.0);
+    for trial in 0..4000 {
+        let scale = pow2((hash(trial) % 41) as i32 - 20);
+        let segment = random.segment(scale, scale * pow2((trial % 9) as i32 - 4));
+        let sets: [LightMoments; 4] = core::array::from_fn(|slot| {
+            // The first is a point alike in all directions, to compare with.
+            let plain = slot < 2;
+            let away = Vec3::from_array(random.vector(2.0 * scale));
+            let across = if plain { 0.0 } else { scale * 0.3 * random.unit() };
+            LightMoments {
+                phi: 0.5 + random.unit(),
+                c: away,
+                across,
+                along: across * random.unit(),
+                m: if plain {
+                    Vec3::ZERO
+                } else {
+                    Vec3::from_array(random.unit_vector()) * random.unit()
+                },
+                h: Vec3::ZERO,
+            }
+        });
+        let mut node = MomentNode::<4>::EMPTY;
+        for slot in 0..4 {
+            node.set_child(slot, kind::LIGHT, slot as u32);
+        }
+        node.set_summaries(&sets);
+        // As the words are read; the spread of normals is stored beside their mean, in units of 1/255.
+        let spreads = sets.map(|set| {
+            let m = wide(set.m.to_array());
+            ((1.0 - dot(m, m)).max(0.0).sqrt() * 255.0).round() / 255.0
+        });
+        let sets = [0, 1, 2, 3].map(|slot| (node.summary(slot), spreads[slot]));
+        let found = Subtended::<Moments>::weights(&node, &segment);
+        let expected = sets.map(|(set, spread)| {
+            let (c, m) = (wide(set.c.to_array()), wide(set.m.to_array()));
+            let (across, along) = (f64::from(set.across), f64::from(set.along));
+            let mean = mean_along(&segment, c, 400, |p| {
+                let to = minus(p, c);
+                let d2 = dot(to, to);
+                // The soft cosine of `docs/walk.md`, section 2.
+                let y = 1.0 / (d2 + 2.5 * across * across).sqrt();
+                let depth = 2f64.sqrt() * along * y;
+                let s = 0.031_622_78 + depth + spread * (0.5 - depth);
+                let a = y * dot(m, to);
+                let soft = 2.0 * a.max(0.0) + s * s / (2.0 * a.abs() + s);
+                soft / (d2 + across * across)
+            });
+            f64::from(set.phi) * mean
+        });
+        for slot in 1..4 {
+            let ratio = f64::from(found[slot]) / f64::from(found[0]) * expected[0] / expected[slot];
+            assert!(found[slot] > 0.0);
+            let off = ratio.max(1.0 / ratio);
+            if slot == 1 {
+                worst_plain = worst_plain.max(off);
+            } else {
+                worst = worst.max(off);
+                total += off;
+                count += 1.0;
+            }
+        }
+    }
+    println!(
+        "points: off by a factor of {worst_plain:.4} at most; sets: {:.4} in the mean, {worst:.3} at most",
+        total / count
+    );
+    assert!(worst_plain < 1.03, "{worst_plain}");
+    // The worst is a narrow set that most of the segment sees from behind.
+    assert!(worst < 6.0 && total / count < 1.05, "{worst}, {}", total / count);
+}
+
+/// A segment without length, a light on the segment, far and large ones: weights are finite and positive.
+#[test]
+fn weights_of_segments_are_positive_everywhere() {
+    let random = &mut Random(2);
+    for exponent in [-90, -40, 0, 20, 39] {
+        let scale = pow2(exponent);
+        for trial in 0..200 {
+            let from = random.vector(scale);
+            let to = match trial % 4 {
+                0 => from,
+                1 => random.vector(scale),
+                2 => random.vector(scale * pow2(-30)),
+                _ => random.vector(pow2(40)),
+            };
+            let segment = RaySegment { from, to }.checked().expect("in the domain");
+            let mut node = MomentNode::<4>::EMPTY;
+            let sets: [LightMoments; 4] = core::array::from_fn(|slot| {
+                node.set_child(slot, kind::LIGHT, 0);
+                let part = random.unit();
+                let c = match slot {
+                    0 => segment.at(part),
+                    1 => from,
+                    2 => to,
+                    _ => random.vector(scale),
+                };
+                let across = if trial % 3 == 0 {
+                    0.0
+                } else {
+                    scale * random.unit()
+                };
+                LightMoments {
+                    phi: pow2((trial % 60) - 30),
+                    c: Vec3::from_array(c),
+                    across,
+                    along: across,
+                    m: Vec3::from_array(random.unit_vector()),
+                    h: Vec3::splat(across),
+                }
+            });
+            node.set_summaries(&sets);
+            for weight in Subtended::<Moments>::weights(&node, &segment) {
+                assert!(
+                    (pow2(-120)..=pow2(120)).contains(&weight),
+                    "{weight} at {segment:?} of {sets:?}"
+                );
+            }
+        }
+    }
+}
+
+/// Against the point in a volume in the middle of the segment.
+#[test]
+fn segments_pay() {
+    type D = Defensive<Moments, 6>;
+    type S = Defensive<Subtended<Moments>, 6>;
+    fn variance<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
+        two: bool,
+        long: f32,
+        told: fn(&RaySegment) -> P,
+    ) -> f64 {
+        kit::variance::<N, I, P, _, W>(two, 40, |random| {
+            let segment = random.segment(5.0, long);
+            let of = move |light: &EmissiveTriangle| along::<3>(light, &segment, 24);
+            (told(&segment), of)
+        })
+    }
+    let middle = |segment: &RaySegment| ShadingPoint {
+        p: segment.at(0.5),
+        n: [0.0; 3],
+    };
+    for (long, most) in [(0.5, 1.05), (3.0, 0.7), (12.0, 0.3)] {
+        pays(&format!("{long} m"), most, |two| {
+            let without = variance::<MomentNode<8>, D, _, 8>(two, long, middle);
+            [without, variance::<MomentNode<8>, S, _, 8>(two, long, |s| *s)]
+        });
+    }
+    pays("Eq. 4, 6 m", 1.0, |two| {
+        let without = variance::<CompactNode<4>, Eq4, _, 4>(two, 6.0, middle);
+        [
+            without,
+            variance::<CompactNode<4>, Subtended<Eq4>, _, 4>(two, 6.0, |s| *s),
+        ]
+    });
+}
+
+#[test]
+fn receivers_are_checked() {
+    let sound = glossy([1.0, 2.0, 3.0], [0.0, 0.0, 1.0], [0.6, 0.0, 0.8], 0.3, 6);
+    let nowhere = ShadingPoint {
+        p: [f32::NAN; 3],
+        n: [0.0; 3],
+    };
+    let of = |change: fn(&mut GlossyPoint)| {
+        let mut own = sound;
+        change(&mut own);
+        own.checked()
+    };
+    assert_eq!(of(|_| ()), Ok(sound));
+    assert!(of(|g| g.mirror = [0.0; 3]).is_ok());
+    assert_eq!(
+        of(|g| g.mirror = [1.0; 3]),
+        Err(PointError::Mirror { mirror: [1.0; 3] })
+    );
+    let clamped = of(|g| (g.diffuse, g.specular, g.exponent) = (-1.0, 2.0, f32::INFINITY));
+    assert_eq!(
+        clamped.map(|g| [g.diffuse, g.specular, g.exponent]),
+        Ok([0.0, 1.0, 65_536.0])
+    );
+    for broken in [
+        of(|g| g.diffuse = f32::NAN),
+        of(|g| g.specular = f32::NAN),
+        of(|g| g.exponent = f32::NAN),
+    ] {
+        assert!(matches!(broken, Err(PointError::Nan { .. })));
+    }
+    let lost = GlossyPoint {
+        point: nowhere,
+        ..sound
+    };
+    assert!(matches!(lost.checked(), Err(PointError::Coordinate { .. })));
+
+    let sound = leaf(&mut Random(5), [0.25, 0.5]);
+    assert_eq!(sound.checked(), Ok(sound));
+    let of = |front, back| TransmissivePoint { front, back, ..sound }.checked();
+    assert_eq!(of(2.0, -1.0).map(|t| [t.front, t.back]), Ok([1.0, 0.0]));
+    assert!(matches!(of(0.5, f32::NAN), Err(PointError::Nan { .. })));
+    let lost = TransmissivePoint {
+        point: nowhere,
+        ..sound
+    };
+    assert!(matches!(lost.checked(), Err(PointError::Coordinate { .. })));
+
+    let segment = RaySegment {
+        from: [1.0, f32::from_bits(1), -0.0],
+        to: [2.0, 3.0, 4.0],
+    };
+    let checked = segment.checked().expect("in the domain");
+    assert_eq!(checked.from.map(f32::to_bits), [1.0_f32.to_bits(), 0, 0]);
+    for broken in [f32::NAN, f32::INFINITY, 2e12] {
+        for end in 0..2 {
+            let mut ends = [segment.from, segment.to];
+            ends[end][1] = broken;
+            let [from, to] = ends;
+            assert!(RaySegment { from, to }.checked().is_err());
+        }
+    }
+}

@@ -1,0 +1,441 @@
+//! Models with less in them say the same: two-sided moments, no trails, no data for refits.
+
+use bytemuck::cast_slice;
+use lightbvh::bvh::{EditReason, StaticBvh, Swap};
+use lightbvh::exact::{self, hash, pow2};
+use lightbvh::{
+    BuildParams, Bvh, Defensive, Edit, EmissiveTriangle, InstanceId, LightNode, Lights, MeshId, MomentNode,
+    Moments, Node, Rebuilder, RebuilderParams, ShadingPoint, Transform, TwoSidedMomentNode,
+};
+
+use crate::kit::Random;
+
+type D = Defensive<Moments, 6>;
+
+type Default8 = Bvh<MomentNode<8>, D, 8>;
+
+/// Triangles of sizes and fluxes far apart, some without area or radiance, in a cube of 2 `size`; `flags` as given.
+fn mesh(random: &mut Random, size: f32, count: u32, flags: u32) -> Vec<EmissiveTriangle> {
+    let triangle = |_| {
+        let at = random.vector(size);
+        let edge = size * pow2(-(random.below(20) as i32));
+        let vertex = |random: &mut Random| {
+            let away = random.vector(edge);
+            [0, 1, 2].map(|k| at[k] + away[k])
+        };
+        let b = vertex(random);
+        let c = if random.below(12) == 0 { b } else { vertex(random) };
+        let radiance = match random.below(8) {
+            0 => 0.0,
+            _ => pow2(random.below(70) as i32 - 35),
+        };
+        // So thin that no normal is known of it: as good as two-sided.
+        let needle = flags != 0 && random.below(10) == 0;
+        EmissiveTriangle {
+            p: if needle { thin(edge) } else { [at, b, c] },
+            radiance: [radiance; 3],
+            mesh: 0,
+            flags: if needle { 0 } else { flags },
+        }
+    };
+    (0..count).map(triangle).collect()
+}
+
+/// A cross product of 2^-70 of the longer edge squared.
+fn thin(edge: f32) -> [[f32; 3]; 3] {
+    [[0.0; 3], [edge, 0.0, 0.0], [0.0, edge * pow2(-70), 0.0]]
+}
+
+fn transform(random: &mut Random, size: f32) -> Transform {
+    let columns = match random.below(3) {
+        0 => Transform::IDENTITY.columns,
+        // Any map, flat ones too.
+        1 => [0; 3].map(|_| random.vector(2.0)),
+        _ => [random.vector(1.0), [0.0; 3], random.vector(1.0)],
+    };
+    Transform {
+        columns,
+        translation: random.vector(4.0 * size),
+    }
+}
+
+/// The same meshes, instances and moves in any light BVH.
+fn scene<N: LightNode<W>, I, const W: usize>(seed: u32, flags: u32, params: BuildParams) -> Bvh<N, I, W> {
+    let random = &mut Random(seed.wrapping_mul(7919));
+    let size = pow2(random.below(60) as i32 - 30);
+    let mut bvh = Bvh::new(params);
+    let mut instances: Vec<InstanceId> = Vec::new();
+    for _ in 0..1 + random.below(3) {
+        let count = 1 + random.below(60);
+        let own = bvh
+            .add_mesh(mesh(random, size, count, flags))
+            .expect("within the domain");
+        for _ in 0..1 + random.below(4) {
+            let edit = Edit::AddInstance {
+                mesh: own,
+                transform: transform(random, size),
+                radiance: [1.0, 0.25, 0.0][random.below(3) as usize],
+            };
+            instances.extend(bvh.apply(vec![edit]).expect("an instance").instances);
+        }
+    }
+    bvh.refit();
+    // Refits, and a top level that edits have patched.
+    for id in instances {
+        if random.below(3) == 0 {
+            bvh.set_transform(id, transform(random, size))
+                .expect("within the domain");
+        }
+    }
+    bvh.refit();
+    bvh
+}
+
+fn points(seed: u32, lights: &[EmissiveTriangle]) -> Vec<ShadingPoint> {
+    let random = &mut Random(seed.wrapping_mul(104_729));
+    let point = |_| {
+        let near = lights[random.below(lights.len() as u32) as usize].p[0];
+        let size = near.into_iter().map(exact::abs).fold(pow2(-30), exact::max);
+        let away = random.vector(size);
+        let mut point = random.point(0.0);
+        point.p = [0, 1, 2].map(|k| near[k] + away[k]);
+        point.checked().expect("a shading point")
+    };
+    (0..24).map(point).collect()
+}
+
+/// Every word but those of the row of normals, of which one constant is known; every pmf, every sample.
+fn equal_words<const W: usize>(seed: u32, params: BuildParams) {
+    let full = scene::<MomentNode<W>, D, W>(seed, EmissiveTriangle::TWO_SIDED, params);
+    let less = scene::<TwoSidedMomentNode<W>, D, W>(seed, EmissiveTriangle::TWO_SIDED, params);
+    assert_eq!(full.nodes().len(), less.nodes().len());
+    assert_eq!(full.top_nodes().len(), less.top_nodes().len());
+    let of_full = full.nodes().iter().chain(full.top_nodes());
+    for (full, less) in of_full.zip(less.nodes().iter().chain(less.top_nodes())) {
+        let a: &[u32] = cast_slice(std::slice::from_ref(full));
+        let b: &[u32] = cast_slice(std::slice::from_ref(less));
+        assert_eq!((a.len(), b.len()), (6 * W, 5 * W));
+        assert_eq!(a[..3 * W], b[..3 * W]);
+        assert_eq!(a[4 * W..], b[3 * W..]);
+        for (slot, &normal) in a[3 * W..4 * W].iter().enumerate() {
+            let shines = full.summary(slot).phi > 0.0;
+            assert_eq!(normal, if shines { !0 } else { 0 }, "{seed}, slot {slot}");
+            if shines {
+                assert_eq!(full.summary(slot), less.summary(slot));
+            }
+        }
+    }
+    assert_eq!(full.instances(), less.instances());
+    let roots = |words: &[lightbvh::refit::BlasRoot]| cast_slice::<_, u32>(words).to_vec();
+    assert_eq!(roots(full.roots()), roots(less.roots()));
+    less.validate()
+        .unwrap_or_else(|violation| panic!("{seed}: {violation}"));
+    let world = full.world_lights();
+    for (k, point) in (0..).zip(points(seed, &world)) {
+        for (light, triangle) in (0..).zip(&world) {
+            let a = full.pmf(&point, light, triangle.mesh);
+            let b = less.pmf(&point, light, triangle.mesh);
+            assert_eq!(
+                a.to_bits(),
+                b.to_bits(),
+                "{seed}, {point:?}, light {light}: {a:e} and {b:e}"
+            );
+        }
+        for number in 0..20_u32 {
+            let number = hash(seed ^ hash(1000 * k + number));
+            assert_eq!(full.sample(&point, number), less.sample(&point, number));
+        }
+    }
+}
+
+#[test]
+fn two_sided_moments_have_the_bits_of_moments() {
+    for seed in 0..60 {
+        let params = [BuildParams::BALANCED, BuildParams::FAST, BuildParams::BEST][seed as usize % 3];
+        equal_words::<8>(seed, params);
+        equal_words::<4>(seed + 1000, params);
+        equal_words::<16>(seed + 2000, params);
+    }
+}
+
+/// Lights that shine from one side lose nothing but variance.
+#[test]
+fn two_sided_moments_lose_no_light() {
+    for seed in 0..20 {
+        let bvh = scene::<TwoSidedMomentNode<8>, Moments, 8>(seed, 0, BuildParams::BALANCED);
+        bvh.validate()
+            .unwrap_or_else(|violation| panic!("{seed}: {violation}"));
+        let world = bvh.world_lights();
+        for point in points(seed, &world) {
+            let mut sum = 0.0;
+            for (light, triangle) in (0..).zip(&world) {
+                let pmf = bvh.pmf(&point, light, triangle.mesh);
+                let shines = lightbvh::LightBounds::of_triangle(triangle).phi > 0.0;
+                // World triangles round away area; what a mesh has of it, its tree holds.
+                assert!(pmf > 0.0 || !shines, "{seed}, {point:?}, light {light}");
+                sum += f64::from(pmf);
+            }
+            let dark = bvh.summary().phi == 0.0;
+            assert!((sum - f64::from(u8::from(!dark))).abs() < 1e-6, "{seed}: {sum}");
+        }
+    }
+}
+
+/// A light BVH without trails goes on by edits as one with them, and says the same.
+#[test]
+fn samples_need_no_trails() {
+    for seed in 0..20 {
+        let mut with = scene::<MomentNode<8>, Moments, 8>(seed, seed % 2, BuildParams::BALANCED);
+        let mut without = with.clone().without_trails();
+        assert!(with.bytes() - without.bytes() >= 4 * with.triangles().len());
+        assert!(without.memory() + 4 * with.triangles().len() <= with.memory());
+        let random = &mut Random(seed);
+        for step in 0..4 {
+            let triangles = mesh(random, 1.0, 30, 0);
+            let add = Edit::AddInstance {
+                mesh: MeshId::added(0),
+                transform: transform(random, 1.0),
+                radiance: 1.0,
+            };
+            let edits = vec![Edit::AddMesh { triangles }, add];
+            with.apply(edits.clone()).expect("a mesh");
+            without.apply(edits).expect("a mesh");
+            with.refit();
+            without.refit();
+            without
+                .validate()
+                .unwrap_or_else(|violation| panic!("{seed}, {step}: {violation}"));
+            assert!(with.nodes() == without.nodes() && with.top_nodes() == without.top_nodes());
+            for point in points(seed + step, &with.world_lights()) {
+                let number = random.below(1 << 24) << 8;
+                assert_eq!(with.sample(&point, number), without.sample(&point, number));
+                assert_eq!(
+                    with.sample_many::<_, 4>(&point, number),
+                    without.sample_many::<_, 4>(&point, number)
+                );
+            }
+        }
+    }
+}
+
+/// A static light BVH says the same in fewer bytes, also without an instance that was removed just before.
+#[test]
+fn static_light_bvhs_say_the_same() {
+    for seed in 0..20 {
+        let mut bvh = scene::<MomentNode<8>, D, 8>(seed, seed % 2, BuildParams::BALANCED);
+        let bright = EmissiveTriangle {
+            p: [[0.0, 5.0, 0.0], [0.0, 5.0, 1.0], [1.0, 5.0, 0.0]],
+            radiance: [1.0e6; 3],
+            mesh: 0,
+            flags: 0,
+        };
+        let mesh = bvh.add_mesh(vec![bright]).expect("a bright lamp");
+        let instance = bvh.add_instance(mesh, Transform::IDENTITY).expect("a mesh");
+        bvh.refit();
+        bvh.remove_instance(instance).expect("it is there");
+        let still: StaticBvh<_, _, 8> = bvh.clone().into_static();
+        bvh.refit();
+        assert_eq!(still.bytes(), bvh.bytes());
+        // Not even the triangles.
+        assert!(still.bytes() + 56 * bvh.triangles().len() <= bvh.memory());
+        let points = points(seed, &bvh.world_lights());
+        let numbers: Vec<_> = (0..24_u32).map(|k| hash(seed + k).into()).collect();
+        let mut batch = vec![lightbvh::SampledLight::NONE; points.len()];
+        still.sample_batch(&points, &numbers, &mut batch);
+        for ((point, &number), sampled) in points.iter().zip(&numbers).zip(batch) {
+            assert_eq!(bvh.sample(point, number), sampled);
+            assert_eq!(still.sample(point, number), sampled);
+            assert_eq!(
+                bvh.sample_many::<_, 3>(point, number),
+                still.sample_many::<_, 3>(point, number)
+            );
+            assert_eq!(
+                still.pmf(point, sampled.light, sampled.instance).to_bits(),
+                sampled.pmf.to_bits()
+            );
+        }
+    }
+    // A single level names no instance.
+    let lights = Lights::new(mesh(&mut Random(1), 1.0, 50, 0)).expect("within the domain");
+    let bvh = Default8::single_level(&lights, &BuildParams::default());
+    let (still, point) = (bvh.clone().into_static(), points(1, lights.triangles())[0]);
+    for light in 0..50 {
+        let pmfs = [bvh.pmf(&point, light, 0), still.pmf(&point, light, 0)];
+        assert_eq!(pmfs[0].to_bits(), pmfs[1].to_bits());
+    }
+}
+
+/// Swaps that do not depend on how fast a thread is.
+const PARAMS: RebuilderParams = RebuilderParams {
+    after: 1,
+    swap: Swap::Deterministic,
+    idle: 0.0,
+    bytes: 1 << 19,
+};
+
+fn whole(seed: u32) -> Default8 {
+    scene(seed, seed % 2, BuildParams::BALANCED)
+}
+
+/// The first mesh, which each scene has.
+fn first_mesh(bvh: &Default8) -> MeshId {
+    bvh.mesh_id(0).expect("the first mesh")
+}
+
+/// Every instance.
+fn ids(bvh: &Default8) -> Vec<InstanceId> {
+    let all = 0..bvh.instances().len() as u32;
+    all.filter_map(|index| bvh.instance_id(index)).collect()
+}
+
+/// What may happen to instances in a frame, by the ids of two light BVHs.
+fn changes(random: &mut Random, ids: &mut Vec<[InstanceId; 2]>, meshes: [MeshId; 2]) -> [Vec<Edit>; 2] {
+    let mut edits = [Vec::new(), Vec::new()];
+    for pair in &*ids {
+        let (what, transform) = (random.below(4), transform(random, 1.0));
+        let radiance = [0.0, 0.5, 3.0][random.below(3) as usize];
+        for (own, &instance) in edits.iter_mut().zip(pair) {
+            match what {
+                0 => own.push(Edit::SetTransform { instance, transform }),
+                1 => own.push(Edit::SetRadiance { instance, radiance }),
+                _ => {}
+            }
+        }
+    }
+    if ids.len() > 1 && random.below(3) == 0 {
+        let pair = ids.swap_remove(random.below(ids.len() as u32) as usize);
+        let removed = pair.map(Edit::RemoveInstance);
+        edits
+            .iter_mut()
+            .zip(removed)
+            .for_each(|(own, edit)| own.push(edit));
+    }
+    if random.below(3) == 0 {
+        let transform = transform(random, 1.0);
+        for (own, mesh) in edits.iter_mut().zip(meshes) {
+            own.push(Edit::AddInstance {
+                mesh,
+                transform,
+                radiance: 1.0,
+            });
+        }
+    }
+    edits
+}
+
+#[test]
+fn frames_are_those_of_the_whole() {
+    let mut swapped = 0;
+    for seed in 0..20 {
+        let random = &mut Random(seed * 77);
+        let mut whole = whole(seed);
+        // The ids of a clone are its own.
+        let copy = whole.clone();
+        let meshes = [first_mesh(&whole), first_mesh(&copy)];
+        let mut pairs: Vec<_> = ids(&whole)
+            .into_iter()
+            .zip(ids(&copy))
+            .map(|(a, b)| [a, b])
+            .collect();
+        let mut less = copy.into_static_meshes();
+        assert!(less.memory() + 56 * whole.triangles().len() <= whole.memory());
+        assert_eq!(less.bytes(), whole.bytes());
+        let [mut of_whole, mut of_less]: [Rebuilder; 2] = [0; 2].map(|_| Rebuilder::new(PARAMS));
+        for frame in 0..6 {
+            assert_eq!(whole.take_removed_lights(), less.take_removed_lights());
+            let swaps = of_whole.begin_frame(&mut whole).expect("a frame").swapped;
+            assert_eq!(less.begin_frame(&mut of_less).expect("a frame").swapped, swaps);
+            swapped += usize::from(swaps);
+            let [of_one, of_other] = changes(random, &mut pairs, meshes);
+            let added = whole.apply(of_one).expect("edits of instances").instances;
+            let as_well = less.apply(of_other).expect("edits of instances").instances;
+            pairs.extend(added.into_iter().zip(as_well).map(|(a, b)| [a, b]));
+            whole.refit();
+            less.refit();
+            of_whole.end_frame(&whole);
+            less.end_frame(&mut of_less);
+            assert!(whole.nodes() == less.tree().nodes, "{seed}, {frame}");
+            assert!(whole.top_nodes() == less.tree().top, "{seed}, {frame}");
+            assert_eq!(whole.instances(), less.tree().instances, "{seed}, {frame}");
+            for point in points(seed + frame, &whole.world_lights()) {
+                let number = hash(random.below(1 << 24));
+                let sampled = less.sample(&point, number);
+                assert_eq!(whole.sample(&point, number), sampled);
+                let pmf = less.pmf(&point, sampled.light, sampled.instance);
+                assert_eq!(pmf.to_bits(), sampled.pmf.to_bits());
+            }
+        }
+        for [id, as_well] in pairs {
+            assert_eq!(whole.lights_of(id), less.lights_of(as_well));
+        }
+    }
+    assert!(swapped > 20, "{swapped}");
+}
+
+#[test]
+fn edits_of_meshes_are_refused_whole() {
+    let bvh = whole(3);
+    let (own, ids) = (first_mesh(&bvh), ids(&bvh));
+    let triangles = bvh.mesh_triangles(own).expect("the first mesh").to_vec();
+    let mut less = bvh.into_static_meshes();
+    let before = less.tree().instances.to_vec();
+    let first = Edit::SetRadiance {
+        instance: ids[0],
+        radiance: 7.0,
+    };
+    let refused = Edit::SetTriangles { mesh: own, triangles };
+    let error = less.apply(vec![first, refused]).expect_err("no triangles");
+    assert_eq!((error.edit, error.reason), (1, EditReason::StaticMeshes));
+    assert_eq!(less.tree().instances, before);
+}
+
+/// A mesh's tree is being built when its triangles are dropped; also a mesh that has changed since the build began.
+#[test]
+fn builds_under_way_end_without_triangles() {
+    let mut swapped = [0; 2];
+    for seed in 0..20 {
+        let mut bvh = whole(seed);
+        let own = first_mesh(&bvh);
+        let mut triangles = bvh.mesh_triangles(own).expect("the first mesh").to_vec();
+        let mut rebuilder = Rebuilder::new(PARAMS);
+        // The top level is built first.
+        for _ in 0..2 {
+            rebuilder.begin_frame(&mut bvh).expect("a frame");
+            triangles.reverse();
+            bvh.set_triangles(own, triangles.clone()).expect("as many");
+            bvh.refit();
+            rebuilder.end_frame(&bvh);
+        }
+        let is_changed = seed % 2 == 0;
+        if is_changed {
+            triangles.reverse();
+            bvh.set_triangles(own, triangles).expect("as many");
+            bvh.refit();
+        }
+        let world = bvh.world_lights();
+        let point = points(seed, &world)[0];
+        let all = (0..).zip(&world);
+        let shining: Vec<_> = all
+            .map(|(light, own)| (light, own.mesh))
+            .filter(|&(light, instance)| bvh.pmf(&point, light, instance) > 0.0)
+            .collect();
+        let mut less = bvh.into_static_meshes();
+        for _ in 0..4 {
+            let start = less.begin_frame(&mut rebuilder).expect("a frame");
+            swapped[usize::from(is_changed)] += start.meshes;
+            less.refit();
+            less.end_frame(&mut rebuilder);
+            let mut again = less.clone();
+            again.rebuild();
+            for bvh in [&less, &again] {
+                let pmfs = shining
+                    .iter()
+                    .map(|&(light, instance)| bvh.pmf(&point, light, instance));
+                assert!(pmfs.clone().all(|pmf| pmf > 0.0), "{seed}");
+                let sum: f64 = pmfs.map(f64::from).sum();
+                assert!(shining.is_empty() || (sum - 1.0).abs() < 1e-6, "{seed}: {sum}");
+            }
+        }
+    }
+    assert!(swapped[0] > 0, "{swapped:?}");
+}
