@@ -182,7 +182,7 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
             others: normal.extensions.as_ref().map(|extensions| &extensions.others),
         };
         paint.bump_texture = lie(document.placed(&named, element)?, "normal", false);
-        paint.bump = normal.scale;
+        paint.bump = paint.bump_texture.map_or(0.0, |_| normal.scale);
     }
     // Nothing glows, whatever the texture shows.
     let is_named = glow.is_some();
