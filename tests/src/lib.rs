@@ -4,7 +4,6 @@ pub mod broken;
 pub mod devices;
 pub mod direct;
 pub mod generate;
-pub mod gltf_files;
 pub mod layouts;
 pub mod oracle;
 pub mod placing;

@@ -28,72 +28,45 @@ const LAMP: EmissiveTriangle = EmissiveTriangle {
 
 #[test]
 fn lights() {
-    let far = |vertex: usize, axis: usize| {
+    let wrong = |change: &dyn Fn(&mut EmissiveTriangle), words: &[&str]| {
         let mut lamp = LAMP;
-        lamp.p[vertex][axis] = 1e20;
-        lamp.checked().expect_err("beyond the domain")
+        change(&mut lamp);
+        says(&lamp.checked().expect_err("wrong"), words);
     };
-    assert_eq!(
-        far(2, 1),
-        LightError::Place {
-            what: "third vertex of a triangle",
-            axis: 1,
-            value: 1e20
-        }
-    );
-    says(
-        &far(0, 0),
-        &[
-            "coordinate x of the first vertex",
-            "1e20",
-            "2^40",
-            "scale the scene",
-        ],
-    );
-    says(&far(1, 2), &["coordinate z of the second vertex"]);
+    let far = ["coordinate x of the first vertex", "1e20", "2^40", "scale the scene"];
+    wrong(&|lamp| lamp.p[0][0] = 1e20, &far);
+    wrong(&|lamp| lamp.p[1][2] = -1e20, &["coordinate z of the second vertex"]);
     for (channel, name) in ["red", "green", "blue"].into_iter().enumerate() {
-        let mut lamp = LAMP;
-        lamp.radiance[channel] = -3.0;
-        let error = lamp.checked().expect_err("negative");
-        let what = "radiance of a triangle";
-        let value = -3.0;
-        assert_eq!(error, LightError::Emission { what, channel, value });
-        says(&error, &[name, "-3", "2^-100 to 2^100", "repair"]);
-        lamp.radiance[channel] = 2.0 * MAX_RADIANCE;
-        lamp.checked().expect_err("too bright");
-    }
-    let mut lamp = LAMP;
-    for flags in [0, TWO_SIDED] {
-        lamp.flags = flags;
-        assert_eq!(lamp.checked(), Ok(lamp));
+        let negative = [name, "-3", "2^-100 to 2^100", "repair"];
+        wrong(&|lamp| lamp.radiance[channel] = -3.0, &negative);
+        wrong(&|lamp| lamp.radiance[channel] = 2.0 * MAX_RADIANCE, &[name]);
     }
     for flags in [2, 3, 1 << 31, u32::MAX] {
-        lamp.flags = flags;
-        let error = lamp.checked().expect_err("a bit that means nothing");
-        assert_eq!(error, LightError::Flags { flags });
-        says(&error, &["flags", &format!("{flags:#x}"), "TWO_SIDED (1)"]);
+        let words = ["flags", &format!("{flags:#x}"), "TWO_SIDED (1)"];
+        wrong(&|lamp| lamp.flags = flags, &words);
+    }
+    for flags in [0, TWO_SIDED] {
+        let lamp = EmissiveTriangle { flags, ..LAMP };
+        assert_eq!(lamp.checked(), Ok(lamp));
     }
 
     says(
         &LightsError::TooMany { count: 5 << 30 },
         &["5368709120", "2^30", "split"],
     );
-    let mut lamps = vec![LAMP; 4];
-    lamps[2].p[0][0] = f32::NAN;
-    says(
-        &Lights::new(lamps).expect_err("NaN"),
-        &["emissive triangle 2", "coordinate x", "NaN"],
-    );
-    let mut lamps = vec![LAMP; 4];
-    lamps[3].mesh = 7;
-    says(
-        &Lights::new(lamps).expect_err("a gap"),
-        &[
-            "emissive triangle 3",
-            "mesh light 7",
-            "expected 1 or the one before",
-        ],
-    );
+    let refused = |change: &dyn Fn(&mut Vec<EmissiveTriangle>), words: &[&str]| {
+        let mut lamps = vec![LAMP; 4];
+        change(&mut lamps);
+        says(&Lights::new(lamps).expect_err("wrong"), words);
+    };
+    let nan = ["emissive triangle 2", "coordinate x", "NaN"];
+    refused(&|lamps| lamps[2].p[0][0] = f32::NAN, &nan);
+    let gap = [
+        "emissive triangle 3",
+        "mesh light 7",
+        "expected 1 or the one before",
+    ];
+    refused(&|lamps| lamps[3].mesh = 7, &gap);
 }
 
 #[test]
@@ -113,78 +86,48 @@ fn edits() {
         assert_eq!(error.edit, 1);
         says(&error, &["edit 1: "]);
         says(&error, words);
-        error.reason
     };
-    refused(
-        Edit::AddMesh {
-            triangles: Vec::new(),
-        },
-        &["without lights"],
-    );
-    let mut triangles = vec![LAMP; 3];
-    triangles[1].radiance[2] = f32::NAN;
-    refused(Edit::AddMesh { triangles }, &["light 1", "blue", "NaN"]);
-    let triangles = vec![LAMP; 2];
-    let count = refused(
-        Edit::SetTriangles { mesh, triangles },
-        &["2 lights for a mesh of 3"],
-    );
-    assert_eq!(
-        count,
-        EditReason::Count {
-            expected: 3,
-            found: 2
-        }
-    );
-    let (first, triangles) = (2, vec![LAMP; 2]);
-    refused(
-        Edit::SetTriangleRange {
-            mesh,
-            first,
-            triangles,
-        },
-        &["lights 2 to 4 of a mesh of 3", "within it"],
-    );
-    refused(
-        add(here, 2.0f32.powi(61)),
-        &["factor on radiance", "2^-60 to 2^60"],
-    );
-    refused(add(here, 2.0f32.powi(-61)), &["factor on radiance"]);
+    let triangles = |count| vec![LAMP; count];
+    let none = Edit::AddMesh {
+        triangles: triangles(0),
+    };
+    refused(none, &["without lights"]);
+    let mut lamps = triangles(3);
+    lamps[1].radiance[2] = f32::NAN;
+    refused(Edit::AddMesh { triangles: lamps }, &["light 1", "blue", "NaN"]);
+    let fewer = Edit::SetTriangles {
+        mesh,
+        triangles: triangles(2),
+    };
+    refused(fewer, &["2 lights for a mesh of 3"]);
+    let beyond = Edit::SetTriangleRange {
+        mesh,
+        first: 2,
+        triangles: triangles(2),
+    };
+    refused(beyond, &["lights 2 to 4 of a mesh of 3", "within it"]);
+    let bright = ["factor on radiance", "2^-60 to 2^60"];
+    refused(add(here, 2.0f32.powi(61)), &bright);
+    refused(add(here, 2.0f32.powi(-61)), &bright);
     refused(Edit::RemoveMesh(mesh), &["still has 2 instances"]);
     let mut tall = here;
     tall.columns[1][2] = f32::INFINITY;
     refused(add(tall, 1.0), &["columns[1][2]", "inf", "2^40"]);
     refused(add(Transform::at([0.0, 1.1e12, 0.0]), 1.0), &["translation[1]"]);
-    // All within 2^40, but not what they make together.
+    // All within 2^40, but not together.
     let mut far = Transform::at([1.0e12, 0.0, 0.0]);
     far.columns[0][0] = 1.0e12;
-    let reason = refused(add(far, 1.0), &["as far as", "2^40 m", "scale the scene"]);
-    let EditReason::Transform(TransformError::TooFar { metres }) = reason else {
-        panic!("{reason:?}");
-    };
-    assert!((metres - 2.0e12).abs() < 1e7, "{metres}");
+    refused(add(far, 1.0), &["as far as", "2^40 m", "scale the scene"]);
 
     let mut scene = Bvh::<CompactNode<4>, (), 4>::default();
-    let error = scene.apply(vec![Edit::RemoveMesh(mesh)]).expect_err("no mesh");
-    assert_eq!(
-        error,
-        EditError {
-            edit: 0,
-            reason: EditReason::UnknownMesh(mesh)
-        }
-    );
-    says(&error, &["edit 0: mesh 0 is not there"]);
-    let error = scene
-        .apply(vec![Edit::RemoveInstance(instance)])
-        .expect_err("no instance");
-    says(&error, &["instance 0 is not there"]);
-    says(
-        &EditError {
-            edit: 7,
-            reason: EditReason::TooMany,
-        },
-        &["edit 7: more than 2^30"],
-    );
+    for (edit, words) in [
+        (Edit::RemoveMesh(mesh), "edit 0: mesh 0 is not there"),
+        (Edit::RemoveInstance(instance), "edit 0: instance 0 is not there"),
+    ] {
+        says(&scene.apply(vec![edit]).expect_err("nothing there"), &[words]);
+    }
+    let (edit, reason) = (7, EditReason::TooMany);
+    says(&EditError { edit, reason }, &["edit 7: more than 2^30"]);
 }
 
 #[test]
@@ -192,27 +135,14 @@ fn lights_that_cannot_be_followed() {
     let lights = |count| Lights::new(vec![LAMP; count]).expect("lamps of one mesh light");
     let mut bvh = lightbvh::LightBvh::two_level(&lights(2), &lightbvh::BuildParams::default());
     let error = bvh.follow(&lights(3)).expect_err("one more");
-    assert_eq!(
-        error,
-        FollowError {
-            mesh: 0,
-            reason: EditReason::Count {
-                expected: 2,
-                found: 3
-            }
-        }
-    );
     says(
         &error,
         &["mesh light 0: 3 triangles, expected 2", "build it anew"],
     );
-    // What is refused by itself names no batch.
+    // An edit by itself names no batch.
     let mesh = bvh.mesh_id(0).expect("the first");
-    let error = bvh.remove_mesh(mesh).expect_err("in use");
-    assert!(
-        error.to_string().starts_with("the mesh still has 1 instance;"),
-        "{error}"
-    );
+    let error = bvh.remove_mesh(mesh).expect_err("in use").to_string();
+    assert!(error.starts_with("the mesh still has 1 instance;"), "{error}");
 }
 
 #[test]
@@ -267,10 +197,9 @@ fn violations() {
         "{text}"
     );
     assert!(text.contains("low trail word: expected "), "{text}");
+    let message = String::from("out of luck");
     says(
-        &RebuildError::Panicked {
-            message: String::from("out of luck"),
-        },
+        &RebuildError::Panicked { message },
         &["panicked: out of luck", "keeps its trees"],
     );
 }

@@ -1,10 +1,6 @@
-//! Photometric lights: what they send by every way to render, from files and back.
+//! Photometric lights: what they send by every way to render.
 
-use lightbvh_host::scene::{
-    AnalyticKind, AnalyticLight, Material, Photometry, Profile, Scene, SceneData, Transform,
-};
-use lightbvh_tests::gltf_files::{changed, embedded, push, read_json, triangle};
-use serde_json::json;
+use lightbvh_host::scene::{AnalyticKind, AnalyticLight, Photometry, Profile, SceneData, Transform};
 
 use crate::kinds_render::node;
 use crate::textures::{along, plain_floor, reflects};
@@ -96,77 +92,4 @@ fn floors_get_what_the_table_says() {
         // Pictures are of bytes and of means over texels: two hundredths of what is there.
         reflects(data, [light, 0.5 * light, 0.25 * light], [0.5; 3], 0.022);
     }
-}
-
-/// `EXT_lights_ies`: profiles by uri, lights by node, what is wrong left out with a note.
-#[test]
-fn files_name_profiles() {
-    let mut root = triangle();
-    root["extensionsUsed"] = json!(["EXT_lights_ies"]);
-    root["extensionsRequired"] = json!(["EXT_lights_ies"]);
-    root["extensions"] = json!({ "EXT_lights_ies": { "lights": [
-        { "name": "uneven", "uri": embedded(&uneven()) },
-        { "name": "broken", "uri": embedded(b"IESNA:LM-63-2002\nTILT=NONE\n1 2") },
-        { "name": "empty" },
-    ] } });
-    let lit =
-        |extension| json!({ "translation": [0.0, 1.0, 0.0], "extensions": { "EXT_lights_ies": extension } });
-    for extension in [
-        json!({ "light": 0 }),
-        json!({ "light": 0, "multiplier": 2.5, "color": [1.0, 0.5, 0.0] }),
-        json!({ "light": 1 }),
-        json!({ "light": 1 }),
-        json!({ "light": 2 }),
-        json!({ "light": 3 }),
-        json!({ "light": 0, "multiplier": -1.0 }),
-    ] {
-        let at = root["nodes"].as_array().expect("nodes").len();
-        push(&mut root["nodes"], lit(extension));
-        push(&mut root["scenes"][0]["nodes"], json!(at));
-    }
-    let scene = read_json(&root).expect("a sound file");
-    let data = scene.data();
-    assert_eq!(data.profiles.len(), 1);
-    let found: Vec<_> = data
-        .analytic
-        .iter()
-        .map(|own| (own.intensity, own.color))
-        .collect();
-    assert_eq!(found, [(1.0, [1.0; 3]), (2.5, [1.0, 0.5, 0.0])]);
-    let warned = |part: &str| scene.warnings().iter().filter(|own| own.contains(part)).count();
-    assert_eq!(
-        warned("profile 1 (EXT_lights_ies) is left out"),
-        1,
-        "{:?}",
-        scene.warnings()
-    );
-    assert_eq!(warned("profile 2 (EXT_lights_ies) is left out"), 1);
-    assert_eq!(warned("profile 3 (EXT_lights_ies) is left out"), 1);
-    assert_eq!(warned("negative or not finite"), 1);
-    // A required extension that cannot be read is an error.
-    let wrong = changed(
-        "/nodes/0/extensions",
-        json!({ "EXT_lights_ies": { "light": "first" } }),
-    );
-    assert!(read_json(&wrong).is_ok(), "it is not required there");
-}
-
-/// A scene with profiles that is written and read again has the same lights and pictures.
-#[test]
-fn profiles_survive_a_file() {
-    let mut data = SceneData {
-        materials: vec![Material::default()],
-        ..plain_floor([0.0, 12.0])
-    };
-    hang(&mut data);
-    let scene = Scene::new(data).expect("a sound scene");
-    assert!(scene.has_kinds());
-    let back =
-        Scene::read_gltf_slice("back.glb", &scene.to_glb().expect("written"), None).expect("read back");
-    assert_eq!(scene.data().profiles, back.data().profiles);
-    let lights = |scene: &Scene| scene.frame(3).lights::<lightbvh::light::AnyLight>();
-    assert_eq!(lights(&scene), lights(&back));
-    // Without textures, profiles stay.
-    let plain = scene.clone().unpainted();
-    assert_eq!(plain.frame(0).paint, scene.frame(0).paint);
 }

@@ -33,3 +33,23 @@ fn random_inputs() {
         }
     }
 }
+
+/// The document that the target `gltf` changes is read whole.
+#[test]
+fn document_of_the_fuzzer_is_sound() {
+    let document = lightbvh_fuzz::gltf_document(&[0; 64]);
+    let scene = lightbvh_host::scene::Scene::read_gltf_slice("fuzz", &document, None).expect("sound");
+    let said = scene.warnings();
+    assert!(
+        !said
+            .iter()
+            .any(|own| own.contains("left out") || own.contains("counts as")),
+        "{said:?}"
+    );
+    let data = scene.data();
+    assert_eq!(
+        (data.meshes.len(), data.pictures.len(), data.skins.len()),
+        (4, 2, 1)
+    );
+    assert_eq!((data.analytic.len(), data.animations[0].channels.len()), (1, 4));
+}

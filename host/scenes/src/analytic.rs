@@ -113,16 +113,6 @@ impl AnalyticLight {
         self.color.map(|channel| channel * intensity)
     }
 
-    /// [`emission`](Self::emission), where no product is lost.
-    pub(super) fn wide_emission(&self) -> [f64; 3] {
-        let peak = match self.kind {
-            AnalyticKind::Profile { peak, .. } => f64::from(peak),
-            _ => 1.0,
-        };
-        let intensity = f64::from(self.intensity) * peak;
-        self.color.map(|channel| f64::from(channel) * intensity)
-    }
-
     /// The light in the space of its node, where a tree has one for it: none for suns.
     pub fn light(&self) -> Option<AnyLight> {
         let emission = self.emission();

@@ -1,8 +1,10 @@
-//! The camera of a frame, from a node or looking at a box.
+//! The camera of a frame, from a node or looking at a place, and which way is up.
+
+use glam::DAffine3;
 
 use super::error::SceneError;
 use super::model::{Camera, Node, Scene};
-use super::transform::{Affine, Transform, unit_or};
+use super::transform::{Transform, unit_or};
 use crate::vector::{cross, sub};
 
 /// Where an image is seen from.
@@ -53,12 +55,26 @@ impl Scene {
         });
         Self::new(data)
     }
+
+    /// The scene of a file whose +Z is up, turned so that +Y is: (x, y, z) lies at (x, z, −y) then. For scenes whose roots are
+    /// not animated, as OBJ's and PLY's are.
+    ///
+    /// # Errors
+    /// As [`Scene::new`].
+    pub fn from_z_up(self) -> Result<Self, SceneError> {
+        let mut data = self.into_data();
+        for node in data.nodes.iter_mut().filter(|node| node.parent.is_none()) {
+            let columns = node.transform.affine().to_cols_array_2d();
+            node.transform = Transform::Matrix(columns.map(|[x, y, z]| [x as f32, z as f32, -y as f32]));
+        }
+        Self::new(data)
+    }
 }
 
 /// The camera of a node: looks along -Z, +Y up; the node's scale does not matter.
-pub(super) fn view_of_node(world: &Affine, yfov: f32) -> View {
-    let forward = unit_or(world.columns[2].map(|x| -x), [0.0, 0.0, -1.0]);
-    looking(world.columns[3], forward, world.columns[1], yfov)
+pub(super) fn view_of_node(world: &DAffine3, yfov: f32) -> View {
+    let [_, up, back, eye] = world.to_cols_array_2d();
+    looking(eye, unit_or(back.map(|x| -x), [0.0, 0.0, -1.0]), up, yfov)
 }
 
 /// `forward` is a unit vector; `up` is made orthogonal to it.
@@ -80,5 +96,35 @@ pub(super) fn looking(eye: [f64; 3], forward: [f64; 3], up: [f64; 3], yfov: f32)
         up: narrow(up),
         forward: narrow(forward),
         yfov,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::builder::SceneBuilder;
+    use super::super::shapes::Shape;
+    use crate::Scene;
+
+    #[test]
+    fn what_was_up_is_up() {
+        let mut b = SceneBuilder::new("test", [0.0; 3]);
+        let grey = b.matte("grey", [0.5; 3], 1.0);
+        // Its front towards +Z.
+        let mut flat = Shape::new();
+        flat.quad([[0.0, 0.0, 1.0], [3.0, 0.0, 1.0], [3.0, 2.0, 1.0], [0.0, 2.0, 1.0]]);
+        let mesh = b.mesh("flat", &[(&flat, grey)]);
+        b.put("flat", None, [0.0, 0.0, 10.0], mesh);
+        let turned = b
+            .finish()
+            .and_then(Scene::from_z_up)
+            .expect("a sound scene")
+            .frame(0);
+        let first = turned.triangles[0].p;
+        assert_eq!(first, [[0.0, 11.0, 0.0], [3.0, 11.0, 0.0], [3.0, 11.0, -2.0]]);
+        assert_eq!(
+            crate::vector::normal(first),
+            [0.0, 6.0, 0.0],
+            "the front is above"
+        );
     }
 }

@@ -26,11 +26,8 @@ struct Palette {
     bulbs: [u32; 5],
 }
 
-/// Builds the scene.
-///
-/// # Errors
-/// None in practice: the scene passes the same checks as one from a file.
-pub fn carousel() -> Result<Scene, SceneError> {
+/// Builds the scene, which passes the same checks as one from a file.
+pub(super) fn carousel() -> Result<Scene, SceneError> {
     let mut b = SceneBuilder::new("carousel", [0.010, 0.010, 0.026]);
     let mut random = Random::new(3);
     let colors = [

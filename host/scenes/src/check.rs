@@ -6,32 +6,20 @@ use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE};
 use lightbvh_kernels::shading::sky::MAX_SUNS;
 
 use super::analytic::{AnalyticKind, AnalyticLight};
+use super::animate::Pose;
 use super::clips::named;
 use super::deform::is_skinned;
 use super::error::{SceneError, malformed};
 use super::flush::flush_tiny;
 use super::frame::emits;
-use super::lamps::Facets;
 use super::model::{
     Animation, Channel, Counts, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
 };
-use super::motion_bounds;
 use super::paint::{MAX_SIDE, Opacity, Paint, Picture};
 use super::transform::Transform;
 
 /// Most triangles of a frame, over all instances: 2^26, some 3 GiB of records, well inside 32-bit indices.
 pub const MAX_TRIANGLES: u64 = 1 << 26;
-
-/// Greatest magnitude of a texture coordinate, and of a number of a texture's transform: 2^20.
-pub(super) const MAX_TEXTURE_COORDINATE: f32 = 1_048_576.0;
-
-/// A number of a texture in ±2^20; `none` for what is no number.
-pub(super) fn bounded(x: f32, none: f32) -> f32 {
-    if x.is_nan() {
-        return none;
-    }
-    x.clamp(-MAX_TEXTURE_COORDINATE, MAX_TEXTURE_COORDINATE)
-}
 
 /// Greatest factor on how far normals bend.
 const MAX_BUMP: f32 = 1024.0;
@@ -41,17 +29,15 @@ const IS_FINITE: &str = "expected a finite number; repair the model and export i
 const COORDINATES: RangeInclusive<f32> = -MAX_COORDINATE..=MAX_COORDINATE;
 const IS_NEAR: &str = "expected a coordinate within 2^40 metres of the origin";
 const IS_SHARE: &str = "expected 0 to 1";
-const TEXTURE: RangeInclusive<f32> = -MAX_TEXTURE_COORDINATE..=MAX_TEXTURE_COORDINATE;
 
 impl Scene {
     /// Checks `data` and wraps it.
     ///
-    /// Coordinates and radiances below 2^-100 become +0. A scene without lights passes; commands that need lights
+    /// Coordinates and radiances below 2^-100 become +0; texture coordinates are cut to ±2^20. A scene without lights passes; commands that need lights
     /// call [`Scene::require_lights`].
     ///
     /// # Errors
-    /// A value that is not finite, negative emission, a coordinate that could leave ±[`MAX_COORDINATE`] in any frame, an
-    /// index out of range, a parent after its child, too many triangles, no triangle at all.
+    /// A value that is not finite, negative emission, a vertex beyond ±[`MAX_COORDINATE`] in frame 0, an index out of range, a parent after its child, too many triangles, no triangle at all.
     pub fn new(mut data: SceneData) -> Result<Self, SceneError> {
         flush_tiny(&mut data);
         let check = Check { scene: &data.name };
@@ -87,7 +73,7 @@ impl Scene {
         }
         check.color(|| String::from("background"), data.background)?;
         let counts = check.count(&data)?;
-        motion_bounds::check(&data)?;
+        check.places(&data)?;
         Ok(Self::from_checked(data, counts))
     }
 
@@ -99,7 +85,7 @@ impl Scene {
         };
         let found = check
             .animations(&self.data)
-            .and_then(|()| motion_bounds::check(&self.data));
+            .and_then(|()| check.places(&self.data));
         if found.is_err() {
             self.data.animations = old;
         }
@@ -108,8 +94,8 @@ impl Scene {
 }
 
 /// The checks, with the name that their errors carry.
-pub(super) struct Check<'a> {
-    pub scene: &'a str,
+struct Check<'a> {
+    scene: &'a str,
 }
 
 impl Check<'_> {
@@ -142,7 +128,7 @@ impl Check<'_> {
     }
 
     /// All of `values` in `range`, in which NaN is not.
-    pub(super) fn within<T: PartialOrd + Copy + std::fmt::Display>(
+    fn within<T: PartialOrd + Copy + std::fmt::Display>(
         &self,
         element: impl Fn() -> String,
         values: &[T],
@@ -167,20 +153,19 @@ impl Check<'_> {
     fn material(&self, index: usize, material: &Material) -> Result<(), SceneError> {
         let name = |what: &str| format!("{what} of material {index} `{}`", material.name);
         self.color(|| name("radiance"), material.radiance)?;
-        self.shares(
-            &name,
-            &[
-                ("base colour", &material.base_color),
-                ("metallic", &[material.metallic]),
-                ("roughness", &[material.roughness]),
-                ("transmission", &[material.transmission]),
-            ],
-        )
+        let factors = [material.metallic, material.roughness, material.transmission];
+        self.shares(&name, &material.base_color, factors)
     }
 
-    fn shares(&self, name: &impl Fn(&str) -> String, all: &[(&str, &[f32])]) -> Result<(), SceneError> {
-        all.iter()
-            .try_for_each(|(what, values)| self.within(|| name(what), values, 0.0..=1.0, IS_SHARE))
+    fn shares(
+        &self,
+        name: &impl Fn(&str) -> String,
+        base: &[f32],
+        factors: [f32; 3],
+    ) -> Result<(), SceneError> {
+        self.within(|| name("base colour or opacity"), base, 0.0..=1.0, IS_SHARE)?;
+        let mut all = ["metallic", "roughness", "transmission"].into_iter().zip(factors);
+        all.try_for_each(|(what, factor)| self.within(|| name(what), &[factor], 0.0..=1.0, IS_SHARE))
     }
 
     fn picture(&self, index: usize, picture: &Picture) -> Result<(), SceneError> {
@@ -195,15 +180,8 @@ impl Check<'_> {
     fn paint(&self, index: usize, paint: &Paint, pictures: usize) -> Result<(), SceneError> {
         let name = |what: &str| format!("{what} of the paint of material {index}");
         self.color(|| name("radiance"), paint.radiance)?;
-        self.shares(
-            &name,
-            &[
-                ("base colour or opacity", &paint.base),
-                ("metallic", &[paint.metallic]),
-                ("roughness", &[paint.roughness]),
-                ("transmission", &[paint.transmission]),
-            ],
-        )?;
+        let factors = [paint.metallic, paint.roughness, paint.transmission];
+        self.shares(&name, &paint.base, factors)?;
         let bump = || name("factor of normals");
         let expected = "expected at most 2^10 in magnitude";
         self.within(bump, &[paint.bump], -MAX_BUMP..=MAX_BUMP, expected)?;
@@ -213,9 +191,6 @@ impl Check<'_> {
         for (what, texture) in paint.textures() {
             let picture = || name(&format!("picture of the {what}"));
             self.index(picture, texture.picture, pictures)?;
-            let element = || name(&format!("scale or offset of the {what} texture"));
-            let expected = "expected at most 2^20 in magnitude; give its transform a smaller scale or offset";
-            self.within(element, texture.transform.as_flattened(), TEXTURE, expected)?;
         }
         Ok(())
     }
@@ -246,8 +221,6 @@ impl Check<'_> {
         if let Some(coordinates) = &primitive.coordinates {
             let list = || format!("texture coordinates of {name}");
             self.length(list, coordinates.len(), vertices)?;
-            let expected = "expected at most 2^20 in magnitude; move the coordinates nearer to 0";
-            self.within(list, coordinates.as_flattened(), TEXTURE, expected)?;
         }
         for (t, target) in primitive.targets.iter().enumerate() {
             let element = || format!("target {t} of {name}");
@@ -393,6 +366,22 @@ impl Check<'_> {
         self.color(|| name("emission"), emission)
     }
 
+    /// Vertices of frame 0 are in the domain; light BVHs refuse lights that leave it later.
+    fn places(&self, data: &SceneData) -> Result<(), SceneError> {
+        let farthest = f64::from(MAX_COORDINATE);
+        let pose = Pose::at(data, 0.0);
+        for (n, node) in data.nodes.iter().enumerate() {
+            let primitives = node
+                .mesh
+                .map_or(&[][..], |mesh| &data.meshes[mesh as usize].primitives);
+            for point in primitives.iter().flat_map(|own| pose.placed(data, n, own).points) {
+                let element = || format!("coordinate of a vertex of node {n} `{}` in frame 0", node.name);
+                self.within(element, &point, -farthest..=farthest, IS_NEAR)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Sizes of every frame, and whether 32-bit indices and memory can hold them.
     fn count(&self, data: &SceneData) -> Result<Counts, SceneError> {
         let of_primitive = |primitive: &Primitive| {
@@ -410,9 +399,8 @@ impl Check<'_> {
         let placed = data.nodes.iter().filter_map(|node| node.mesh);
         let total = placed.map(|mesh| per_mesh[mesh as usize]).fold([0; 4], add);
         let [mut triangles, clear, emissive, mesh_lights] = total;
-        let fine = Facets::of(data);
         for light in &data.analytic {
-            triangles = triangles.saturating_add(light.facets(fine));
+            triangles = triangles.saturating_add(light.facets());
         }
         let is_sun = |light: &&AnalyticLight| light.kind == AnalyticKind::Directional;
         let suns = data.analytic.iter().filter(is_sun).count();

@@ -42,7 +42,7 @@ impl SceneData {
     /// likewise; none besides. Of those that move the same things the first.
     ///
     /// # Errors
-    /// The word that names none, what moves nothing where it names that, and the names that there are.
+    /// The word that names none, and the names that there are.
     pub fn play(&mut self, words: &[String]) -> Result<(), NoClip> {
         self.warnings.retain(|warning| !warning.ends_with(ADVICE));
         let mut all = std::mem::take(&mut self.animations);
@@ -51,18 +51,18 @@ impl SceneData {
         let mut chosen: Vec<Animation> = Vec::new();
         for word in words {
             let place: Option<u32> = word.parse().ok();
-            let is_own = |own: u32, name: &str| name == word || Some(own) == place;
             let by_name = all.iter().position(|animation| animation.name == *word);
             let by_place = || all.iter().position(|animation| Some(animation.place) == place);
             let Some(index) = by_name.or_else(by_place) else {
-                if chosen.iter().any(|own| is_own(own.place, &own.name)) {
+                if chosen
+                    .iter()
+                    .any(|own| own.name == *word || Some(own.place) == place)
+                {
                     // Named again.
                     continue;
                 }
-                let idle = self.idle.iter().find(|(place, name)| is_own(*place, name));
                 return Err(NoClip {
                     word: word.clone(),
-                    idle: idle.map(|(place, name)| named(*place, name)),
                     expected: match (all.is_empty(), chosen.is_empty()) {
                         (true, true) => {
                             String::from("a scene with animations, and it has none; leave the option out")
@@ -109,21 +109,6 @@ impl Scene {
         }
         broken
     }
-
-    /// What moves nothing of the scene and so is not written, in words.
-    pub fn idle_clips(&self) -> Option<String> {
-        let idle = &self.data().idle;
-        let all = idle.iter().map(|(place, name)| (*place, name.as_str()));
-        let (is, moves) = match idle.len() {
-            0 => return None,
-            1 => ("animation", "moves"),
-            _ => ("animations", "move"),
-        };
-        Some(format!(
-            "{is} {} {moves} nothing of the scene, left out: in the file that is written later animations have other numbers",
-            names(all)
-        ))
-    }
 }
 
 /// A word that names no animation that can be shown.
@@ -131,8 +116,6 @@ impl Scene {
 pub struct NoClip {
     /// The word.
     pub word: String,
-    /// The animation that it names, where that moves nothing of the scene.
-    pub idle: Option<String>,
     /// What would do.
     pub expected: String,
 }
@@ -211,19 +194,11 @@ mod tests {
         assert!(data.warnings[0].starts_with("animation 0 \"idle\""));
         let all = "one of 0 \"idle\", 1 \"walk\", 2 \"door\", 3 \"bob\"";
         let error = play(&mut data.clone(), &["run"]).expect_err("there is none");
-        assert_eq!(
-            (error.word.as_str(), error.expected.as_str(), error.idle),
-            ("run", all, None)
-        );
+        assert_eq!((error.word.as_str(), error.expected.as_str()), ("run", all));
         // Named again it is the same, which is there.
         let mut again = data.clone();
         play(&mut again, &["walk", "walk", "1"]).expect("there");
         assert_eq!(shown(&again), ["walk"]);
-        data.idle.push((4, String::from("wave")));
-        for word in ["wave", "4"] {
-            let error = play(&mut data.clone(), &[word]).expect_err("it moves nothing");
-            assert_eq!(error.idle.as_deref(), Some("4 \"wave\""));
-        }
         assert!(play(&mut SceneData::default(), &["run"]).is_err());
         // Two of one name are told apart by their places; names come first.
         let mut twins = SceneData {

@@ -1,8 +1,10 @@
 //! Meshes that bend: morph targets and skins, and where their vertices are at a time.
 
+use glam::DAffine3;
+
 use super::animate::Pose;
 use super::model::{Primitive, SceneData};
-use super::transform::Affine;
+use super::transform::{affine, mirrors};
 
 /// Four of the joints that move a vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,16 +49,16 @@ impl Pose {
         let Some(skin) = skin else {
             let to_world = &self.world[node];
             return Placed {
-                points: local.into_iter().map(|p| to_world.point(p)).collect(),
-                mirrored: to_world.mirrors(),
+                points: local.into_iter().map(|p| moved(to_world, p)).collect(),
+                mirrored: mirrors(to_world),
             };
         };
         let skin = &data.skins[skin as usize];
-        let joints: Vec<Affine> = skin
+        let joints: Vec<DAffine3> = skin
             .joints
             .iter()
             .zip(&skin.inverse_bind)
-            .map(|(&joint, bind)| self.world[joint as usize].then_after(&affine(bind)))
+            .map(|(&joint, bind)| self.world[joint as usize] * affine(bind))
             .collect();
         let first = primitive.influences.first().and_then(|set| set.first());
         let leader = first.map_or(0, |influence| influence.joints[0]);
@@ -64,7 +66,7 @@ impl Pose {
             points: (0..local.len())
                 .map(|vertex| skinned(&joints, primitive, vertex, local[vertex]))
                 .collect(),
-            mirrored: joints[usize::from(leader)].mirrors(),
+            mirrored: mirrors(&joints[usize::from(leader)]),
         }
     }
 
@@ -85,19 +87,17 @@ impl Pose {
     }
 }
 
-pub(super) fn affine(columns: &[[f32; 3]; 4]) -> Affine {
-    Affine {
-        columns: columns.map(|column| column.map(f64::from)),
-    }
+fn moved(map: &DAffine3, p: [f64; 3]) -> [f64; 3] {
+    map.transform_point3(p.into()).into()
 }
 
 /// The mean of where its joints take a vertex.
-fn skinned(joints: &[Affine], primitive: &Primitive, vertex: usize, p: [f64; 3]) -> [f64; 3] {
+fn skinned(joints: &[DAffine3], primitive: &Primitive, vertex: usize, p: [f64; 3]) -> [f64; 3] {
     let (mut sum, mut shares) = ([0.0; 3], 0.0);
     for Influence { joints: of, weights } in primitive.influences.iter().map(|set| set[vertex]) {
         for (joint, weight) in of.into_iter().zip(weights) {
             if weight > 0.0 {
-                let moved = joints[usize::from(joint)].point(p);
+                let moved = moved(&joints[usize::from(joint)], p);
                 let share = f64::from(weight);
                 shares += share;
                 sum = [0, 1, 2].map(|axis| sum[axis] + share * moved[axis]);
@@ -108,6 +108,6 @@ fn skinned(joints: &[Affine], primitive: &Primitive, vertex: usize, p: [f64; 3])
         sum.map(|x| x / shares)
     } else {
         let first = primitive.influences[0][vertex].joints[0];
-        joints[usize::from(first)].point(p)
+        moved(&joints[usize::from(first)], p)
     }
 }

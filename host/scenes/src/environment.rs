@@ -12,8 +12,8 @@ use super::pictures;
 use super::texels::Texels;
 
 /// The environment map of a picture by longitude and latitude, `.hdr` or `.exr`, times `scale`: radiance in W/(m² sr). Its
-/// middle column lies in direction −Z, the columns go round towards +X, its first row is above (+Y). Pixels of `.hdr` pictures
-/// are divided by their `EXPOSURE` and `COLORCORR`. What is said of the picture goes to `warnings`.
+/// middle column lies in direction −Z, the columns go round towards +X, its first row is above (+Y). Notes on the picture go to
+/// `warnings`.
 ///
 /// # Errors
 /// [`SceneError::Malformed`] for a file that is none, or has a radiance that is none; [`SceneError::Memory`] for one that is too
@@ -46,7 +46,7 @@ pub fn read_environment(
             "its radiance of {own:e} W/(m² sr) in column {x}, row {y} of {width} × {height}, times the factor {scale:e} of --environment-scale, \
              is more than 2^100 (1.3e30)"
         );
-        let advice = "give a smaller factor, or repair the picture, or its EXPOSURE and COLORCORR lines";
+        let advice = "give a smaller factor, or repair the picture";
         return Err(malformed(name.to_string(), problem, advice));
     }
     let texels = Texels::of([width, height], |x, y| {
@@ -85,14 +85,13 @@ fn clean(picture: &mut Rgb32FImage) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::radiance_hdr::tests::{picture, picture_of};
     use super::*;
 
     #[test]
     fn directions_lie_where_the_picture_has_them() {
         // A picture of 4 columns and 2 rows, each pixel of a light of its own.
         let pixels: Vec<[u8; 4]> = (0..8).map(|k| [16 * (k + 1), 0, 0, 129]).collect();
-        let (found, _) = read("places.hdr", &picture_of("", [4, 2], &pixels), 1.0);
+        let (found, _) = read("places.hdr", &picture([4, 2], &pixels), 1.0);
         let map = found.expect("a map");
         for (direction, pixel) in [
             // The middle of the third column of four lies an eighth of a turn from −Z towards +X.
@@ -106,6 +105,12 @@ mod tests {
             let expected = f32::from(pixels[pixel][0]) / 128.0;
             assert_eq!(map.map().radiance(direction)[0], expected, "{direction:?}");
         }
+    }
+
+    /// A picture of columns and rows: mantissas, and the exponent of 2 plus 128.
+    fn picture([width, height]: [usize; 2], pixels: &[[u8; 4]]) -> Vec<u8> {
+        let header = format!("#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n");
+        [header.as_bytes(), pixels.as_flattened()].concat()
     }
 
     /// A file with these bytes as an environment map, and what is said of it.
@@ -133,34 +138,14 @@ mod tests {
     const ONE: [u8; 4] = [128, 128, 128, 129];
 
     #[test]
-    fn pixels_are_divided_by_their_exposure() {
-        for (lines, expected) in [
-            ("", [3.0; 3]),
-            ("EXPOSURE=2\nEXPOSURE=0.25\n", [6.0; 3]),
-            ("EXPOSURE=1e-20\n", [3e20; 3]),
-            ("COLORCORR=1 2 4\n", [3.0, 1.5, 0.75]),
+    fn too_much_light_is_named() {
+        for (pixel, scale, what) in [
+            (ONE, 1e38, "--environment-scale"),
+            ([128, 128, 128, 255], 1.0, "repair the picture"),
         ] {
-            let (found, said) = read("exposure.hdr", &picture(lines, &[ONE; 8]), 3.0);
-            let map = found.expect("a map");
-            for radiance in map.map().radiance {
-                for (found, expected) in radiance.iter().zip(expected) {
-                    // A mean of 16 that are the same, rounded once more.
-                    assert!((found / expected - 1.0).abs() < 1e-6, "{lines}: {radiance:?}");
-                }
-            }
-            assert_eq!(said, [""; 0], "{lines}");
-        }
-    }
-
-    #[test]
-    fn what_makes_light_too_much_is_named() {
-        for (lines, pixel, scale, what) in [
-            ("", ONE, 1e38, "--environment-scale"),
-            ("EXPOSURE=1e-38\n", ONE, 1.0, "EXPOSURE"),
-            ("", [128, 128, 128, 255], 1.0, "repair the picture"),
-        ] {
-            let (found, _) = read("bright.hdr", &picture(lines, &[pixel]), scale);
-            let error = found.expect_err(what);
+            let error = read("bright.hdr", &picture([1, 1], &[pixel]), scale)
+                .0
+                .expect_err(what);
             assert!(error.contains(what) && error.contains("2^100"), "{error}");
         }
     }
@@ -169,7 +154,7 @@ mod tests {
     fn maps_without_light_are_named() {
         // 1 / 2 · 2^-120.
         for (pixel, scale) in [([0; 4], 1.0), ([128, 128, 128, 8], 1.0), (ONE, 1e-35)] {
-            let (found, said) = read("black.hdr", &picture("", &[pixel]), scale);
+            let (found, said) = read("black.hdr", &picture([1, 1], &[pixel]), scale);
             assert!(found.is_ok());
             assert!(said.len() == 1 && said[0].contains("is black"), "{said:?}");
         }

@@ -57,13 +57,13 @@ pub(super) fn malformed(
     SceneError::Malformed(place.into(), problem.into(), advice.into())
 }
 
-/// The program was compiled without `feature`, which reads `what`.
-pub(super) fn not_compiled(place: &str, what: &str, feature: &str) -> SceneError {
-    let problem = format!("{what} is read only where the feature `{feature}` is compiled in");
+/// The program was compiled without the feature `formats`, which reads `what`.
+pub(super) fn not_compiled(place: &str, what: &str) -> SceneError {
+    let problem = format!("{what} is read only where the feature `formats` is compiled in");
     malformed(
         place,
         problem,
-        format!("build with `--features {feature}`, or export the file without it"),
+        "build with `--features formats`, or export the file without it",
     )
 }
 

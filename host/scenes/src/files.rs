@@ -100,7 +100,6 @@ impl Load {
     }
 
     /// Whether it is such a file.
-    #[cfg(feature = "obj")]
     pub fn permits(&self, path: &Path) -> bool {
         self.real(path).is_ok_and(|real| real.is_file())
     }
@@ -137,7 +136,6 @@ fn unread(path: &Path, source: io::Error) -> SceneError {
 }
 
 /// `bytes` of a text file without the mark of UTF-8 that some editors put first; `path` is for messages.
-#[cfg(any(feature = "obj", feature = "ply"))]
 pub(super) fn without_mark<'a>(path: &str, bytes: &'a [u8]) -> Result<&'a [u8], SceneError> {
     if bytes.starts_with(POINTER) {
         let problem = "it is a pointer of Git LFS, to be replaced by `git lfs pull`";

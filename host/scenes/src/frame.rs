@@ -2,15 +2,12 @@
 
 use std::sync::Arc;
 
-use glam::Vec3;
 use lightbvh::light::infinite::DistantLight;
 use lightbvh::light::{AnyLight, EmissiveTriangle, MIN_COORDINATE, TWO_SIDED};
-use lightbvh_kernels::shading::area::offset_distance;
 use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 use lightbvh_kernels::shading::skin::Corner;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
-use crate::vector::dot;
 use crate::{RayBvh, View};
 
 use super::analytic::AnalyticKind;
@@ -65,62 +62,6 @@ pub struct Frame {
     pub camera: View,
     /// Radiance of rays that leave the scene, W/(m² sr).
     pub background: [f32; 3],
-}
-
-/// Rays that start off their surface by more than this part of the scene's size are told of.
-const FAR_OFF: f64 = 1e-3;
-
-impl Frame {
-    /// Says how far off their surfaces rays start, where that is much beside the scene's size: in a scene that lies far from
-    /// the origin coordinates are rounded to as much, and light of what is nearer is lost.
-    pub fn far_off(&self) -> Option<String> {
-        let triangles = || self.triangles.iter().chain(&self.clear);
-        let mut offsets: Vec<f32> = triangles()
-            .map(|triangle| offset_distance(triangle.p[0].into(), triangle.p[1].into(), triangle.p[2].into()))
-            .collect();
-        // Of most of it: a few triangles elsewhere say nothing of the others.
-        let offset = *at(&mut offsets, 0.5)?;
-        let sides = [0, 1, 2].map(|axis| {
-            let mut along: Vec<f32> = triangles()
-                .flat_map(|triangle| triangle.p.map(|p| p[axis]))
-                .collect();
-            let [low, high] = [0.1, 0.9].map(|part| at(&mut along, part).copied().unwrap_or(0.0));
-            f64::from(high) - f64::from(low)
-        });
-        let size = dot(sides, sides).sqrt();
-        if f64::from(offset) <= FAR_OFF * size {
-            return None;
-        }
-        let (size, start) = (metres(size), metres(offset.into()));
-        let what_is_nearer = "and what is nearer to them neither lights them nor casts a shadow";
-        // However near the origin, rays start so far off.
-        let (why, advice) = if offset <= offset_distance(Vec3::ZERO, Vec3::ZERO, Vec3::ZERO) {
-            (format!("all is very small, {size}"), "make the scene larger")
-        } else {
-            (
-                format!("all lies far from the origin beside its size, {size}"),
-                "move the scene to the origin",
-            )
-        };
-        Some(format!(
-            "note: {why}: rays start {start} off surfaces, {what_is_nearer}; {advice}"
-        ))
-    }
-}
-
-/// A length to three decimals, and a small one to two digits.
-fn metres(length: f64) -> String {
-    if length >= 0.001 || length == 0.0 {
-        format!("{length:.3} m")
-    } else {
-        format!("{length:.1e} m")
-    }
-}
-
-/// What so large a part of values is below; none of none.
-fn at(values: &mut [f32], part: f64) -> Option<&f32> {
-    let place = (part * values.len() as f64) as usize;
-    (!values.is_empty()).then(|| &*values.select_nth_unstable_by(place, f32::total_cmp).1)
 }
 
 impl Scene {
@@ -225,7 +166,7 @@ fn suns(data: &SceneData, pose: &Pose) -> Vec<DistantLight> {
         .iter()
         .filter(|light| light.kind == AnalyticKind::Directional);
     suns.map(|sun| DistantLight {
-        direction: unit_or(pose.place_of(data, sun).columns[2], [0.0, 1.0, 0.0]).map(|x| x as f32),
+        direction: unit_or(pose.place_of(data, sun).matrix3.z_axis.into(), [0.0, 1.0, 0.0]).map(|x| x as f32),
         irradiance: sun.emission(),
     })
     .collect()

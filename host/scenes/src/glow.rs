@@ -1,6 +1,6 @@
 //! Pictures that glow: their means over triangles.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -11,39 +11,13 @@ use super::srgb::linear_from_srgb;
 
 /// Texels looked at for the triangles of one primitive, about: 2^24.
 const MAX_LOOKUPS: u32 = 1 << 24;
-/// For all of a scene: 2^26, some seconds. What comes after is cut least.
-const MAX_LOOKUPS_OF_ALL: u64 = 1 << 26;
 /// Finest subdivision of one triangle for the mean of a texture.
 const MAX_STEPS: f64 = 2048.0;
 /// Texels along an edge from which on places are as many as texels, and not four times as many.
 const LONG: f32 = 256.0;
-/// Means that are kept, for triangles that lie at the same place of a picture.
-const MAX_MEANS: usize = 1 << 16;
 
-/// What the glowing pictures of a scene share: how much may still be looked at, and what is known of each.
-#[derive(Clone, Debug)]
-pub(super) struct Glows(Rc<Shared>);
-
-#[derive(Debug)]
-struct Shared {
-    left: Cell<u64>,
-    /// Of each picture, by its number: where it is not black.
-    sums: RefCell<HashMap<usize, Rc<Sums>>>,
-    means: RefCell<HashMap<Key, [f32; 3]>>,
-}
-
-/// A picture, how it goes on, whether the nearest texel shows, and three coordinates on it.
-type Key = (usize, [u8; 3], [[u32; 2]; 3]);
-
-impl Default for Glows {
-    fn default() -> Self {
-        Self(Rc::new(Shared {
-            left: Cell::new(MAX_LOOKUPS_OF_ALL),
-            sums: RefCell::default(),
-            means: RefCell::default(),
-        }))
-    }
-}
+/// Of each glowing picture of a scene, by its number: where it is not black.
+pub(super) type Glows = Rc<RefCell<HashMap<usize, Rc<Sums>>>>;
 
 /// A picture of colours with its wrapping, in linear RGB, and where it lies on a surface.
 #[derive(Debug)]
@@ -55,7 +29,7 @@ pub(super) struct Glow {
     /// As [`Texture::transform`](super::paint::Texture::transform).
     transform: [[f32; 2]; 3],
     to_linear: [f32; 256],
-    shared: Rc<Shared>,
+    sums: Glows,
 }
 
 impl Glow {
@@ -74,7 +48,7 @@ impl Glow {
             is_nearest,
             transform,
             to_linear: std::array::from_fn(|encoded| linear_from_srgb(encoded as u8)),
-            shared: Rc::clone(&glows.0),
+            sums: Rc::clone(glows),
         }
     }
 
@@ -101,21 +75,11 @@ impl Glow {
             true => corners,
             false => corners.map(|[u, v]| [0, 1].map(|k| x[k] * u + y[k] * v + origin[k])),
         };
-        let how = [self.wrap[0] as u8, self.wrap[1] as u8, u8::from(self.is_nearest)];
-        let key = (self.picture, how, moved.map(|corner| corner.map(f32::to_bits)));
-        if let Some(&mean) = self.shared.means.borrow().get(&key) {
-            return mean;
-        }
-        let mean = self.mean_over_placed(moved, max_steps);
-        let mut means = self.shared.means.borrow_mut();
-        if means.len() < MAX_MEANS {
-            means.insert(key, mean);
-        }
-        mean
+        self.mean_over_placed(moved, max_steps)
     }
 
     /// The triangle is cut into n² equal ones and what shows at the centre of each is taken; n is four times the number
-    /// of texels along the longest edge, from 256 texels on that number itself, up to `max_steps` and what the scene has left.
+    /// of texels along the longest edge, from 256 texels on that number itself, up to `max_steps`.
     fn mean_over_placed(&self, [a, b, c]: [[f32; 2]; 3], max_steps: u32) -> [f32; 3] {
         let size = [self.pixels.width() as f32, self.pixels.height() as f32];
         let edge = |from: [f32; 2], to: [f32; 2]| {
@@ -126,12 +90,7 @@ impl Glow {
         // The cast saturates, and NaN becomes 0: any coordinates give a number of steps in range.
         let longest = edge(a, b).max(edge(b, c)).max(edge(c, a));
         let steps = (4.0 * longest).min(longest.max(LONG)).ceil() as u32;
-        let left = self.shared.left.get();
-        let steps = steps.min((left as f64).sqrt() as u32).max(MIN_STEPS);
-        let steps = steps.clamp(1, max_steps.max(1));
-        self.shared
-            .left
-            .set(left.saturating_sub(u64::from(steps) * u64::from(steps)));
+        let steps = steps.max(MIN_STEPS).clamp(1, max_steps.max(1));
         let mut sum = [0.0_f64; 3];
         let mut take = |i: u32, j: u32, third: f32| {
             let (v, w) = (
@@ -169,7 +128,7 @@ impl Glow {
     /// Whether any texel that shows on the triangle or beside it may be other than black.
     fn glows_within(&self, corners: [[f32; 2]; 3]) -> bool {
         let sums = {
-            let mut known = self.shared.sums.borrow_mut();
+            let mut known = self.sums.borrow_mut();
             let own = known.entry(self.picture);
             Rc::clone(own.or_insert_with(|| Rc::new(Sums::of(&self.pixels))))
         };
@@ -231,7 +190,7 @@ const TRACE: f32 = 0.5 / (255.0 * 12.92);
 
 /// How many texels are not black, from the upper left to each (F. Crow, "Summed-area tables for texture mapping", 1984).
 #[derive(Debug)]
-struct Sums {
+pub(super) struct Sums {
     columns: usize,
     sums: Vec<u32>,
 }

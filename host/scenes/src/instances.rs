@@ -11,7 +11,7 @@ use super::deform::{deforms, is_skinned};
 use super::frame::{FRAMES_PER_SECOND, emits, rounded};
 use super::model::{Primitive, Scene, SceneData};
 use super::scene_light::SceneLight;
-use super::transform::Affine;
+use glam::DAffine3;
 
 /// The mesh lights of a scene as instances of meshes, followed from frame to frame. Instances come in the order of
 /// [`Frame::mesh_lights`](super::Frame::mesh_lights), and their lights are numbered as [`Frame::emissive`](super::Frame::emissive).
@@ -26,7 +26,7 @@ pub struct Instances<L = EmissiveTriangle> {
 struct Followed<L> {
     carried: Carried,
     id: InstanceId,
-    place: Affine,
+    place: DAffine3,
     bent: Option<Bent<L>>,
 }
 
@@ -62,7 +62,7 @@ impl<L: SceneLight> Instances<L> {
         let mut lights = lightbvh::Bvh::new(params);
         let mut meshes: BTreeMap<(u32, usize), MeshId> = BTreeMap::new();
         let mut add = Vec::new();
-        let mut followed: Vec<(Carried, Affine, Option<Bent<L>>)> = Vec::new();
+        let mut followed: Vec<(Carried, DAffine3, Option<Bent<L>>)> = Vec::new();
         for (index, node) in data.nodes.iter().enumerate() {
             let Some(mesh) = node.mesh else { continue };
             for (number, primitive) in data.meshes[mesh as usize].primitives.iter().enumerate() {
@@ -172,17 +172,17 @@ fn pose_at(scene: &Scene, frame: u32) -> Pose {
 }
 
 /// Where the mesh's space is; joints take vertices to the world by themselves.
-fn place(data: &SceneData, pose: &Pose, node: usize, primitive: &Primitive) -> Affine {
+fn place(data: &SceneData, pose: &Pose, node: usize, primitive: &Primitive) -> DAffine3 {
     if is_skinned(data, node, primitive) {
-        Affine::IDENTITY
+        DAffine3::IDENTITY
     } else {
         pose.world[node]
     }
 }
 
 /// Rounded to what a light BVH is told.
-pub(super) fn transform(place: &Affine) -> lightbvh::Transform {
-    let [a, b, c, t] = place.columns.map(|column| column.map(|x| x as f32));
+pub(super) fn transform(place: &DAffine3) -> lightbvh::Transform {
+    let [a, b, c, t] = place.to_cols_array_2d().map(|column| column.map(|x| x as f32));
     lightbvh::Transform {
         columns: [a, b, c],
         translation: t,

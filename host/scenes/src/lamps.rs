@@ -11,31 +11,9 @@ use super::frame::Frame;
 use super::instances::transform;
 use super::model::SceneData;
 
-/// How finely lamps are shown.
-#[derive(Clone, Copy)]
-pub(super) struct Facets {
-    /// Facets of a sphere around its axis; sides of a disc.
-    around: usize,
-    /// Facets of a sphere from pole to pole.
-    rings: usize,
-}
-
-/// Of up to so many lamps each is shown finely; of more, what shows them would take a hundred times their own memory.
-const MANY: usize = 1000;
-
-impl Facets {
-    /// For the lamps of a scene.
-    pub(super) fn of(data: &SceneData) -> Self {
-        let is_round = |own: &&AnalyticLight| {
-            matches!(own.kind, AnalyticKind::Sphere { .. } | AnalyticKind::Disc { .. })
-        };
-        let (around, rings) = match data.analytic.iter().filter(is_round).count() {
-            0..=MANY => (24, 12),
-            _ => (8, 4),
-        };
-        Self { around, rings }
-    }
-}
+/// Facets of a sphere around its axis, and sides of a disc; facets of a sphere from pole to pole.
+const AROUND: usize = 24;
+const RINGS: usize = 12;
 
 /// How lamps reflect.
 const LAMP: SurfaceMaterial = SurfaceMaterial {
@@ -46,10 +24,10 @@ const LAMP: SurfaceMaterial = SurfaceMaterial {
 
 impl AnalyticLight {
     /// How many triangles show it.
-    pub(super) fn facets(&self, Facets { around, rings }: Facets) -> usize {
+    pub(super) fn facets(&self) -> usize {
         match self.kind {
-            AnalyticKind::Sphere { .. } => 2 * around * (rings - 1),
-            AnalyticKind::Disc { .. } => around,
+            AnalyticKind::Sphere { .. } => 2 * AROUND * (RINGS - 1),
+            AnalyticKind::Disc { .. } => AROUND,
             AnalyticKind::Rectangle { .. } => 2,
             _ => 0,
         }
@@ -59,13 +37,12 @@ impl AnalyticLight {
 /// Appends the lights by formula, each a mesh light of its own after those of triangles, and the surfaces of those that have one.
 pub(super) fn place(data: &SceneData, pose: &Pose, out: &mut Frame) {
     let material = out.materials.len() as u32;
-    let fine = Facets::of(data);
     let lamps = data.analytic.iter().filter_map(|own| Some((own, own.light()?)));
     for (k, (own, local)) in (0..).zip(lamps) {
         let (mesh, light) = (out.mesh_lights.len() as u32 + k, out.emissive.len() as u32 + k);
         let world = transform(&pose.place_of(data, own)).place(&local, mesh);
         out.others.push(world);
-        let shown = shown(world, fine).into_iter().map(|p| SurfaceTriangle {
+        let shown = shown(world).into_iter().map(|p| SurfaceTriangle {
             p: p.map(|vertex| vertex.map(|x| flush(x as f32, MIN_COORDINATE))),
             material,
             light,
@@ -80,8 +57,7 @@ pub(super) fn place(data: &SceneData, pose: &Pose, out: &mut Frame) {
 
 /// What is seen of a light, the front of each triangle outside. A sphere's and a disc's facets lie within them: no ray to a
 /// point on such a light ends at its own surface.
-fn shown(light: AnyLight, Facets { around, rings }: Facets) -> Vec<[[f64; 3]; 3]> {
-    let circle = |k: usize| circle(k, around);
+fn shown(light: AnyLight) -> Vec<[[f64; 3]; 3]> {
     if let Ok(RectangleLight { p, half, .. }) = RectangleLight::try_from(light) {
         let corner = |x, y| at(p, &half, [x, y]);
         let [a, b, c, d] = [
@@ -94,10 +70,10 @@ fn shown(light: AnyLight, Facets { around, rings }: Facets) -> Vec<[[f64; 3]; 3]
     } else if let Ok(DiscLight { p, half, .. }) = DiscLight::try_from(light) {
         let rim = |k: usize| at(p, &half, circle(k));
         let center = at(p, &half, [0.0; 2]);
-        (0..around).map(|k| [center, rim(k), rim(k + 1)]).collect()
+        (0..AROUND).map(|k| [center, rim(k), rim(k + 1)]).collect()
     } else if let Ok(SphereLight { p, radius, .. }) = SphereLight::try_from(light) {
         let point = |ring: usize, k: usize| {
-            let angle = std::f64::consts::PI * ring as f64 / rings as f64;
+            let angle = std::f64::consts::PI * ring as f64 / RINGS as f64;
             let ([x, z], flat) = (circle(k), libm::sin(angle));
             let v = [x * flat, libm::cos(angle), z * flat];
             [0, 1, 2].map(|axis| f64::from(p[axis]) + f64::from(radius) * v[axis])
@@ -107,11 +83,11 @@ fn shown(light: AnyLight, Facets { around, rings }: Facets) -> Vec<[[f64; 3]; 3]
                 [(ring, k), (ring, k + 1), (ring + 1, k + 1), (ring + 1, k)].map(|(ring, k)| point(ring, k));
             // At the poles one of the two has no area.
             let upper = (ring > 0).then_some([a, b, c]);
-            let lower = (ring + 1 < rings).then_some([a, c, d]);
+            let lower = (ring + 1 < RINGS).then_some([a, c, d]);
             upper.into_iter().chain(lower)
         };
-        (0..rings)
-            .flat_map(|ring| (0..around).flat_map(move |k| quad(ring, k)))
+        (0..RINGS)
+            .flat_map(|ring| (0..AROUND).flat_map(move |k| quad(ring, k)))
             .collect()
     } else {
         Vec::new()
@@ -123,8 +99,8 @@ fn at(p: [f32; 3], half: &[[f32; 3]; 2], [x, y]: [f64; 2]) -> [f64; 3] {
     [0, 1, 2].map(|axis| f64::from(p[axis]) + x * f64::from(half[0][axis]) + y * f64::from(half[1][axis]))
 }
 
-/// The `k`-th of so many points of a circle; the first again after the last, to the bit.
-fn circle(k: usize, around: usize) -> [f64; 2] {
-    let angle = std::f64::consts::TAU * (k % around) as f64 / around as f64;
+/// The `k`-th of [`AROUND`] points of a circle; the first again after the last, to the bit.
+fn circle(k: usize) -> [f64; 2] {
+    let angle = std::f64::consts::TAU * (k % AROUND) as f64 / AROUND as f64;
     [libm::cos(angle), libm::sin(angle)]
 }

@@ -7,9 +7,9 @@
 //!        └─ Scene::to_glb()               glb_out.rs: any scene as .glb
 //! ```
 //!
-//! The three built-ins stand for the test scenes of the two-level light BVH paper, which cannot be shipped: [`street`]
-//! for Bistro Exterior (a long street along which lights are carried), [`square`] for Emerald Square (wide, thousands
-//! of small lights), [`carousel`] for Measure One (tens of thousands of emissive triangles, most of them moving).
+//! Three built-ins stand for the test scenes of the two-level light BVH paper, which cannot be shipped: `street`
+//! for Bistro Exterior (a long street along which lights are carried), `square` for Emerald Square (wide, thousands
+//! of small lights), `carousel` for Measure One (tens of thousands of emissive triangles, most of them moving).
 //!
 //! Conventions are those of glTF 2.0: metres, +Y up, right-handed, cameras look along -Z, the front of a triangle is
 //! its counter-clockwise side. All trigonometry goes through the `libm` crate and all hierarchies are multiplied in
@@ -40,18 +40,16 @@ mod lamps;
 mod lit_by;
 mod load;
 mod model;
-mod motion_bounds;
 mod notes;
-#[cfg(feature = "obj")]
+#[cfg(feature = "formats")]
 mod obj_in;
 mod paint;
 mod pictures;
-#[cfg(feature = "ply")]
+#[cfg(feature = "formats")]
 mod ply_in;
-#[cfg(any(feature = "obj", feature = "ply"))]
+#[cfg(feature = "formats")]
 mod polygon;
 mod profile;
-mod radiance_hdr;
 mod random;
 mod ray_bvh;
 mod scene_light;
@@ -62,12 +60,11 @@ mod srgb;
 mod texels;
 mod track;
 mod transform;
-mod upright;
 
-pub mod carousel;
-pub mod square;
-pub mod stage;
-pub mod street;
+mod carousel;
+mod square;
+mod stage;
+mod street;
 pub mod vector;
 
 pub use analytic::{AnalyticKind, AnalyticLight};

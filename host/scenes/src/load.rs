@@ -7,7 +7,7 @@ use lightbvh::EmissiveTriangle;
 use lightbvh_kernels::shading::trace::SurfaceTriangle;
 
 use super::error::SceneError;
-#[cfg(not(all(feature = "obj", feature = "ply")))]
+#[cfg(not(feature = "formats"))]
 use super::error::not_compiled;
 use super::files::{Limits, Load};
 use super::model::{Scene, SceneData};
@@ -55,17 +55,15 @@ impl Scene {
         }
         let load = Load::new(path.parent(), limits)?;
         let bytes = load.read_any(path)?;
-        if ends_in("obj") {
-            #[cfg(feature = "obj")]
-            return Self::read_obj(&name, &bytes, &load);
-            #[cfg(not(feature = "obj"))]
-            return Err(not_compiled(&name, "OBJ", "obj"));
+        #[cfg(not(feature = "formats"))]
+        if ends_in("obj") || ends_in("ply") {
+            return Err(not_compiled(&name, "OBJ and PLY"));
         }
-        if ends_in("ply") {
-            #[cfg(feature = "ply")]
+        #[cfg(feature = "formats")]
+        if ends_in("obj") {
+            return Self::read_obj(&name, &bytes, &load);
+        } else if ends_in("ply") {
             return Self::read_ply(&name, &bytes, &load);
-            #[cfg(not(feature = "ply"))]
-            return Err(not_compiled(&name, "PLY", "ply"));
         }
         Self::read_gltf(&name, &bytes, &load)
     }

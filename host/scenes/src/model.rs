@@ -322,32 +322,6 @@ impl Scene {
         Arc::clone(self.paint.get_or_init(|| Arc::new(skin_words::words(&self.data))))
     }
 
-    /// Says how many triangles are of glass that leaves light as it is: nobody would see them. Of clear glass that tints, what
-    /// is behind it says that it is there.
-    pub fn unseen_glass(&self) -> Option<String> {
-        let unseen = |mesh: &Mesh| -> usize {
-            let count = |primitive: &Primitive| {
-                let material = &self.data.materials[primitive.material as usize];
-                let is_unseen = material.paint.as_ref().is_some_and(Paint::is_unseen);
-                let is_hidden = |&t: &usize| is_unseen && !primitive.is_shown(t, material);
-                (0..primitive.triangles.len()).filter(is_hidden).count()
-            };
-            mesh.primitives.iter().map(count).sum()
-        };
-        let of_meshes: Vec<usize> = self.data.meshes.iter().map(unseen).collect();
-        let placed = self.data.nodes.iter().filter_map(|node| node.mesh);
-        let count: usize = placed.map(|mesh| of_meshes[mesh as usize]).sum();
-        let there_are = match count {
-            0 => return None,
-            1 => String::from("1 triangle is"),
-            _ => format!("{count} triangles are"),
-        };
-        Some(format!(
-            "note: {there_are} clear glass, which shows nothing by itself: it neither reflects nor bends light here; give it a base colour, which \
-             tints what is behind it"
-        ))
-    }
-
     /// Triangles of every frame.
     pub fn triangle_count(&self) -> usize {
         self.counts.triangles

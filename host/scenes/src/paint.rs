@@ -124,11 +124,4 @@ impl Paint {
     pub fn is_clear(&self) -> bool {
         self.transmission >= 0.5
     }
-
-    /// Whether all light goes through it as it is, so that it is seen nowhere.
-    pub fn is_unseen(&self) -> bool {
-        let [r, g, b, opacity] = self.base;
-        let is_white = self.base_texture.is_none() && [r, g, b] == [1.0; 3] && self.transmission >= 1.0;
-        is_white || (self.opacity == Opacity::Blended && opacity == 0.0)
-    }
 }

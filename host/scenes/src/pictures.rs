@@ -11,7 +11,6 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, RgbaImage};
 use super::error::{SceneError, malformed, not_compiled};
 use super::files::Load;
 use super::paint::{MAX_SIDE, Picture};
-use super::radiance_hdr;
 use super::srgb::linear_from_srgb;
 
 /// What cannot be decoded.
@@ -35,20 +34,10 @@ pub(super) fn decode(
     let mut reader = reader
         .with_guessed_format()
         .map_err(|error| undecoded(name, error))?;
-    let feature = match reader.format() {
-        Some(ImageFormat::WebP) => "webp",
-        Some(ImageFormat::Tga) => "obj",
-        _ => "",
-    };
-    let format = reader
-        .format()
-        .filter(|own| !own.reading_enabled() && !feature.is_empty());
-    if let Some(format) = format {
-        return Err(not_compiled(
-            name,
-            &format!("the picture format {format:?}"),
-            feature,
-        ));
+    if let Some(format @ (ImageFormat::WebP | ImageFormat::Tga)) = reader.format()
+        && !format.reading_enabled()
+    {
+        return Err(not_compiled(name, &format!("the picture format {format:?}")));
     }
     let mut limits = image::Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
@@ -69,14 +58,12 @@ pub(super) fn decode(
 /// Decodes a file, which may hold light (.hdr, .exr).
 pub(super) fn decode_light(load: &Load, bytes: Vec<u8>, path: &Path) -> Result<DynamicImage, SceneError> {
     let name = path.display().to_string();
-    let bytes = radiance_hdr::with_signature(bytes);
-    let mut picture = decode(load, &name, &bytes, Some(path))?;
-    if let DynamicImage::ImageRgb32F(pixels) = &mut picture {
-        let divisors = radiance_hdr::divisors(&bytes).map_err(|problem| undecoded(&name, problem))?;
-        let divided = |pixel: [f32; 3]| [0, 1, 2].map(|k| pixel[k] / divisors[k]);
-        pixels.pixels_mut().for_each(|pixel| pixel.0 = divided(pixel.0));
-    }
-    Ok(picture)
+    // The first bytes that some programs (B. Walter's `rgbe.c`) write for the same format.
+    let bytes = match bytes.strip_prefix(b"#?RGBE") {
+        Some(rest) => [b"#?RADIANCE", rest].concat(),
+        None => bytes,
+    };
+    decode(load, &name, &bytes, Some(path))
 }
 
 /// Pixels as a scene keeps them.

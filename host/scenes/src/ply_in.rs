@@ -371,14 +371,4 @@ mod tests {
             assert!(error.contains("t.ply: ") && error.contains(expected), "{error}");
         }
     }
-
-    #[test]
-    fn damage_is_an_error_or_a_mesh() {
-        let files = [TEXT.as_bytes().to_vec(), binary(true), binary(false)];
-        crate::random::damaged(&files, 3000, |bytes| {
-            if let Ok(scene) = Scene::read_ply_slice("damaged", bytes) {
-                assert!(scene.triangle_count() > 0);
-            }
-        });
-    }
 }

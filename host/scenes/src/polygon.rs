@@ -138,18 +138,6 @@ mod tests {
 
     #[test]
     fn work_on_polygons_that_cross_themselves_is_bounded() {
-        let mut random = Random::new(2);
-        let mut cutter = Cutter::default();
-        for count in [4, 5, 17, 300] {
-            let corners: Vec<_> = (0..count)
-                .map(|_| [random.unit() as f32, random.unit() as f32, 0.0])
-                .collect();
-            let mut taken = 0;
-            cutter
-                .cut(&corners, |t| taken += usize::from(t.iter().all(|&k| k < count)))
-                .expect("little work");
-            assert!(taken <= count - 2, "{taken} of {count}");
-        }
         for x in [f32::NAN, f32::INFINITY, 3e38] {
             let near = [
                 [0.0; 3],
@@ -164,7 +152,7 @@ mod tests {
             .map(|k| [k as f32, (k % 2) as f32, 0.0])
             .chain([[2500.0, 9.0, 0.0]])
             .collect();
-        let problem = cutter.cut(&comb, |_| ()).expect_err("too much");
+        let problem = Cutter::default().cut(&comb, |_| ()).expect_err("too much");
         assert!(problem.contains("5001 corners"), "{problem}");
     }
 }

@@ -1,7 +1,5 @@
 //! The ray BVH: built by `obvhs`, laid out for the kernels' walk.
 
-mod ploc;
-
 use glam::Vec3A;
 use lightbvh_kernels::shading::grid::{MAX_COORDINATE, STEP, snap};
 use lightbvh_kernels::shading::skin::NoSkin;
@@ -13,6 +11,7 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::leaf_collapser::collapse;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
+use obvhs::ploc::PlocBuilder;
 use obvhs::triangle::Triangle;
 use std::ops::Range;
 
@@ -129,8 +128,7 @@ fn snap_triangle(index: usize, triangle: &SurfaceTriangle) -> Result<SurfaceTria
     Ok(snapped)
 }
 
-/// PLOC with some reinsertion; one thread, so always the same tree. Where PLOC finds triangles too hard, reinsertion would take
-/// as long, and gain nothing.
+/// PLOC with some reinsertion; one thread, so always the same tree.
 fn build(triangles: &[SurfaceTriangle]) -> Bvh2 {
     let corners: Vec<Triangle> = triangles
         .iter()
@@ -140,13 +138,15 @@ fn build(triangles: &[SurfaceTriangle]) -> Bvh2 {
             v2: Vec3A::from(t.p[2]),
         })
         .collect();
-    let built = ploc::build(&corners);
-    let is_hard = built.is_hard();
-    let mut bvh = built.bvh;
-    if !is_hard {
-        let part = BvhBuildParams::fast_build().reinsertion_batch_ratio;
-        ReinsertionOptimizer::default().run(&mut bvh, part, None);
-    }
+    let params = BvhBuildParams::fast_build();
+    let mut bvh = PlocBuilder::with_capacity(corners.len()).build(
+        params.ploc_search_distance,
+        &corners,
+        (0..corners.len() as u32).collect(),
+        params.sort_precision,
+        params.search_depth_threshold,
+    );
+    ReinsertionOptimizer::default().run(&mut bvh, params.reinsertion_batch_ratio, None);
     collapse(&mut bvh, LANES as u32, NODE_COST);
     bvh
 }
@@ -377,26 +377,5 @@ mod tests {
         sources.retain(|&source| source != NONE);
         sources.sort_unstable();
         assert!(sources.iter().copied().eq(0..triangles.len() as u32));
-    }
-
-    /// Of triangles around one corner, which PLOC does not merge in time, each is met.
-    #[test]
-    fn triangles_of_a_large_fan_are_met() {
-        let count = 4000;
-        let at = |k: usize| [k as f32, 0.0, if k % 2 == 1 { 8000.0 } else { 4000.0 }];
-        let triangle = |k: usize| SurfaceTriangle {
-            p: [[0.0; 3], at(k), at(k + 1)],
-            material: k as u32,
-            light: NONE,
-            instance: NONE,
-        };
-        let triangles: Vec<_> = (1..=count).map(triangle).collect();
-        let rays = RayBvh::build(&triangles).expect("a ray BVH");
-        assert_eq!(rays.triangles().count(), count);
-        for triangle in &triangles {
-            let [a, b, c] = triangle.p.map(Vec3::from);
-            let ray = Ray::new((a + b + c) / 3.0 + Vec3::Y, Vec3::NEG_Y, FAR);
-            assert_eq!(closest_hit(&rays.surfaces(), &ray).t, 1.0);
-        }
     }
 }

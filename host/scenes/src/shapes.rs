@@ -1,6 +1,8 @@
 //! Triangle shapes for the built-in scenes; all closed or one-sided with their front outward.
 
-use super::transform::{Affine, normalized};
+use glam::Vec3;
+
+use super::transform::{normalized, trs};
 
 const TAU: f64 = std::f64::consts::TAU;
 
@@ -196,14 +198,13 @@ impl Shape {
 
     /// Adds a copy of `other`, turned and then moved.
     pub fn append(&mut self, other: &Self, at: [f64; 3], turn: [f64; 4]) -> &mut Self {
-        let map = Affine::from_trs(at, turn, [1.0; 3]);
+        let map = trs(at, turn, [1.0; 3]);
         let first = self.positions.len() as u32;
-        self.positions.extend(
-            other
-                .positions
-                .iter()
-                .map(|p| map.point(p.map(f64::from)).map(|x| x as f32)),
-        );
+        self.positions.extend(other.positions.iter().map(|&p| {
+            map.transform_point3(Vec3::from(p).as_dvec3())
+                .as_vec3()
+                .to_array()
+        }));
         self.triangles.extend(
             other
                 .triangles

@@ -22,11 +22,8 @@ const PARK: f64 = 72.0;
 /// Distance of the houses' fronts from the middle, metres.
 const FRONTS: f64 = 92.0;
 
-/// Builds the scene.
-///
-/// # Errors
-/// None in practice: the scene passes the same checks as one from a file.
-pub fn square() -> Result<Scene, SceneError> {
+/// Builds the scene, which passes the same checks as one from a file.
+pub(super) fn square() -> Result<Scene, SceneError> {
     let mut b = SceneBuilder::new("square", [0.008, 0.012, 0.028]);
     let mut random = Random::new(2);
     let iron = b.material(Material {

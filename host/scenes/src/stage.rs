@@ -14,11 +14,8 @@ const ALONG_Z: [f64; 3] = [0.0, 0.0, 1.0];
 /// Turns -Z downward.
 const DOWN: f64 = -std::f64::consts::FRAC_PI_2;
 
-/// Builds the scene.
-///
-/// # Errors
-/// None in practice: the scene passes the same checks as one from a file.
-pub fn stage() -> Result<Scene, SceneError> {
+/// Builds the scene, which passes the same checks as one from a file.
+pub(super) fn stage() -> Result<Scene, SceneError> {
     let mut b = SceneBuilder::new("stage", [0.002, 0.002, 0.004]);
     room(&mut b);
     spots(&mut b);

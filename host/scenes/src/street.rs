@@ -29,11 +29,8 @@ struct Palette {
     stone: u32,
 }
 
-/// Builds the scene.
-///
-/// # Errors
-/// None in practice: the scene passes the same checks as one from a file.
-pub fn street() -> Result<Scene, SceneError> {
+/// Builds the scene, which passes the same checks as one from a file.
+pub(super) fn street() -> Result<Scene, SceneError> {
     let mut b = SceneBuilder::new("street", [0.010, 0.014, 0.030]);
     let mut random = Random::new(1);
     let palette = Palette {

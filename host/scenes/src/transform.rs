@@ -1,6 +1,8 @@
 //! Node transforms: translation, rotation, scale or a matrix, composed in `f64`.
 
-use crate::vector::{cross, dot};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+
+use crate::vector::dot;
 
 /// A node's place relative to its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,129 +44,57 @@ impl Transform {
     }
 
     /// Its rotation and mirroring alone. Of an axis that a matrix takes to zero nothing is known: it stays.
-    pub(super) fn turn(&self) -> Affine {
+    pub(super) fn turn(&self) -> DMat3 {
         match *self {
-            Self::Trs { rotation, scale, .. } => Affine::from_trs(
-                [0.0; 3],
-                normalized(rotation.map(f64::from)),
-                scale.map(|factor| if factor < 0.0 { -1.0 } else { 1.0 }),
-            ),
-            Self::Matrix(_) => {
-                let mut turn = self.affine().of_unit_columns();
-                turn.columns[3] = [0.0; 3];
-                turn
+            Self::Trs { rotation, scale, .. } => {
+                let signs = scale.map(|factor| if factor < 0.0 { -1.0 } else { 1.0 });
+                trs([0.0; 3], normalized(rotation.map(f64::from)), signs).matrix3
             }
+            Self::Matrix(_) => of_unit_columns(&self.affine().matrix3),
         }
     }
 
     /// The same as an affine map.
-    pub(super) fn affine(&self) -> Affine {
+    pub(super) fn affine(&self) -> DAffine3 {
         match *self {
             Self::Trs {
                 translation,
                 rotation,
                 scale,
-            } => Affine::from_trs(
-                translation.map(f64::from),
-                normalized(rotation.map(f64::from)),
-                scale.map(f64::from),
-            ),
-            Self::Matrix(columns) => Affine {
-                columns: columns.map(|column| column.map(f64::from)),
-            },
+            } => {
+                let [translation, scale] = [translation, scale].map(|v| v.map(f64::from));
+                trs(translation, normalized(rotation.map(f64::from)), scale)
+            }
+            Self::Matrix(columns) => affine(&columns),
         }
     }
 }
 
-/// An affine map in `f64`: three columns of the linear part, then the translation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Affine {
-    pub columns: [[f64; 3]; 4],
+/// Scaled, then turned by a unit quaternion, then moved.
+pub(super) fn trs(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]) -> DAffine3 {
+    let rotation = DQuat::from_array(rotation);
+    DAffine3::from_scale_rotation_translation(scale.into(), rotation, translation.into())
 }
 
-impl Affine {
-    pub const IDENTITY: Self = Self {
-        columns: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]],
-    };
+/// Of four columns of three rows.
+pub(super) fn affine(columns: &[[f32; 3]; 4]) -> DAffine3 {
+    DAffine3::from_cols_array_2d(&columns.map(|column| column.map(f64::from)))
+}
 
-    /// `rotation` must be a unit quaternion `[x, y, z, w]`.
-    pub fn from_trs(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]) -> Self {
-        let [x, y, z, w] = rotation;
-        let axes = [
-            [
-                1.0 - 2.0 * (y * y + z * z),
-                2.0 * (x * y + z * w),
-                2.0 * (x * z - y * w),
-            ],
-            [
-                2.0 * (x * y - z * w),
-                1.0 - 2.0 * (x * x + z * z),
-                2.0 * (y * z + x * w),
-            ],
-            [
-                2.0 * (x * z + y * w),
-                2.0 * (y * z - x * w),
-                1.0 - 2.0 * (x * x + y * y),
-            ],
-        ];
-        let scaled = |i: usize| axes[i].map(|component| component * scale[i]);
-        Self {
-            columns: [scaled(0), scaled(1), scaled(2), translation],
-        }
-    }
+/// Columns of length one; those of length zero are the axes'.
+pub(super) fn of_unit_columns(m: &DMat3) -> DMat3 {
+    let unit = |v: DVec3, axis: DVec3| DVec3::from(unit_or(v.into(), axis.into()));
+    DMat3::from_cols(
+        unit(m.x_axis, DVec3::X),
+        unit(m.y_axis, DVec3::Y),
+        unit(m.z_axis, DVec3::Z),
+    )
+}
 
-    /// First `inner`, then `self`.
-    pub fn then_after(&self, inner: &Self) -> Self {
-        let column = |i: usize| self.vector(inner.columns[i]);
-        Self {
-            columns: [column(0), column(1), column(2), self.point(inner.columns[3])],
-        }
-    }
-
-    pub fn vector(&self, v: [f64; 3]) -> [f64; 3] {
-        let [a, b, c, _] = &self.columns;
-        [0, 1, 2].map(|row| (a[row] * v[0] + b[row] * v[1]) + c[row] * v[2])
-    }
-
-    pub fn point(&self, p: [f64; 3]) -> [f64; 3] {
-        let v = self.vector(p);
-        [0, 1, 2].map(|row| v[row] + self.columns[3][row])
-    }
-
-    /// Whether the lengths of all columns are such that their directions are exact in `f32`, and within the domain of a light
-    /// BVH's transforms.
-    pub fn keeps_directions(&self) -> bool {
-        const LARGEST: f64 = (1_u64 << 40) as f64;
-        let lengths = self.columns[..3].iter().map(|&v| dot(v, v).sqrt());
-        lengths
-            .into_iter()
-            .all(|length| (1.0 / LARGEST..=LARGEST).contains(&length))
-    }
-
-    /// The same with columns of length one; those of length zero are the axes'.
-    pub fn of_unit_columns(&self) -> Self {
-        let [a, b, c, translation] = self.columns;
-        let [x, y, z, _] = Self::IDENTITY.columns;
-        Self {
-            columns: [unit_or(a, x), unit_or(b, y), unit_or(c, z), translation],
-        }
-    }
-
-    /// Whether the map turns left hands into right hands.
-    pub fn mirrors(&self) -> bool {
-        let [a, b, c, _] = self.columns;
-        dot(cross(a, b), c) < 0.0
-    }
-
-    /// Frobenius norm of the linear part: no vector grows by more than this factor.
-    pub fn stretch(&self) -> f64 {
-        self.columns[..3]
-            .iter()
-            .flatten()
-            .map(|x| x * x)
-            .sum::<f64>()
-            .sqrt()
-    }
+/// Whether a map turns left hands into right hands.
+pub(super) fn mirrors(map: &DAffine3) -> bool {
+    let m = &map.matrix3;
+    m.x_axis.cross(m.y_axis).dot(m.z_axis) < 0.0
 }
 
 /// `v` at length one; `fallback` where it has no direction.

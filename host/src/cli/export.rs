@@ -35,9 +35,6 @@ pub(super) fn run(args: &Args) -> Result<Outcome, HostError> {
     for warning in scene.warnings() {
         news!("{}: {warning}", scene.name());
     }
-    if let Some(idle) = scene.idle_clips() {
-        news!("{}: {idle}", scene.name());
-    }
     let known = |kind| {
         matches!(
             kind,

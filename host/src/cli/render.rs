@@ -71,10 +71,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     if is_painted && (args.no_textures || !is_known) {
         scene = scene.unpainted();
     }
-    let first = args.animate.as_ref().map_or(args.frame, |frames| frames.start);
-    for note in scene.unseen_glass().iter().chain(&scene.frame(first).far_off()) {
-        news!("{}: {note}", scene.name());
-    }
     let sequence = Sequence {
         args,
         recipe,

@@ -1,4 +1,4 @@
-//! Paint in files, and what stands for what cannot be shown.
+//! Paint in files.
 
 use super::*;
 
@@ -47,64 +47,4 @@ fn paint_survives_a_file() {
             .collect()
     };
     assert_eq!(coordinates(&scene), coordinates(&back));
-}
-
-/// Files say what cannot be shown, and what stands for it is what is said.
-#[test]
-fn what_cannot_be_shown_has_what_stands_for_it() {
-    let png = lightbvh_tests::gltf_files::png_white_black();
-    let left = [[0.1, 0.1], [0.3, 0.1], [0.1, 0.9]];
-    let file = || textured(left, &png);
-    let material = |root: &serde_json::Value, index: usize| -> Material {
-        read_json(root).expect("sound").data().materials[index].clone()
-    };
-    // A cutoff that no opacity reaches.
-    let mut root = file();
-    root["materials"][0]["pbrMetallicRoughness"] = serde_json::json!({ "baseColorTexture": { "index": 0 } });
-    root["materials"][0]["alphaMode"] = "MASK".into();
-    root["materials"][0]["alphaCutoff"] = 2.0.into();
-    assert_eq!(
-        material(&root, 0).paint.expect("painted").opacity,
-        Opacity::Cut(2.0)
-    );
-    root["materials"][0]["alphaCutoff"] = 0.5.into();
-    assert_eq!(
-        material(&root, 0).paint.expect("painted").opacity,
-        Opacity::Opaque
-    );
-    // Without coordinates means stand for textures.
-    let attributes = &mut root["meshes"][0]["primitives"][0]["attributes"];
-    attributes.as_object_mut().expect("a list").remove("TEXCOORD_0");
-    let scene = read_json(&root).expect("sound");
-    assert!(
-        scene.frame(0).corners[0]
-            .iter()
-            .all(|corner| corner.material == u32::MAX)
-    );
-    let mean = scene.data().materials[0].base_color[0];
-    assert!((mean - 0.5).abs() < 1e-6, "{mean}");
-    // What glows by a picture that is not there does not, whatever it reflects.
-    let mut root = file();
-    root["materials"][0]["pbrMetallicRoughness"] = serde_json::json!({ "baseColorFactor": [0, 0, 0, 1] });
-    root["images"][0] = serde_json::json!({ "uri": "nowhere.png" });
-    assert!(read_json(&root).expect("sound").frame(0).emissive.is_empty());
-    // A map that turns over, and a colour that is shown as it is, in part.
-    let mut root = file();
-    root["materials"] = serde_json::json!([{
-        "alphaMode": "BLEND",
-        "pbrMetallicRoughness": {
-            "baseColorFactor": [0.5, 1.0, 0.25, 0.25],
-            "baseColorTexture": {
-                "index": 0,
-                "extensions": { "KHR_texture_transform": { "scale": [1.0, -1.0], "offset": [0.25, 0.5] } },
-            },
-        },
-        "extensions": { "KHR_materials_unlit": {} },
-    }]);
-    let scene = read_json(&root).expect("sound");
-    let back =
-        Scene::read_gltf_slice("back.glb", &scene.to_glb().expect("written"), None).expect("read back");
-    let paint = |scene: &Scene| scene.data().materials[0].paint.expect("painted");
-    assert_eq!(paint(&scene).radiance, [0.5, 1.0, 0.25]);
-    assert_eq!(paint(&scene), paint(&back));
 }

@@ -23,9 +23,6 @@ use lightbvh_kernels::bvh::{Kinds, WIDTH};
 use lightbvh_kernels::shading::picture::{Picture as Words, PictureWords};
 use lightbvh_kernels::shading::skin::{HEADER_WORDS, SRGB_WORDS};
 
-use lightbvh_tests::gltf_files::read_json;
-
-use crate::gltf_surfaces::textured;
 use crate::kinds_render::{SETTINGS, agree, arrays, at, down, mean, node, open_room};
 
 /// What a painted floor reflects of the light that falls on it: its diffuse part, and at most this of gloss.

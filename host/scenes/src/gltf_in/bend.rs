@@ -1,12 +1,12 @@
 //! What bends meshes: morph targets, the joints of vertices, skins.
 
+use glam::Mat4;
 use gltf::json;
 use gltf::json::mesh::Semantic;
 
 use super::super::deform::{Influence, Skin};
 use super::super::error::SceneError;
 use super::super::model::SceneData;
-use super::super::transform::Affine;
 use super::attributes::Attributes;
 use super::{DAMAGED, Document};
 
@@ -100,7 +100,7 @@ pub(super) fn skins(
         let whole = joints.len() == skin.joints.len() && !joints.is_empty();
         let inverse_bind = match skin.inverse_bind_matrices {
             Some(index) => bind_matrices(document, index, skin.joints.len(), &element)?,
-            None => vec![Affine::IDENTITY.columns.map(|column| column.map(|x| x as f32)); joints.len()],
+            None => vec![columns(&Mat4::IDENTITY.to_cols_array()); joints.len()],
         };
         if whole {
             data.skins.push(Skin { joints, inverse_bind });

@@ -40,25 +40,18 @@ impl Document<'_> {
             return Ok(None);
         };
         let found: Option<Compressed> = self.extension(&extensions.others, NAME, element)?;
-        let Some(compressed) = found else { return Ok(None) };
-        match self.unpack_draco(compressed, element) {
-            Ok(unpacked) => Ok(Some(unpacked)),
-            Err(error) if self.requires(NAME) => Err(error),
-            // The file brings the same data as they are, or accessors will say that it does not.
-            Err(error) => {
-                self.note("", format!("its plain data are taken, as {error}"));
-                Ok(None)
-            }
-        }
+        found
+            .map(|compressed| self.unpack_draco(compressed, element))
+            .transpose()
     }
 
-    #[cfg(not(feature = "draco"))]
+    #[cfg(not(feature = "formats"))]
     fn unpack_draco(&self, _: Compressed, element: &str) -> Result<Unpacked, SceneError> {
         let what = format!("{element} ({NAME})");
-        Err(super::super::error::not_compiled(self.path, &what, "draco"))
+        Err(super::super::error::not_compiled(self.path, &what))
     }
 
-    #[cfg(feature = "draco")]
+    #[cfg(feature = "formats")]
     fn unpack_draco(&self, compressed: Compressed, element: &str) -> Result<Unpacked, SceneError> {
         use draco_core::{DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
         let (bytes, _) = self.view(json::Index::new(compressed.buffer_view), element)?;

@@ -8,7 +8,7 @@ use super::super::error::{SceneError, not_compiled};
 use super::Document;
 
 /// Extensions that are read.
-pub(super) const READ: [&str; 14] = [
+const READ: [&str; 14] = [
     "EXT_lights_ies",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
@@ -26,20 +26,20 @@ pub(super) const READ: [&str; 14] = [
 ];
 
 /// Extensions that only add what a renderer of lights has no use for: a file that requires one is shown nevertheless.
-pub(super) const HARMLESS: [&str; 4] = [
+const HARMLESS: [&str; 4] = [
     "KHR_xmp",
     "KHR_xmp_json_ld",
     "EXT_structural_metadata",
     "EXT_mesh_features",
 ];
 
-/// Extensions that this program may be compiled without: the features that read them, and whether it was compiled with those.
-const OPTIONAL: [(&str, &str, bool); 5] = [
-    ("EXT_meshopt_compression", "meshopt", cfg!(feature = "meshopt")),
-    ("KHR_meshopt_compression", "meshopt", cfg!(feature = "meshopt")),
-    ("KHR_draco_mesh_compression", "draco", cfg!(feature = "draco")),
-    ("KHR_texture_basisu", "ktx2", cfg!(feature = "ktx2")),
-    ("EXT_texture_webp", "webp", cfg!(feature = "webp")),
+/// Extensions that this program may be compiled without.
+const OPTIONAL: [&str; 5] = [
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_meshopt_compression",
+    "KHR_texture_basisu",
 ];
 
 /// What refines surfaces; without it they look plainer.
@@ -50,8 +50,8 @@ impl Document<'_> {
     pub(super) fn check_extensions(&self) -> Result<(), SceneError> {
         for (index, name) in self.root.extensions_required.iter().enumerate() {
             let name = name.as_str();
-            if let Some((_, feature, _)) = OPTIONAL.iter().find(|(of, _, is_in)| *of == name && !is_in) {
-                return Err(not_compiled(self.path, name, feature));
+            if OPTIONAL.contains(&name) && !cfg!(feature = "formats") {
+                return Err(not_compiled(self.path, name));
             }
             if !READ.contains(&name) && !HARMLESS.contains(&name) && !name.starts_with(LOOK) {
                 let advice = "export the file without this extension";
@@ -103,5 +103,19 @@ impl Document<'_> {
         let others = buffer.extensions.as_ref().map(|extensions| &extensions.others);
         let says = |name: &str| others?.get(name)?.get("fallback")?.as_bool();
         super::meshopt::NAMES.iter().any(|name| says(name) == Some(true))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn documentation_names_every_extension_that_is_read() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/scenes.md");
+        let text = std::fs::read_to_string(path).expect("docs/scenes.md");
+        for name in READ.iter().chain(&HARMLESS) {
+            assert!(text.contains(&format!("`{name}`")), "{name}");
+        }
     }
 }

@@ -38,7 +38,6 @@ impl Pictures {
 
     /// What is kept, by number in the scene.
     pub(super) fn into_kept(mut self) -> Vec<Picture> {
-        self.glows = Glows::default();
         let pixels = self.kept.iter().filter_map(|index| self.decoded.remove(index)?);
         pixels.map(pictures::kept).collect()
     }

@@ -1,13 +1,12 @@
-//! KTX 2.0 pictures (`KHR_texture_basisu`): the container, and pictures of eight bits a channel. What is compressed by
-//! Basis Universal a crate decodes, Zstandard another one.
+//! KTX 2.0 pictures (`KHR_texture_basisu`): the container of pictures by Basis Universal, which a crate decodes.
 //!
-//! Source: KTX File Format Specification 2.0, section 2. The header is read here and every length checked, as the decoders
-//! take memory for what it says.
+//! Source: KTX File Format Specification 2.0, section 2. The header is read here and every length checked, as the decoder
+//! takes memory for the sizes in it.
 
 use image::RgbaImage;
 
 use super::super::error::SceneError;
-#[cfg(not(feature = "ktx2"))]
+#[cfg(not(feature = "formats"))]
 use super::super::error::not_compiled;
 use super::super::paint::MAX_SIDE;
 use super::super::pictures::undecoded;
@@ -21,14 +20,12 @@ const LEVELS: (usize, usize) = (80, 24);
 /// Most levels: those of a picture of [`MAX_SIDE`].
 const MAX_LEVELS: u32 = 15;
 
-/// What is used of the header.
+/// The used part of the header.
 pub(super) struct Header {
-    format: u32,
     width: u32,
     height: u32,
-    scheme: u32,
-    /// Place and length of the largest level, and its length once it is unpacked.
-    base: [usize; 3],
+    /// Length of the largest level once it is unpacked.
+    unpacked: u64,
 }
 
 impl Header {
@@ -65,100 +62,34 @@ impl Header {
             return Err(String::from("its KTX 2 header claims more than the file has"));
         }
         Ok(Self {
-            format: word(12)?,
             width,
             height,
-            scheme: word(44)?,
-            base: [long(LEVELS.0)?, long(LEVELS.0 + 8)?, long(LEVELS.0 + 16)?].map(|x| x as usize),
+            unpacked: long(LEVELS.0 + 16)?,
         })
     }
 
     /// Bytes that are taken at most: the unpacked level, blocks of one, and the pixels.
     pub(super) fn bytes(&self) -> u64 {
-        (self.base[2] as u64).saturating_add(8 * u64::from(self.width) * u64::from(self.height))
+        self.unpacked
+            .saturating_add(8 * u64::from(self.width) * u64::from(self.height))
     }
 
     /// Decodes the largest level.
     pub(super) fn decode(&self, name: &str, file: &[u8]) -> Result<RgbaImage, SceneError> {
-        let format = self.format;
-        let texels = match layout(format) {
-            Some((bytes, channels)) => {
-                let of = |texel: &[u8], channel| match channel {
-                    4 => 0,
-                    5 => 255,
-                    channel => texel[channel],
-                };
-                let level = self.level(name, file)?;
-                let texels = level.chunks_exact(bytes);
-                texels
-                    .flat_map(|texel| channels.map(|channel| of(texel, channel)))
-                    .collect()
-            }
-            // VK_FORMAT_UNDEFINED, and UASTC as ASTC: what Basis Universal makes.
-            None if format == 0 => basis(name, file)?,
-            None => {
-                let problem = format!("its format, number {format} of Vulkan, is for devices only");
-                return Err(undecoded(name, problem));
-            }
-        };
-        RgbaImage::from_raw(self.width, self.height, texels)
+        RgbaImage::from_raw(self.width, self.height, basis(name, file)?)
             .ok_or_else(|| undecoded(name, "it has fewer bytes than pixels"))
     }
-
-    /// The bytes of the largest level, unpacked.
-    fn level(&self, name: &str, file: &[u8]) -> Result<Vec<u8>, SceneError> {
-        let [place, length, unpacked] = self.base;
-        let stored = &file[place..place + length];
-        match self.scheme {
-            0 => Ok(stored.to_vec()),
-            2 => zstandard(name, stored, unpacked as u64),
-            scheme => {
-                let problem = format!("its supercompression, scheme {scheme}, is not read");
-                Err(undecoded(name, problem))
-            }
-        }
-    }
 }
 
-/// Bytes of a texel of eight bits a channel, and the places of red, green, blue and alpha in it, 4 for 0, 5 for 255: `VkFormat`
-/// in the Vulkan specification, linear or sRGB, which the texture's use decides.
-fn layout(format: u32) -> Option<(usize, [usize; 4])> {
-    match format {
-        9 | 15 => Some((1, [0, 4, 4, 5])),
-        16 | 22 => Some((2, [0, 1, 4, 5])),
-        23 | 29 => Some((3, [0, 1, 2, 5])),
-        30 | 36 => Some((3, [2, 1, 0, 5])),
-        37 | 43 => Some((4, [0, 1, 2, 3])),
-        44 | 50 => Some((4, [2, 1, 0, 3])),
-        _ => None,
-    }
-}
-
-/// At most so many bytes of a Zstandard stream.
-#[cfg(feature = "ktx2")]
-fn zstandard(name: &str, stored: &[u8], unpacked: u64) -> Result<Vec<u8>, SceneError> {
-    use std::io::Read;
-    let mut bytes = Vec::new();
-    let stream = ruzstd::StreamingDecoder::new(stored).map_err(|error| undecoded(name, error))?;
-    let read = stream.take(unpacked).read_to_end(&mut bytes);
-    read.map_err(|error| undecoded(name, error))?;
-    Ok(bytes)
-}
-
-/// What Basis Universal made, as red, green, blue and alpha.
-#[cfg(feature = "ktx2")]
+/// Red, green, blue and alpha of each pixel.
+#[cfg(feature = "formats")]
 fn basis(name: &str, file: &[u8]) -> Result<Vec<u8>, SceneError> {
     use basisu::{DecodeFlags, TargetFormat, Transcoder};
     let decode = || Transcoder::new(file)?.transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE);
     decode().map_err(|error| undecoded(name, format!("Basis Universal: {error:?}")))
 }
 
-#[cfg(not(feature = "ktx2"))]
-fn zstandard(name: &str, _: &[u8], _: u64) -> Result<Vec<u8>, SceneError> {
-    Err(not_compiled(name, "a KTX 2 picture by Zstandard", "ktx2"))
-}
-
-#[cfg(not(feature = "ktx2"))]
+#[cfg(not(feature = "formats"))]
 fn basis(name: &str, _: &[u8]) -> Result<Vec<u8>, SceneError> {
-    Err(not_compiled(name, "a KTX 2 picture by Basis Universal", "ktx2"))
+    Err(not_compiled(name, "a KTX 2 picture by Basis Universal"))
 }

@@ -14,7 +14,7 @@ use super::super::glow::Glow;
 use super::super::model::Material;
 use super::super::paint::{Opacity, Paint};
 use super::Document;
-use super::texture::Placed;
+use super::texture::{Named, Placed};
 
 /// A material, and the texture that its radiance is multiplied by, triangle by triangle.
 #[derive(Clone, Default)]
@@ -163,14 +163,26 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
         (own == set).then(|| placed.shown(document, is_color))
     };
     let of = |info: Option<&Info>| match info {
-        Some(info) => document.placed(info, element),
+        Some(info) => {
+            let named = Named {
+                index: info.index,
+                set: info.tex_coord,
+                others: info.extensions.as_ref().map(|extensions| &extensions.others),
+            };
+            document.placed(&named, element)
+        }
         None => Ok(None),
     };
     paint.base_texture = lie(of(texture)?, "base colour", true);
     paint.rough_texture = lie(of(rough)?, "metallic-roughness", false);
     if let Some(normal) = &material.normal_texture {
-        paint.bump_texture = lie(document.placed(normal, element)?, "normal", false);
-        paint.bump = normal.scale;
+        let named = Named {
+            index: normal.index,
+            set: normal.tex_coord,
+            others: normal.extensions.as_ref().map(|extensions| &extensions.others),
+        };
+        paint.bump_texture = lie(document.placed(&named, element)?, "normal", false);
+        paint.bump = paint.bump_texture.map_or(0.0, |_| normal.scale);
     }
     // Nothing glows, whatever the texture shows.
     let is_named = glow.is_some();

@@ -7,12 +7,12 @@ use gltf::json;
 use gltf::json::mesh::{Mode, Semantic};
 use gltf::json::validation::Checked;
 
-use super::super::check::{MAX_TRIANGLES, bounded};
+use super::super::check::MAX_TRIANGLES;
 use super::super::error::{SceneError, malformed};
 use super::super::model::{Mesh, Primitive};
 use super::attributes::Attributes;
 use super::material::Look;
-use super::{DAMAGED, Document, bend, emission};
+use super::{DAMAGED, Document, RADIANCE_ATTRIBUTE, bend};
 
 /// Decoded data that neighbouring primitives often share.
 #[derive(Default)]
@@ -85,7 +85,7 @@ fn one(
         return Err(malformed(document.path, problem, "split the scene"));
     }
     let coordinates = coordinates(document, &attributes, &looks[material], positions.len())?;
-    let radiance = emission::radiance(document, &attributes, &looks[material], &triangles)?;
+    let radiance = radiance(document, &attributes, &looks[material], &triangles)?;
     let targets = bend::targets(document, primitive, positions.len(), element)?;
     let influences = bend::influences(document, &attributes, positions.len())?;
     let (kept, triangles) = compact(positions.len(), triangles);
@@ -141,19 +141,44 @@ fn coordinates(
         document.note(element, what);
     }
     values.resize(vertices, [0.0; 2]);
-    let mut is_far = false;
-    for value in values.as_flattened_mut() {
-        let near = bounded(*value, 0.0);
-        is_far |= near != *value;
-        *value = near;
-    }
-    if is_far {
-        let what = format!(
-            "numbers of TEXCOORD_{set} beyond 2^20 count as 2^20, and what is no number as 0; repair the texture coordinates"
-        );
-        document.note(element, what);
-    }
     Ok(Some(values))
+}
+
+/// Radiance of each triangle where a texture or an attribute makes them differ; `None` where the material's holds for all of them.
+fn radiance(
+    document: &Document<'_>,
+    attributes: &Attributes<'_, '_>,
+    look: &Look,
+    triangles: &[[u32; 3]],
+) -> Result<Option<Vec<[f32; 3]>>, SceneError> {
+    let element = attributes.element;
+    let check = |count: usize| {
+        let problem = || format!("has an attribute of {count} elements, fewer than its positions");
+        match triangles
+            .as_flattened()
+            .iter()
+            .any(|&vertex| vertex as usize >= count)
+        {
+            true => Err(document.malformed(element, problem(), DAMAGED)),
+            false => Ok(()),
+        }
+    };
+    if let Some(values) = attributes.floats::<3>(Semantic::Extras(RADIANCE_ATTRIBUTE.to_owned()))? {
+        check(values.len())?;
+        let first = |&[a, _, _]: &[u32; 3]| values[a as usize];
+        return Ok(Some(triangles.iter().map(first).collect()));
+    }
+    let factor = look.material.radiance;
+    let Some((glow, set)) = look.glow.as_ref().filter(|_| factor != [0.0; 3]) else {
+        return Ok(None);
+    };
+    let Some(coordinates) = attributes.floats::<2>(Semantic::TexCoords(*set))? else {
+        let what = format!("its emissive texture is ignored, as TEXCOORD_{set} is missing");
+        document.note(element, what);
+        return Ok(None);
+    };
+    check(coordinates.len())?;
+    Ok(Some(glow.radiance(triangles, &coordinates, factor)))
 }
 
 /// Vertex indices in threes, all below `vertices`.

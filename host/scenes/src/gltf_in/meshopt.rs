@@ -70,16 +70,7 @@ impl Document<'_> {
         };
         let cell = &self.unpacked[index.value()];
         if cell.get().is_none() {
-            let plain = self.buffers.get(view.buffer.value());
-            match self.unpack(&compressed, name) {
-                Ok(bytes) => cell.set(bytes).unwrap_or_default(),
-                // The file brings the same data as they are.
-                Err(error) if plain.is_some_and(|buffer| !buffer.is_empty()) => {
-                    self.note("", format!("its plain data are taken, as {error}"));
-                    return Ok(None);
-                }
-                Err(error) => return Err(error),
-            }
+            cell.set(self.unpack(&compressed, name)?).unwrap_or_default();
         }
         let stride = Some(compressed.byte_stride as usize);
         Ok(cell.get().map(|bytes| (bytes.as_slice(), stride)))
@@ -90,19 +81,18 @@ impl Document<'_> {
         let source = self.bytes(Index::new(view.buffer), range, name)?;
         let size = view.count.saturating_mul(view.byte_stride);
         self.load.take(name, "what a compressed view holds", size)?;
-        #[cfg(not(feature = "meshopt"))]
+        #[cfg(not(feature = "formats"))]
         return Err(super::super::error::not_compiled(
             self.path,
             &format!("{name} ({})", NAMES[0]),
-            "meshopt",
         ));
-        #[cfg(feature = "meshopt")]
+        #[cfg(feature = "formats")]
         decode(view, source)
             .map_err(|error| self.malformed(name, format!("cannot be unpacked: {error}"), super::UNPACK))
     }
 }
 
-#[cfg(feature = "meshopt")]
+#[cfg(feature = "formats")]
 fn decode(view: &Compressed, source: &[u8]) -> Result<Vec<u8>, meshoptimizer_rs::Error> {
     use meshoptimizer_rs::codec::{
         decode_filter_color, decode_filter_exp, decode_filter_oct, decode_filter_quat, decode_index_buffer,

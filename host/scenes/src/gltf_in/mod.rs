@@ -12,8 +12,8 @@
 //! - metallic-roughness factors and textures, or specular-glossiness factors (`KHR_materials_pbrSpecularGlossiness`); normal
 //!   textures; emission by factor, texture (averaged per triangle where lights are chosen) and
 //!   `KHR_materials_emissive_strength`; `doubleSided`; alpha that cuts out or blends;
-//! - pictures in PNG, JPEG, WebP (`EXT_texture_webp`) and KTX 2 (`KHR_texture_basisu`: eight bits a channel, plain or by
-//!   Zstandard, and what Basis Universal makes), placed by `KHR_texture_transform`. One that cannot be had is noted and counts
+//! - pictures in PNG, JPEG, WebP (`EXT_texture_webp`) and KTX 2 by Basis Universal (`KHR_texture_basisu`), placed by
+//!   `KHR_texture_transform`. One that cannot be had is noted and counts
 //!   as white, and where it is what glows as black;
 //! - `KHR_materials_transmission`, by its factor and the mean of its texture: from a half on, light goes straight through and
 //!   is tinted. Where [`super::Paint`] is not shown, such surfaces, and blended ones, are left out unless they emit
@@ -32,7 +32,6 @@ mod attributes;
 mod bend;
 mod container;
 mod draco;
-mod emission;
 mod extensions;
 mod image;
 mod instancing;
@@ -42,8 +41,6 @@ mod material;
 mod mesh;
 mod meshopt;
 mod node;
-#[cfg(test)]
-mod tests;
 mod texture;
 
 use std::borrow::Cow;

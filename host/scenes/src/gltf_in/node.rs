@@ -16,7 +16,7 @@ use super::{BACKGROUND_EXTRA, Document, instancing};
 pub(super) fn read(document: &Document<'_>, data: &mut SceneData) -> Result<Vec<Option<u32>>, SceneError> {
     let nodes = &document.root.nodes;
     let parents = parents(document)?;
-    let (roots, listed) = roots(document, &parents, data)?;
+    let [roots, listed] = roots(document, &parents, data)?;
     let mut placing = Placing {
         document,
         parents: &parents,
@@ -24,27 +24,11 @@ pub(super) fn read(document: &Document<'_>, data: &mut SceneData) -> Result<Vec<
         cameras: Vec::new(),
     };
     placing.tree(roots, data)?;
-    // Some exporters list nodes that have a parent. Where the parent is in the scene they stay its children; where it is not,
-    // they are roots, the highest ones first.
-    let depths = depths(document, &parents);
-    let mut left = Vec::new();
-    for &(node, parent) in &listed {
-        let Some(depth) = depths[node] else {
-            let problem = format!("node {node} is a root, and also a child of node {parent}, in a cycle");
-            return Err(document.malformed("scene.nodes", problem, "list only nodes without a parent"));
-        };
-        left.push((depth, node));
-    }
-    left.sort_unstable();
-    for (_, node) in left {
+    // Some exporters list nodes that have a parent. Where the parent is in the scene they stay its children, else they are roots.
+    for node in listed {
+        let what = "is listed, but has a parent: it stays with it where that is in the scene";
+        document.note(&format!("scene.nodes: node {node}"), what);
         placing.tree(vec![node], data)?;
-    }
-    if let Some((node, parent)) = listed.first() {
-        let what = format!(
-            "lists {} nodes that have a parent, the first one node {node} of node {parent}: they stay with it where it is in the scene",
-            listed.len()
-        );
-        document.note("scene.nodes", what);
     }
     let Placing {
         place, mut cameras, ..
@@ -84,25 +68,6 @@ impl Placing<'_, '_> {
     }
 }
 
-/// How many ancestors each node has; `None` for nodes of cycles and below them.
-fn depths(document: &Document<'_>, parents: &[Option<usize>]) -> Vec<Option<u32>> {
-    let mut depths = vec![None; parents.len()];
-    let mut next: Vec<usize> = (0..parents.len())
-        .filter(|&node| parents[node].is_none())
-        .collect();
-    let mut depth = 0;
-    while !next.is_empty() {
-        let mut below = Vec::new();
-        for node in next {
-            depths[node] = Some(depth);
-            let children = document.root.nodes[node].children.iter().flatten();
-            below.extend(children.map(|child| child.value()));
-        }
-        (next, depth) = (below, depth + 1);
-    }
-    depths
-}
-
 /// The parent of each node; refuses nodes with two (glTF 2.0, section 3.5.1: node hierarchies are trees).
 fn parents(document: &Document<'_>) -> Result<Vec<Option<usize>>, SceneError> {
     let nodes = &document.root.nodes;
@@ -120,34 +85,32 @@ fn parents(document: &Document<'_>) -> Result<Vec<Option<usize>>, SceneError> {
     Ok(parents)
 }
 
-/// Nodes that a scene lists, though they are children: each with its parent.
-type Listed = Vec<(usize, usize)>;
-
-/// Roots of the default scene, or all roots where the file has no scene.
+/// Roots of the default scene, or all roots where the file has no scene; and children that it lists.
 fn roots(
     document: &Document<'_>,
     parents: &[Option<usize>],
     data: &mut SceneData,
-) -> Result<(Vec<usize>, Listed), SceneError> {
+) -> Result<[Vec<usize>; 2], SceneError> {
     let scene = match document.root.scene {
         Some(index) => Some(document.get(&document.root.scenes, index, "scene", "scene")?),
         None => document.root.scenes.first(),
     };
     let Some(scene) = scene else {
         let roots = (0..parents.len()).filter(|&node| parents[node].is_none());
-        return Ok((roots.collect(), Vec::new()));
+        return Ok([roots.collect(), Vec::new()]);
     };
     data.background = background(document, scene)?;
     let (mut roots, mut listed) = (Vec::new(), Vec::new());
     for &node in &scene.nodes {
         document.get(&document.root.nodes, node, "node", "scene.nodes")?;
-        if let Some(parent) = parents[node.value()] {
-            listed.push((node.value(), parent));
-            continue;
-        }
-        roots.push(node.value());
+        let list = if parents[node.value()].is_some() {
+            &mut listed
+        } else {
+            &mut roots
+        };
+        list.push(node.value());
     }
-    Ok((roots, listed))
+    Ok([roots, listed])
 }
 
 /// Appends a node; its camera goes to `cameras`, with the camera's index in the file.

@@ -3,14 +3,12 @@
 use std::rc::Rc;
 
 use gltf::json;
-use gltf::json::material::NormalTexture;
 use gltf::json::texture::{Info, MagFilter, WrappingMode};
 use gltf::json::validation::Checked::Valid;
 use image::RgbaImage;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-use super::super::check::bounded;
 use super::super::error::SceneError;
 use super::super::glow::Glow;
 use super::super::paint::{Texture, Wrap};
@@ -18,31 +16,10 @@ use super::super::pictures::mean_of;
 use super::Document;
 
 /// A texture as a material names it.
-#[derive(Clone, Copy)]
 pub(super) struct Named<'a> {
-    index: json::Index<json::Texture>,
-    set: u32,
-    others: Option<&'a Map<String, Value>>,
-}
-
-impl<'a> From<&'a Info> for Named<'a> {
-    fn from(info: &'a Info) -> Self {
-        Self {
-            index: info.index,
-            set: info.tex_coord,
-            others: info.extensions.as_ref().map(|extensions| &extensions.others),
-        }
-    }
-}
-
-impl<'a> From<&'a NormalTexture> for Named<'a> {
-    fn from(info: &'a NormalTexture) -> Self {
-        Self {
-            index: info.index,
-            set: info.tex_coord,
-            others: info.extensions.as_ref().map(|extensions| &extensions.others),
-        }
-    }
+    pub index: json::Index<json::Texture>,
+    pub set: u32,
+    pub others: Option<&'a Map<String, Value>>,
 }
 
 /// A texture with its picture, and where it lies.
@@ -86,6 +63,16 @@ struct Transform {
     tex_coord: Option<u32>,
 }
 
+impl Transform {
+    /// The effect of each coordinate, and where the origin goes. A rotation is against the clock as seen: the second axis
+    /// points down.
+    fn columns(&self) -> [[f32; 2]; 3] {
+        let angle = f64::from(self.rotation);
+        let (sine, cosine, [x, y]) = (libm::sin(angle) as f32, libm::cos(angle) as f32, self.scale);
+        [[cosine * x, -sine * x], [sine * y, cosine * y], self.offset]
+    }
+}
+
 impl Default for Transform {
     fn default() -> Self {
         Self {
@@ -108,12 +95,7 @@ const SOURCES: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 
 impl Document<'_> {
     /// The texture that a material names; `None` where its picture cannot be had, which is noted.
-    pub(super) fn placed<'a>(
-        &self,
-        named: impl Into<Named<'a>>,
-        element: &str,
-    ) -> Result<Option<Placed>, SceneError> {
-        let named = named.into();
+    pub(super) fn placed(&self, named: &Named<'_>, element: &str) -> Result<Option<Placed>, SceneError> {
         let Some((picture, pixels)) = self.pixels_of(named.index, element)? else {
             return Ok(None);
         };
@@ -138,24 +120,9 @@ impl Document<'_> {
             pixels,
             wrap,
             is_nearest,
-            transform: self.columns(&given, element),
+            transform: given.columns(),
             set: given.tex_coord.unwrap_or(named.set),
         }))
-    }
-
-    /// What each coordinate adds, and where the origin goes; numbers that a scene does not take are bounded, with a note. A
-    /// rotation is against the clock as seen: the second axis points down.
-    fn columns(&self, given: &Transform, element: &str) -> [[f32; 2]; 3] {
-        let offset = given.offset.map(|x| bounded(x, 0.0));
-        let scale = given.scale.map(|x| bounded(x, 1.0));
-        let rotation = Some(given.rotation).filter(|x| x.is_finite()).unwrap_or(0.0);
-        if offset != given.offset || scale != given.scale || rotation != given.rotation {
-            let what = "scales and offsets of its KHR_texture_transform beyond 2^20 count as 2^20, a rotation that is no number as none";
-            self.note(element, what);
-        }
-        let angle = f64::from(rotation);
-        let (sine, cosine, [x, y]) = (libm::sin(angle) as f32, libm::cos(angle) as f32, scale);
-        [[cosine * x, -sine * x], [sine * y, cosine * y], offset]
     }
 
     /// The mean of a texture, of a colour texture linear red, green, blue, and alpha; `None` as for [`placed`](Self::placed).

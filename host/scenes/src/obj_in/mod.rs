@@ -11,18 +11,15 @@
 //! Where vertices of a face that emits have normals, they say which side emits; else its front does, as in glTF. The format has
 //! no unit and no camera: coordinates are metres, +Y is up, and `Ke` is radiance in W/(m² sr).
 //!
-//! The crate `tobj` is not used: it panics at `Kd 1 2` and at relative texture indices beyond the first, refuses faces that name
-//! missing normals, and its errors name neither line nor value.
+//! The crate `tobj` is not used: it panics at `Kd 1 2` and at relative texture indices beyond the first.
 
 mod mtl;
-mod pictures;
 #[cfg(test)]
 mod tests;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use super::check::bounded;
 use super::error::{SceneError, malformed};
 use super::files::{Limits, Load, without_mark};
 use super::frame::emits;
@@ -91,7 +88,12 @@ impl Scene {
             match word {
                 "v" => reading.positions.push(numbers::<3>(file, line, rest)?),
                 "vn" => reading.normals.push(numbers::<3>(file, line, rest)?),
-                "vt" => reading.texture_coordinates(line, rest),
+                // A third one is left out; one that is no number is bounded with the scene's others.
+                "vt" => {
+                    let mut words = rest.split_ascii_whitespace();
+                    let next = |_| words.next().map_or(0.0, |word| word.parse().unwrap_or(f32::NAN));
+                    reading.coordinates.push([0, 1].map(next));
+                }
                 "f" => {
                     let part = *part.get_or_insert_with(|| reading.part(&object, &group, &material));
                     reading.face(line, rest, part)?;
@@ -153,23 +155,6 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// One or two coordinates; a third is left out.
-    fn texture_coordinates(&mut self, line: u32, rest: &str) {
-        let mut words = rest.split_ascii_whitespace();
-        let mut next = || match words.next() {
-            Some(word) => word.parse().ok().filter(|&x| bounded(x, 0.0) == x),
-            None => Some(0.0),
-        };
-        let lies = next().zip(next()).map(|(u, v)| [u, v]);
-        if lies.is_none() {
-            self.note(
-                line,
-                "texture coordinates that are no numbers, or beyond 2^20, count as 0",
-            );
-        }
-        self.coordinates.push(lies.unwrap_or_default());
-    }
-
     /// The place in `parts` of what a group has of a material.
     fn part(&mut self, object: &str, group: &str, material: &str) -> usize {
         let group = match (object, group) {
@@ -189,20 +174,16 @@ impl Reading<'_> {
     fn face(&mut self, line: u32, rest: &str, part: usize) -> Result<(), SceneError> {
         let wrong = |problem: String| wrong(self.file, line, problem);
         let mut corners: Vec<(u32, Option<u32>, Option<u32>)> = Vec::new();
-        let mut lacks_normals = false;
         for word in rest.split_ascii_whitespace() {
             // `vertex`, `vertex/texture`, `vertex//normal` or `vertex/texture/normal`.
             let mut parts = word.split('/');
             let mut next = |what, count| index(parts.next().unwrap_or(""), what, count).map_err(wrong);
             let vertex = next("vertex", self.positions.len())?;
-            let unnamed = || Err(format!("`{}` names no vertex", shown(word)));
-            let vertex = vertex.unwrap_or_else(unnamed).map_err(wrong)?;
+            let vertex = vertex.ok_or_else(|| wrong(format!("`{}` names no vertex", shown(word))))?;
             let texture = next("texture coordinate", self.coordinates.len())?;
-            let texture = texture.transpose().map_err(wrong)?;
-            // The shape is whole without it.
-            let normal = next("normal", self.normals.len())?;
-            lacks_normals |= matches!(normal, Some(Err(_)));
-            corners.push((vertex, texture, normal.and_then(Result::ok)));
+            // The shape is whole without it, and some exporters leave out normals that they name.
+            let normal = next("normal", self.normals.len()).unwrap_or(None);
+            corners.push((vertex, texture, normal));
         }
         if corners.len() < 3 {
             let problem = format!("a face has {} vertices, expected at least 3", corners.len());
@@ -225,12 +206,6 @@ impl Reading<'_> {
             });
         });
         cut.map_err(wrong)?;
-        if lacks_normals {
-            self.note(
-                line,
-                "faces that name normals that are not before them are read without normals; export the file again, or with its normals",
-            );
-        }
         let bytes = (size_of::<Face>() * corners.len()) as u64;
         self.load.take(self.file, "the list of triangles", bytes)
     }
@@ -392,8 +367,8 @@ fn numbers<const N: usize>(file: &str, line: u32, text: &str) -> Result<[f32; N]
     })
 }
 
-/// An index from 1, or from -1 for the last one so far: none for an empty text, and what is wrong where nothing is there.
-fn index(text: &str, what: &str, count: usize) -> Result<Option<Result<u32, String>>, String> {
+/// An index from 1, or from -1 for the last one so far; none for an empty text.
+fn index(text: &str, what: &str, count: usize) -> Result<Option<u32>, String> {
     if text.is_empty() {
         return Ok(None);
     }
@@ -407,7 +382,7 @@ fn index(text: &str, what: &str, count: usize) -> Result<Option<Result<u32, Stri
         .ok()
         .filter(|&index| (index as usize) < count);
     let missing = || format!("it refers to {what} {number}, but there are only {count} before it");
-    Ok(Some(found.ok_or_else(missing)))
+    found.ok_or_else(missing).map(Some)
 }
 
 /// The beginning of a text, for messages.

@@ -1,52 +1,46 @@
-//! MTL libraries.
+//! MTL libraries, and the pictures that they name.
 
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
-use super::super::check::MAX_TEXTURE_COORDINATE;
+use image::RgbaImage;
+
 use super::super::error::SceneError;
 use super::super::files::{Load, without_mark};
 use super::super::glow::{Glow, Glows};
 use super::super::model::Material;
 use super::super::notes::Notes;
 use super::super::paint::{Opacity, Paint, Picture, Texture, Wrap};
-use super::pictures::{Map, Pictures};
+use super::super::pictures;
 use super::{beside, lines, numbers, split};
 
-/// Where a map lies, by its options.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Placing {
-    scale: [f32; 2],
-    offset: [f32; 2],
-    is_clamped: bool,
+/// The last line of each word of a material, with its number.
+type Entry = HashMap<String, (u32, String)>;
+
+/// A picture of a scene with its number.
+#[derive(Clone)]
+struct Kept {
+    number: u32,
+    pixels: Rc<RgbaImage>,
+    mean: [f32; 3],
+    has_shape: bool,
 }
 
-impl Placing {
-    fn wrap(&self) -> [Wrap; 2] {
-        [if self.is_clamped {
-            Wrap::Clamp
-        } else {
-            Wrap::Repeat
-        }; 2]
-    }
-
-    /// The second coordinate of the format grows upward, rows go down.
-    fn transform(&self) -> [[f32; 2]; 3] {
-        let ([sx, sy], [ox, oy]) = (self.scale, self.offset);
-        [[sx, 0.0], [0.0, -sy], [ox, 1.0 - oy]]
-    }
+/// A picture, and where it lies.
+struct Map {
+    texture: Texture,
+    kept: Kept,
 }
-
-/// What a library says of a material: by its first word the last line of it, and its number.
-#[derive(Debug, Default)]
-struct Entry(HashMap<String, (u32, String)>);
 
 /// Materials by name, and the pictures that they share.
 pub(super) struct Library<'a> {
-    /// With what those glow by that have a picture of it.
+    load: &'a Load,
+    /// With the glow of those that have a picture of it.
     pub materials: HashMap<String, (Material, Option<Glow>)>,
     glows: Glows,
-    pictures: Pictures<'a>,
+    /// By the files of colours and opacities.
+    kept: HashMap<(PathBuf, Option<PathBuf>), Kept>,
 }
 
 /// A library that is read.
@@ -60,16 +54,19 @@ struct Reading<'r, 'a> {
 impl<'a> Library<'a> {
     pub fn new(load: &'a Load) -> Self {
         Self {
+            load,
             materials: HashMap::new(),
             glows: Glows::default(),
-            pictures: Pictures::new(load),
+            kept: HashMap::new(),
         }
     }
 
-    /// The pictures that materials show.
+    /// All pictures, by number.
     pub fn into_pictures(self) -> Vec<Picture> {
         drop(self.materials);
-        self.pictures.into_kept()
+        let mut kept: Vec<Kept> = self.kept.into_values().collect();
+        kept.sort_by_key(|own| own.number);
+        kept.into_iter().map(|own| pictures::kept(own.pixels)).collect()
     }
 
     /// Adds the materials of a file; the first one of a name stays.
@@ -97,7 +94,7 @@ impl<'a> Library<'a> {
                 }
                 _ => {
                     let word = if word == "map_ke" { "map_Ke" } else { word };
-                    entry.0.insert(word.to_owned(), (line, rest.to_owned()));
+                    entry.insert(word.to_owned(), (line, rest.to_owned()));
                 }
             }
         }
@@ -111,77 +108,106 @@ impl Reading<'_, '_> {
     }
 
     fn number(&self, entry: &Entry, word: &str) -> Result<Option<f32>, SceneError> {
-        let Some((line, rest)) = entry.0.get(word) else {
-            return Ok(None);
-        };
-        let rest = rest.strip_prefix("-halo").unwrap_or(rest);
-        numbers(&self.file, *line, rest).map(|[number]| Some(number))
+        let own = entry.get(word).map(|(line, rest)| {
+            let rest = rest.strip_prefix("-halo").unwrap_or(rest);
+            numbers(&self.file, *line, rest).map(|[number]| number)
+        });
+        own.transpose()
     }
 
-    /// A colour; spectral curves and CIEXYZ are left out.
-    fn color(&mut self, entry: &Entry, word: &str) -> Result<Option<[f32; 3]>, SceneError> {
-        let Some((line, rest)) = entry.0.get(word) else {
-            return Ok(None);
-        };
-        if rest.starts_with("spectral") || rest.starts_with("xyz") {
-            let what = "colours by `spectral` or `xyz` are left out; write them as RGB";
-            self.note(*line, what);
-            return Ok(None);
+    /// A colour; one number stands for all three channels.
+    fn color(&self, entry: &Entry, word: &str) -> Result<Option<[f32; 3]>, SceneError> {
+        match entry.get(word) {
+            Some((_, rest)) if rest.split_ascii_whitespace().count() == 1 => {
+                Ok(self.number(entry, word)?.map(|one| [one; 3]))
+            }
+            Some((line, rest)) => numbers(&self.file, *line, rest).map(Some),
+            None => Ok(None),
         }
-        // One number stands for all three channels.
-        if rest.split_ascii_whitespace().count() == 1 {
-            return numbers(&self.file, *line, rest).map(|[one]| Some([one; 3]));
-        }
-        numbers(&self.file, *line, rest).map(Some)
     }
 
-    /// A map, whose name comes after its options.
-    fn map(&mut self, entry: &Entry, word: &str) -> Result<Option<Map>, SceneError> {
-        let Some((line, rest)) = entry.0.get(word) else {
-            return Ok(None);
-        };
-        let (placing, name, is_bounded) = map_options(rest);
-        if is_bounded {
-            let what = "numbers of `-s` and `-o` of maps beyond 2^20 count as 2^20";
-            self.note(*line, what);
-        }
+    /// The file of a map.
+    fn file_of(&self, name: &str) -> PathBuf {
         let folder = self.path.parent().unwrap_or(Path::new(""));
-        let path = beside(self.library.pictures.load, folder, &name.replace('\\', "/"));
-        match self.library.pictures.mean(&path) {
-            Ok(mean) => Ok(Some(Map { path, mean, placing })),
+        beside(self.library.load, folder, &name.replace('\\', "/"))
+    }
+
+    /// A map by a word; `opacity` is the word of another one, which says where it is.
+    fn map(&mut self, entry: &Entry, word: &str, opacity: &str) -> Result<Option<Map>, SceneError> {
+        let Some((line, rest)) = entry.get(word) else {
+            return Ok(None);
+        };
+        let (wrap, transform, name) = map_options(rest);
+        let opacity = entry
+            .get(opacity)
+            .map(|(_, rest)| self.file_of(map_options(rest).2));
+        let kept = self.kept(*line, (self.file_of(name), opacity))?;
+        Ok(kept.map(|kept| {
+            let texture = Texture {
+                picture: kept.number,
+                is_color: true,
+                is_nearest: false,
+                wrap,
+                transform,
+            };
+            Map { texture, kept }
+        }))
+    }
+
+    /// The picture of a file, with the alpha of another one, or its red if that is opaque.
+    fn kept(&mut self, line: u32, of: (PathBuf, Option<PathBuf>)) -> Result<Option<Kept>, SceneError> {
+        if let Some(known) = self.library.kept.get(&of) {
+            return Ok(Some(known.clone()));
+        }
+        let Some(mut pixels) = self.decode(line, &of.0)? else {
+            return Ok(None);
+        };
+        let bytes = pixels.as_raw().len() as u64;
+        self.library
+            .load
+            .take(&of.0.display().to_string(), "a picture", bytes)?;
+        let other = match &of.1 {
+            Some(path) => self.decode(line, path)?,
+            None => None,
+        };
+        match &other {
+            None => pixels.pixels_mut().for_each(|pixel| pixel.0[3] = u8::MAX),
+            Some(other) => {
+                let has_alpha = other.pixels().any(|pixel| pixel.0[3] < u8::MAX);
+                let (size, of) = (pixels.dimensions(), other.dimensions());
+                let at = |k: u32, size: u32, of: u32| {
+                    ((u64::from(k) * u64::from(of) / u64::from(size)) as u32).min(of - 1)
+                };
+                for (x, y, pixel) in pixels.enumerate_pixels_mut() {
+                    let other = other.get_pixel(at(x, size.0, of.0), at(y, size.1, of.1));
+                    pixel.0[3] = other.0[if has_alpha { 3 } else { 0 }];
+                }
+            }
+        }
+        let [r, g, b, _] = pictures::mean_of(&pixels, true);
+        let kept = Kept {
+            number: self.library.kept.len() as u32,
+            pixels: Rc::new(pixels),
+            mean: [r, g, b],
+            has_shape: other.is_some(),
+        };
+        self.library.kept.insert(of, kept.clone());
+        Ok(Some(kept))
+    }
+
+    /// The pixels of a file; `None` where they cannot be had, which is noted.
+    fn decode(&mut self, line: u32, path: &Path) -> Result<Option<RgbaImage>, SceneError> {
+        let load = self.library.load;
+        let bytes = load.read(path);
+        match bytes.and_then(|bytes| pictures::decode_light(load, bytes, path)) {
+            Ok(picture) => Ok(Some(picture.into_rgba8())),
             Err(error) if error.ends_the_load() => Err(error),
             Err(error) => {
                 let what = format!("a picture counts as white, and where it is what glows as black: {error}");
-                self.note(*line, what);
+                self.note(line, what);
                 Ok(None)
             }
         }
-    }
-
-    /// A map as the renderer shows it, and what glows by it.
-    fn shown(&mut self, map: &Map, opacity: Option<&Map>) -> Result<Option<(Texture, Glow)>, SceneError> {
-        let opacity = opacity.map(|opacity| opacity.path.as_path());
-        let (picture, pixels) = match self.library.pictures.keep(&map.path, opacity) {
-            Ok(Some(kept)) => kept,
-            Ok(None) => {
-                let what = "holds light that bytes cannot, and its mean colour is shown";
-                self.notes.add(map.path.display().to_string(), what);
-                return Ok(None);
-            }
-            Err(error) if error.ends_the_load() => return Err(error),
-            Err(_) => return Ok(None),
-        };
-        let (wrap, transform) = (map.placing.wrap(), map.placing.transform());
-        let texture = Texture {
-            picture,
-            is_color: true,
-            is_nearest: false,
-            wrap,
-            transform,
-        };
-        let picture = (picture as usize, pixels);
-        let glow = Glow::new(picture, wrap, false, transform, &self.library.glows);
-        Ok(Some((texture, glow)))
     }
 
     fn close(&mut self, entry: Option<(String, Entry)>) -> Result<(), SceneError> {
@@ -189,14 +215,13 @@ impl Reading<'_, '_> {
         let Some((name, entry)) = new else {
             return Ok(());
         };
-        let diffuse_map = self.map(&entry, "map_Kd")?;
-        let emission_map = self.map(&entry, "map_Ke")?;
-        let opacity_map = self.map(&entry, "map_d")?;
+        let diffuse_map = self.map(&entry, "map_Kd", "map_d")?;
+        let emission_map = self.map(&entry, "map_Ke", "")?;
         let illumination = self.number(&entry, "illum")?;
         let is_one_of = |models: &[f32]| illumination.is_some_and(|own| models.contains(&own));
         let unit = |x: f32| x.clamp(0.0, 1.0);
         let times = |color: [f32; 3], map: &Option<Map>| match map {
-            Some(map) => [0, 1, 2].map(|i| color[i] * map.mean[i]),
+            Some(map) => [0, 1, 2].map(|i| color[i] * map.kept.mean[i]),
             None => color,
         };
         // Exporters write black beside a map that says all.
@@ -228,8 +253,8 @@ impl Reading<'_, '_> {
             (None, transparency) => transparency.unwrap_or(0.0),
         };
         let mut radiance = or_one(self.color(&entry, "Ke")?.unwrap_or_default(), &emission_map);
-        if emission_map.is_none() && entry.0.contains_key("map_Ke") {
-            // What is known to glow somewhere is not taken to glow everywhere.
+        if emission_map.is_none() && entry.contains_key("map_Ke") {
+            // A surface that is known to glow somewhere is not taken to glow everywhere.
             radiance = [0.0; 3];
         }
         let mut material = Material {
@@ -249,26 +274,20 @@ impl Reading<'_, '_> {
             radiance,
             ..Paint::PLAIN
         };
-        if let Some(map) = diffuse_map.filter(|_| !is_mirror)
-            && let Some((texture, _)) = self.shown(&map, opacity_map.as_ref())?
-        {
+        if let Some(map) = diffuse_map.filter(|_| !is_mirror) {
             let [r, g, b] = factor.map(unit);
-            (paint.base, paint.base_texture) = ([r, g, b, 1.0], Some(texture));
-            if let Some(opacity) = opacity_map {
+            (paint.base, paint.base_texture) = ([r, g, b, 1.0], Some(map.texture));
+            if map.kept.has_shape {
                 paint.opacity = Opacity::Cut(0.5);
                 material.masked = !material.is_clear();
-                if opacity.placing != map.placing {
-                    let what = "options `-s`, `-o` and `-clamp` of `map_d` that `map_Kd` does not have are left out: what is cut out lies as the colours do";
-                    self.notes.add(self.file.as_str(), what);
-                }
             }
         }
-        let mut glow = None;
-        if let Some(map) = emission_map.filter(|_| radiance != [0.0; 3])
-            && let Some((texture, own)) = self.shown(&map, None)?
-        {
-            (paint.glow_texture, glow) = (Some(texture), Some(own));
-        }
+        let glow = emission_map.filter(|_| radiance != [0.0; 3]).map(|map| {
+            paint.glow_texture = Some(map.texture);
+            let picture = (map.kept.number as usize, map.kept.pixels);
+            let Texture { wrap, transform, .. } = map.texture;
+            Glow::new(picture, wrap, false, transform, &self.library.glows)
+        });
         // Glass is left out as a whole.
         material.paint = Some(paint).filter(|paint| paint.is_seen() && !material.is_clear());
         self.library.materials.insert(name, (material, glow));
@@ -276,10 +295,10 @@ impl Reading<'_, '_> {
     }
 }
 
-/// The options of a map, as `-s 1 1 1` and `-clamp on`, the file after them, whose name may have spaces, and whether numbers of
-/// them are bounded.
-fn map_options(rest: &str) -> (Placing, &str, bool) {
-    let (mut scale, mut offset, mut is_clamped) = ([1.0; 2], [0.0; 2], false);
+/// Wrapping and transform by the options of a map, as `-s 1 1 1` and `-clamp on`, and the file after them, whose name may have
+/// spaces.
+fn map_options(rest: &str) -> ([Wrap; 2], [[f32; 2]; 3], &str) {
+    let (mut scale, mut offset, mut wrap) = ([1.0; 2], [0.0; 2], Wrap::Repeat);
     let mut rest = rest.trim();
     while rest.starts_with('-') {
         let (option, mut after) = split(rest);
@@ -295,13 +314,13 @@ fn map_options(rest: &str) -> (Placing, &str, bool) {
         );
         for k in 0..most {
             let (word, next) = split(after);
-            let number = word.parse::<f32>().ok().filter(|x| x.is_finite());
+            let number = word.parse::<f32>().ok();
             // The last word is the file.
             if next.is_empty() || !(is_word || number.is_some()) {
                 break;
             }
             match (option, number) {
-                ("-clamp", _) => is_clamped = word == "on",
+                ("-clamp", _) if word == "on" => wrap = Wrap::Clamp,
                 ("-s", Some(number)) if k < 2 => scale[k] = number,
                 ("-o", Some(number)) if k < 2 => offset[k] = number,
                 _ => {}
@@ -310,14 +329,9 @@ fn map_options(rest: &str) -> (Placing, &str, bool) {
         }
         rest = after;
     }
-    // The transform adds one.
-    let (most, near) = (MAX_TEXTURE_COORDINATE, MAX_TEXTURE_COORDINATE - 1.0);
-    let placing = Placing {
-        scale: scale.map(|x: f32| x.clamp(-most, most)),
-        offset: offset.map(|x: f32| x.clamp(-near, near)),
-        is_clamped,
-    };
-    (placing, rest, placing.scale != scale || placing.offset != offset)
+    // The second coordinate of the format grows upward, rows go down.
+    let transform = [[scale[0], 0.0], [0.0, -scale[1]], [offset[0], 1.0 - offset[1]]];
+    ([wrap; 2], transform, rest)
 }
 
 fn luminance([r, g, b]: [f32; 3]) -> f32 {

@@ -28,17 +28,10 @@ impl Up {
 /// The scene with the animations of these names or numbers.
 pub(super) fn playing(scene: Scene, words: &[String]) -> Result<Scene, HostError> {
     let mut data = scene.into_data();
-    data.play(words).map_err(|none| match none.idle {
-        Some(idle) => HostError::Refused {
-            option: "--animation",
-            value: idle,
-            problem: format!("moves nothing of the scene: expected {}", none.expected),
-        },
-        None => HostError::Refused {
-            option: "--animation",
-            value: format!("{:?}", none.word),
-            problem: format!("names nothing: expected {}", none.expected),
-        },
+    data.play(words).map_err(|none| HostError::Refused {
+        option: "--animation",
+        value: format!("{:?}", none.word),
+        problem: format!("names nothing that moves: expected {}", none.expected),
     })?;
     Ok(Scene::new(data)?)
 }

@@ -1,38 +1,50 @@
-//! Small glTF files and scenes for the tests of the loader.
+//! Small glTF files and scenes.
+
+use std::io::Cursor;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use image::{ExtendedColorType, ImageFormat};
-use lightbvh_host::scene::{
+use image::{ImageFormat, Rgba, RgbaImage};
+use lightbvh_scenes::{
     Animation, Camera, Channel, Influence, Interpolation, Material, Mesh, Node, Primitive, Property, Scene,
     SceneData, SceneError, Skin, Transform,
 };
 use serde_json::{Value, json};
 
 /// Reads bytes as a file called `test`.
-///
-/// # Errors
-/// As the loader.
 pub fn read(bytes: &[u8]) -> Result<Scene, SceneError> {
     Scene::read_gltf_slice("test", bytes, None)
 }
 
-/// Reads JSON as a `.gltf` file called `test`.
-///
-/// # Errors
-/// As the loader.
-pub fn read_json(root: &Value) -> Result<Scene, SceneError> {
-    read(root.to_string().as_bytes())
+/// The scene of a sound `.gltf` file.
+pub fn read_json(root: &Value) -> Scene {
+    read(root.to_string().as_bytes()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The reason why a `.gltf` file is refused.
+pub fn refused(root: &Value) -> String {
+    let found = read(root.to_string().as_bytes());
+    found
+        .err()
+        .unwrap_or_else(|| panic!("must be refused: {root}"))
+        .to_string()
+}
+
+/// The reason why a scene is refused.
+pub fn broken(mut data: SceneData, change: impl FnOnce(&mut SceneData)) -> String {
+    change(&mut data);
+    Scene::new(data).expect_err("must be refused").to_string()
+}
+
+/// Numbers as a buffer holds them.
+pub fn bytes(numbers: &[f32]) -> Vec<u8> {
+    numbers.iter().flat_map(|x| x.to_le_bytes()).collect()
 }
 
 /// One emissive triangle with vertices (0,0,0), (1,0,0), (0,1,0) and indices 0 1 2 behind them.
-#[must_use]
 pub fn triangle() -> Value {
-    let mut bytes: Vec<u8> = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]
-        .iter()
-        .flat_map(|x| x.to_le_bytes())
-        .collect();
-    bytes.extend([0_u16, 1, 2].iter().flat_map(|i| i.to_le_bytes()));
+    let mut bytes = bytes(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    bytes.extend([0, 0, 1, 0, 2, 0]);
     json!({
         "asset": { "version": "2.0" },
         "scene": 0,
@@ -48,14 +60,11 @@ pub fn triangle() -> Value {
             { "buffer": 0, "byteOffset": 0, "byteLength": 36 },
             { "buffer": 0, "byteOffset": 36, "byteLength": 6 },
         ],
-        "buffers": [
-            { "byteLength": 42, "uri": embedded(&bytes) },
-        ],
+        "buffers": [{ "byteLength": 42, "uri": embedded(&bytes) }],
     })
 }
 
 /// [`triangle`] with one place changed.
-#[must_use]
 pub fn changed(pointer: &str, value: Value) -> Value {
     let mut root = triangle();
     let (parent, key) = pointer.rsplit_once('/').expect("a pointer starts with a slash");
@@ -67,41 +76,54 @@ pub fn changed(pointer: &str, value: Value) -> Value {
     root
 }
 
-/// A 2 by 1 PNG: left texel white, right texel black.
-///
-/// # Panics
-/// If it cannot be encoded.
-#[must_use]
+/// [`triangle`] with texture coordinates, which glows by a picture.
+pub fn textured(coordinates: [[f32; 2]; 3], picture: &[u8]) -> Value {
+    let mut root = triangle();
+    let bytes = bytes(coordinates.as_flattened());
+    push(
+        &mut root["buffers"],
+        json!({ "byteLength": 24, "uri": embedded(&bytes) }),
+    );
+    push(&mut root["bufferViews"], json!({ "buffer": 1, "byteLength": 24 }));
+    push(
+        &mut root["accessors"],
+        json!({ "bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC2" }),
+    );
+    root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(2);
+    root["materials"][0]["emissiveTexture"] = json!({ "index": 0 });
+    // Texels as they are: by means of four all of a small picture would glow.
+    root["samplers"] = json!([{ "magFilter": 9728 }]);
+    root["textures"] = json!([{ "source": 0, "sampler": 0 }]);
+    root["images"] = json!([{ "uri": embedded(picture) }]);
+    root
+}
+
+/// A picture as PNG.
+pub fn png(width: u32, height: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    let pixels = RgbaImage::from_fn(width, height, |x, y| Rgba(texel(x, y)));
+    pixels.write_to(&mut bytes, ImageFormat::Png).expect("encoded");
+    bytes.into_inner()
+}
+
+/// A PNG of 2 by 1 texels: left white, right black.
 pub fn png_white_black() -> Vec<u8> {
-    let mut png = std::io::Cursor::new(Vec::new());
-    image::write_buffer_with_format(
-        &mut png,
-        &[255, 255, 255, 0, 0, 0],
-        2,
-        1,
-        ExtendedColorType::Rgb8,
-        ImageFormat::Png,
-    )
-    .expect("encoded");
-    png.into_inner()
+    png(2, 1, |x, _| {
+        [255 * (1 - x as u8), 255 * (1 - x as u8), 255 * (1 - x as u8), 255]
+    })
 }
 
 /// Appends to a list of a file.
-///
-/// # Panics
-/// Where `list` is none.
 pub fn push(list: &mut Value, value: Value) {
     list.as_array_mut().expect("a list").push(value);
 }
 
 /// `bytes` as the uri of an embedded buffer or picture.
-#[must_use]
 pub fn embedded(bytes: &[u8]) -> String {
     format!("data:;base64,{}", STANDARD.encode(bytes))
 }
 
 /// Two nodes, one swinging on the other, every interpolation, a camera, radiance per triangle, a matrix node.
-#[must_use]
 pub fn busy() -> SceneData {
     let key = |x: f32| [x, 0.5 * x, 0.0, 0.0];
     let channel = |node, property: Property, interpolation, values: Vec<[f32; 4]>, times: &[f32]| Channel {
@@ -210,7 +232,6 @@ pub fn busy() -> SceneData {
 
 /// Two tetrahedra that glow: one on node 0, bent by two targets whose weights are animated, one on node 1, which two joints bend,
 /// node 2 and, a metre above, node 3, which turns about z.
-#[must_use]
 pub fn bending() -> SceneData {
     let quarter = [
         0.0,

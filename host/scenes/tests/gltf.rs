@@ -1,0 +1,274 @@
+//! What is read of a glTF file, what is left out, and what is written.
+
+use lightbvh::light::TWO_SIDED;
+use lightbvh_scenes::{Frame, Scene};
+use serde_json::{Value, json};
+
+use crate::files::{bending, busy, bytes, changed, embedded, push, read, read_json, refused, triangle};
+
+fn frame(root: &Value) -> Frame {
+    read_json(root).frame(0)
+}
+
+fn normal_z(frame: &Frame) -> f32 {
+    let [a, b, c] = frame.emissive[0].p;
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+#[test]
+fn a_triangle_in_a_data_uri() {
+    let frame = frame(&triangle());
+    assert_eq!((frame.emissive.len(), frame.mesh_lights.len()), (1, 1));
+    let light = frame.emissive[0];
+    assert_eq!(light.p, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    assert_eq!((light.radiance, light.flags), ([1.0, 0.5, 0.25], 0));
+}
+
+#[test]
+fn emissive_strength_and_two_sided() {
+    let mut root = changed("/materials/0/doubleSided", json!(true));
+    root["materials"][0]["extensions"] =
+        json!({ "KHR_materials_emissive_strength": { "emissiveStrength": 8.0 } });
+    root["extensionsRequired"] = json!(["KHR_materials_emissive_strength"]);
+    let light = frame(&root).emissive[0];
+    assert_eq!((light.radiance, light.flags), ([8.0, 4.0, 2.0], TWO_SIDED));
+}
+
+/// Through two negative factors nothing is mirrored; along z alone the front looks along -z then.
+#[test]
+fn mirrored_instances_keep_their_front() {
+    for (scale, front) in [
+        ([1.0, 1.0, 1.0], 1.0),
+        ([-1.0, 1.0, 1.0], 1.0),
+        ([1.0, -2.0, 1.0], 2.0),
+        ([-1.0, -1.0, 1.0], 1.0),
+        ([1.0, 1.0, -1.0], -1.0),
+        // It stays in the list.
+        ([1.0, 0.0, 1.0], 0.0),
+    ] {
+        let frame = frame(&changed("/nodes/0/scale", json!(scale)));
+        assert_eq!(normal_z(&frame), front, "{scale:?}");
+    }
+}
+
+#[test]
+fn every_kind_of_element_survives_the_way_through_glb() {
+    for data in [busy(), bending()] {
+        let scene = Scene::new(data).expect("a sound scene");
+        let back = read(&scene.to_glb().expect("it can be written")).expect("and read back");
+        for frame in 0..80 {
+            assert_eq!(scene.frame(frame), back.frame(frame), "frame {frame}");
+        }
+    }
+}
+
+#[test]
+fn animations_follow_gltf() {
+    let scene = Scene::new(busy()).expect("a sound scene");
+    let first = |frame: u32| scene.frame(frame).triangles[0].p[0];
+    // Linear from 0 to 3 in the first second, back in the second, then again.
+    assert_eq!(first(0), [0.0, 0.0, 0.0]);
+    assert_eq!(first(25), [3.0, 1.5, 0.0]);
+    assert_eq!(first(75), first(25));
+    let near = |a: f32, b: f32| (a - b).abs() < 1e-5;
+    assert!(near(first(5)[0], 0.6), "{:?}", first(5));
+    // Step: the scale is -2 from 0.7 s on, so the second vertex lies to the left, on the front side still.
+    let [a, _, _] = scene.frame(20).triangles[0].p;
+    let lefts = scene.frame(20).triangles[1].p.map(|p| p[0] - a[0]);
+    assert!(lefts.iter().any(|x| near(*x, -2.0)), "{lefts:?}");
+}
+
+/// Elements that the format allows and that are left out: a warning of many is one line.
+#[test]
+fn what_is_left_out_is_noted_once() {
+    let mut root = triangle();
+    root["animations"] = json!([{
+        "channels": [{ "sampler": 0, "target": { "path": "pointer", "extensions": { "KHR_animation_pointer": {} } } }],
+        "samplers": [{ "input": 0, "output": 0 }],
+    }]);
+    root["extensionsUsed"] = json!(["KHR_materials_ior", "EXT_of_someone", "KHR_texture_transform"]);
+    push(&mut root["scenes"], json!({ "name": "nothing" }));
+    root["materials"][0]["alphaMode"] = json!("FOO");
+    let list = &mut root["meshes"][0]["primitives"];
+    push(list, json!({ "attributes": { "POSITION": 0 }, "mode": 1 }));
+    for _ in 0..6 {
+        push(list, json!({ "attributes": {}, "material": 0 }));
+    }
+    let scene = read_json(&root);
+    assert_eq!(scene.frame(0).triangles.len(), 1);
+    let said = scene.warnings();
+    for part in [
+        "1 channels",
+        "extension KHR_materials_ior",
+        "extension EXT_of_someone",
+        "meshes[0].primitives[1]: skipped",
+        "meshes[0].primitives[2], meshes[0].primitives[3], meshes[0].primitives[4] and 3 more: it has no positions",
+        "materials[0]: its alphaMode is none of",
+    ] {
+        assert_eq!(
+            said.iter().filter(|line| line.contains(part)).count(),
+            1,
+            "{part}: {said:?}"
+        );
+    }
+    assert_eq!(said.len(), 6, "{said:?}");
+    // What else is wrong is said as it was.
+    root["scene"] = json!("none");
+    assert!(refused(&root).contains("JSON"));
+}
+
+#[test]
+fn positions_of_every_component_type() {
+    // (0,0,0), (1,0,0), (0,1,0), in units of a whole, as plain integers and as fractions of the largest.
+    let cases: [(u32, usize, bool, i32); 8] = [
+        (5120, 1, false, 1),
+        (5121, 1, false, 1),
+        (5122, 2, false, 1),
+        (5123, 2, false, 1),
+        (5120, 1, true, 127),
+        (5121, 1, true, 255),
+        (5122, 2, true, 32767),
+        (5123, 2, true, 65535),
+    ];
+    for (component, size, normalized, whole) in cases {
+        let mut bytes = Vec::new();
+        for corner in [[0, 0, 0], [whole, 0, 0], [0, whole, 0]] {
+            let mut element: Vec<u8> = corner
+                .iter()
+                .flat_map(|x| x.to_le_bytes()[..size].to_vec())
+                .collect();
+            element.resize(8, 0);
+            bytes.extend(element);
+        }
+        bytes.extend([0, 0, 1, 0, 2, 0]);
+        let mut root = changed("/buffers/0", json!({ "byteLength": 30, "uri": embedded(&bytes) }));
+        root["bufferViews"] = json!([
+            { "buffer": 0, "byteLength": 24, "byteStride": 8 }, { "buffer": 0, "byteOffset": 24, "byteLength": 6 },
+        ]);
+        root["accessors"][0]["componentType"] = json!(component);
+        root["accessors"][0]["normalized"] = json!(normalized);
+        root["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
+        let expected = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        assert_eq!(frame(&root).triangles[0].p, expected, "{component} {normalized}");
+    }
+}
+
+#[test]
+fn sparse_indices_replace_some() {
+    let mut root = triangle();
+    // Element 1 of 0 1 2 becomes 2, element 2 becomes 1: turned over.
+    push(
+        &mut root["buffers"],
+        json!({ "byteLength": 6, "uri": embedded(&[1, 2, 2, 0, 1, 0]) }),
+    );
+    let views = &mut root["bufferViews"];
+    push(views, json!({ "buffer": 1, "byteLength": 2 }));
+    push(views, json!({ "buffer": 1, "byteOffset": 2, "byteLength": 4 }));
+    root["accessors"][1]["sparse"] = json!({
+        "count": 2, "indices": { "bufferView": 2, "componentType": 5121 }, "values": { "bufferView": 3 },
+    });
+    let expected = [[0.0; 3], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
+    assert_eq!(frame(&root).triangles[0].p, expected);
+}
+
+/// A strip of four vertices: both triangles have their front up.
+#[test]
+fn strips_keep_one_side_in_front() {
+    let corners = [[0.0_f32; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.5]];
+    let mut root = triangle();
+    root["buffers"][0] = json!({ "byteLength": 48, "uri": embedded(&bytes(corners.as_flattened())) });
+    root["bufferViews"] = json!([{ "buffer": 0, "byteLength": 48 }]);
+    root["accessors"] = json!([{ "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3" }]);
+    let [a, b, c, d] = corners;
+    for (mode, expected) in [(5, [[a, b, c], [b, d, c]]), (6, [[b, c, a], [c, d, a]])] {
+        root["meshes"][0]["primitives"][0] = json!({ "attributes": { "POSITION": 0 }, "mode": mode });
+        let found: Vec<_> = frame(&root).triangles.iter().map(|own| own.p).collect();
+        assert_eq!(found, expected, "{mode}");
+    }
+}
+
+#[test]
+fn a_child_that_the_scene_lists_stays_a_child() {
+    let mut root = changed(
+        "/nodes/0",
+        json!({ "translation": [0.0, 0.0, 5.0], "children": [1] }),
+    );
+    push(&mut root["nodes"], json!({ "mesh": 0 }));
+    // Also where the parent of its parent is not in the scene.
+    for nodes in [json!([1, 0]), json!([0, 1])] {
+        root["scenes"][0]["nodes"] = nodes;
+        let scene = read_json(&root);
+        assert_eq!(scene.frame(0).triangles.len(), 1);
+        assert_eq!(scene.frame(0).triangles[0].p[0], [0.0, 0.0, 5.0]);
+        assert!(scene.warnings()[0].contains("node 1"));
+        if root["nodes"].as_array().is_some_and(|all| all.len() == 2) {
+            push(
+                &mut root["nodes"],
+                json!({ "translation": [0.0, 7.0, 0.0], "children": [0] }),
+            );
+        }
+    }
+}
+
+/// A lamp at a node that has it three times; `counts` are those of translations and rotations.
+fn lamps(counts: [usize; 2]) -> Value {
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let numbers = [
+        [1.0, 0.0, 0.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0].as_slice(),
+        &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, half, half, 0.0, 0.0, 1.0, 0.0],
+    ]
+    .concat();
+    let mut root = triangle();
+    push(
+        &mut root["buffers"],
+        json!({ "byteLength": 84, "uri": embedded(&bytes(&numbers)) }),
+    );
+    push(&mut root["bufferViews"], json!({ "buffer": 1, "byteLength": 84 }));
+    let accessor = |offset, count, shape| json!({ "bufferView": 2, "byteOffset": offset, "componentType": 5126, "count": count, "type": shape });
+    push(&mut root["accessors"], accessor(0, counts[0], "VEC3"));
+    push(&mut root["accessors"], accessor(36, counts[1], "VEC4"));
+    let attributes = json!({ "TRANSLATION": 2, "ROTATION": 3, "_ID": 0 });
+    root["nodes"][0] = json!({ "mesh": 0, "translation": [0, 5, 0], "extensions": {
+        "EXT_mesh_gpu_instancing": { "attributes": attributes }, "KHR_lights_punctual": { "light": 0 },
+    } });
+    root["extensions"] = json!({ "KHR_lights_punctual": { "lights": [{ "type": "point" }] } });
+    root["extensionsRequired"] = json!(["EXT_mesh_gpu_instancing"]);
+    root
+}
+
+/// Each is a mesh light of its own; the light of the node stands once.
+#[test]
+fn instances_are_of_the_mesh() {
+    let scene = read_json(&lamps([3, 3]));
+    let (frame, warnings) = (scene.frame(0), scene.warnings());
+    assert_eq!((frame.mesh_lights.len(), scene.data().analytic.len()), (3, 1));
+    // The second vertex: one to the right, one up, one to the left of where the instance stands.
+    let expected = [[2.0, 5.0, 0.0], [2.0, 6.0, 0.0], [2.0, 5.0, 0.0]];
+    for (light, expected) in frame.emissive.iter().zip(expected) {
+        let is_there = light.p[1].iter().zip(expected).all(|(x, y)| (x - y).abs() < 1e-6);
+        assert!(is_there, "{:?}", light.p);
+    }
+    assert!(
+        warnings.len() == 1 && warnings[0].contains("nodes[0]") && warnings[0].contains("stands once"),
+        "{warnings:?}"
+    );
+    assert!(refused(&lamps([3, 2])).contains("different numbers"));
+}
+
+#[test]
+fn optional_extensions_that_cannot_be_read_are_left_out() {
+    let mut root = triangle();
+    root["materials"][0]["extensions"] =
+        json!({ "KHR_materials_transmission": { "transmissionFactor": "all" } });
+    let said = read_json(&root).warnings().join("\n");
+    assert!(
+        said.contains("materials[0]: its extension KHR_materials_transmission is ignored"),
+        "{said}"
+    );
+    root["extensionsRequired"] = json!(["KHR_materials_transmission"]);
+    let error = refused(&root);
+    assert!(
+        error.contains("materials[0].extensions.KHR_materials_transmission"),
+        "{error}"
+    );
+}

@@ -1,0 +1,433 @@
+//! What glTF files say of surfaces and lights that pictures or tables describe: where they lie, what cannot be had, glass,
+//! surfaces that no light falls on, photometric profiles.
+
+use std::io::Cursor;
+
+use image::{ImageFormat, RgbImage};
+use lightbvh::exact::hash;
+use lightbvh_scenes::{Opacity, Scene};
+use serde_json::{Value, json};
+
+use crate::files::{embedded, png, png_white_black, push, read, read_json, refused, textured, triangle};
+
+const LEFT: [[f32; 2]; 3] = [[0.1, 0.1], [0.3, 0.1], [0.1, 0.9]];
+const RIGHT: [[f32; 2]; 3] = [[0.6, 0.1], [0.9, 0.1], [0.6, 0.9]];
+
+fn radiance(root: &Value) -> Option<[f32; 3]> {
+    let scene = read_json(root);
+    scene.frame(0).emissive.first().map(|light| light.radiance)
+}
+
+fn warned(scene: &Scene, word: &str) {
+    let said = scene.warnings();
+    assert!(
+        said.iter().any(|warning| warning.contains(word)),
+        "{word}: {said:?}"
+    );
+}
+
+#[test]
+fn textures_are_moved_turned_and_scaled() {
+    let png = png_white_black();
+    assert_eq!(radiance(&textured(LEFT, &png)), Some([1.0, 0.5, 0.25]));
+    assert_eq!(radiance(&textured(RIGHT, &png)), None, "the black half");
+    // 12 of 16 equal parts lie in the white texel.
+    let both = textured([[0.0, 0.1], [1.0, 0.1], [0.0, 0.9]], &png);
+    assert_eq!(radiance(&both), Some([0.75, 0.375, 0.1875]));
+    let placed = |coordinates, transform: Value| {
+        let mut root = textured(coordinates, &png);
+        root["extensionsRequired"] = json!(["KHR_texture_transform"]);
+        root["materials"][0]["emissiveTexture"]["extensions"] = json!({ "KHR_texture_transform": transform });
+        radiance(&root)
+    };
+    let white = Some([1.0, 0.5, 0.25]);
+    assert_eq!(placed(LEFT, json!({ "offset": [0.5, 0.0] })), None);
+    assert_eq!(placed(RIGHT, json!({ "scale": [0.5, 1.0] })), white);
+    // A quarter turn: u' = v, so what was all in the left half goes from top to bottom.
+    let quarter = std::f32::consts::FRAC_PI_2;
+    let turned = placed(
+        [[0.1, 0.1], [0.3, 0.1], [0.1, 0.3]],
+        json!({ "rotation": quarter }),
+    );
+    assert_eq!(turned, white);
+    assert_eq!(
+        placed(
+            [[0.1, 0.6], [0.3, 0.6], [0.1, 0.8]],
+            json!({ "rotation": quarter })
+        ),
+        None
+    );
+    // The extension's own example, the lower left quarter: the scale comes first, then the turn, then the offset.
+    let example = json!({ "offset": [0.0, 1.0], "rotation": quarter, "scale": [0.5, 0.5] });
+    assert_eq!(placed([[0.1, 0.1], [0.9, 0.1], [0.1, 0.9]], example), white);
+    // Coordinates of the other set.
+    let mut root = textured(RIGHT, &png);
+    root["meshes"][0]["primitives"][0]["attributes"] = json!({ "POSITION": 0, "TEXCOORD_1": 2 });
+    root["materials"][0]["emissiveTexture"]["extensions"] =
+        json!({ "KHR_texture_transform": { "texCoord": 1 } });
+    assert_eq!(radiance(&root), None);
+}
+
+#[test]
+fn pictures_by_webp() {
+    let mut webp = Cursor::new(Vec::new());
+    let pixels = RgbImage::from_raw(2, 1, vec![255, 255, 255, 0, 0, 0]).expect("two pixels");
+    pixels.write_to(&mut webp, ImageFormat::WebP).expect("encoded");
+    for (coordinates, expected) in [(LEFT, Some([1.0, 0.5, 0.25])), (RIGHT, None)] {
+        let mut root = textured(coordinates, webp.get_ref());
+        root["extensionsRequired"] = json!(["EXT_texture_webp"]);
+        root["textures"] = json!([{ "sampler": 0, "extensions": { "EXT_texture_webp": { "source": 0 } } }]);
+        assert_eq!(radiance(&root), expected);
+    }
+}
+
+/// A picture in KTX 2 of one level of Basis Universal's UASTC: one block of four by four texels.
+fn ktx2([width, height]: [u32; 2], unpacked: u64, block: &[u8]) -> Vec<u8> {
+    let mut out = b"\xabKTX 20\xbb\r\n\x1a\n".to_vec();
+    for word in [0, 1, width, height, 0, 0, 1, 1, 0, 104, 44, 0, 0] {
+        out.extend(word.to_le_bytes());
+    }
+    out.extend([0; 16]);
+    for long in [148, block.len() as u64, unpacked] {
+        out.extend(long.to_le_bytes());
+    }
+    // Length; the descriptor's kind, version and length; colour model UASTC, sRGB, blocks of 4 by 4, 16 bytes; one sample.
+    let mut descriptor = vec![44, 0, 0, 0, 0, 0, 0, 0, 2, 0, 40, 0, 166, 1, 2, 0, 3, 3, 0, 0, 16];
+    descriptor.resize(44, 0);
+    descriptor[30] = 127;
+    descriptor[40..].fill(255);
+    [&out[..], &descriptor, block].concat()
+}
+
+/// A block of mode 8: one colour, here white, and half as bright (188 of 255 is 0.5 linear); the rest are hints for other formats.
+const BLOCK: [u8; 16] = [
+    0xf7, 0xff, 0xff, 0xff, 0xdf, 8, 212, 137, 56, 144, 107, 221, 18, 48, 132, 45,
+];
+
+#[test]
+fn pictures_by_basis_universal() {
+    for (first, expected) in [([0xf7, 0xff, 0xff, 0xff], 1.0), ([0x97, 0x97, 0x97, 0xf7], 0.503)] {
+        let mut block = BLOCK;
+        block[..4].copy_from_slice(&first);
+        let mut root = textured(RIGHT, &ktx2([4, 4], 16, &block));
+        root["textures"] = json!([{ "extensions": { "KHR_texture_basisu": { "source": 0 } } }]);
+        let [red, ..] = radiance(&root).expect("bright");
+        assert!((red - expected).abs() < 2e-3, "{red}");
+        assert!(read_json(&root).warnings().is_empty());
+    }
+}
+
+#[test]
+fn a_picture_that_cannot_be_had_is_noted_and_does_not_glow() {
+    let png = png_white_black();
+    let sound = || textured(RIGHT, &png);
+    let mut cases = vec![sound(), sound(), sound(), sound()];
+    cases[0]["images"][0] = json!({ "uri": "nowhere.png" });
+    cases[1]["images"][0] = json!({ "uri": embedded(&png[..40]) });
+    cases[2]["images"][0] = json!({});
+    cases[3]["textures"][0] = json!({ "sampler": 0, "extensions": { "EXT_texture_avif": { "source": 0 } } });
+    for header in [
+        ktx2([16_385, 1], 16, &BLOCK),
+        ktx2([4, 4], 16, &BLOCK[..9]),
+        ktx2([4, 4], u64::MAX, &BLOCK),
+        ktx2([4, 4], 16, &BLOCK)[..90].to_vec(),
+    ] {
+        let mut root = sound();
+        root["images"][0] = json!({ "uri": embedded(&header) });
+        cases.push(root);
+    }
+    for (case, root) in cases.iter().enumerate() {
+        // What is known to glow somewhere is not taken to glow everywhere.
+        assert_eq!(radiance(root), None, "case {case}");
+        // As the colour of a surface it is white.
+        let mut painted = root.clone();
+        painted["materials"][0]["pbrMetallicRoughness"] = json!({ "baseColorTexture": { "index": 0 } });
+        painted["materials"][0]["emissiveTexture"] = json!(null);
+        let scene = read_json(&painted);
+        assert_eq!(scene.data().materials[0].base_color, [1.0; 3], "case {case}");
+        warned(&read_json(root), "white");
+    }
+    // Better a picture that can be decoded than the one preferred.
+    let mut root = sound();
+    push(&mut root["images"], json!({ "uri": embedded(&[1, 2, 3]) }));
+    root["textures"][0] =
+        json!({ "source": 0, "sampler": 0, "extensions": { "KHR_texture_basisu": { "source": 1 } } });
+    assert_eq!(radiance(&root), None, "the right half is black");
+    // A number of no picture is a broken file.
+    root["textures"][0] = json!({ "source": 5 });
+    refused(&root);
+}
+
+#[test]
+fn the_mean_of_a_base_colour_is_linear() {
+    let mut root = textured(LEFT, &png_white_black());
+    root["materials"][0]["pbrMetallicRoughness"] =
+        json!({ "baseColorTexture": { "index": 0 }, "baseColorFactor": [1.0, 0.5, 0.25, 1.0] });
+    let scene = read_json(&root);
+    assert_eq!(scene.data().materials[0].base_color, [0.5, 0.25, 0.125]);
+    root["materials"][0]["pbrMetallicRoughness"] = json!({});
+    root["materials"][0]["extensions"] = json!({ "KHR_materials_pbrSpecularGlossiness": {
+        "diffuseFactor": [0.25, 0.5, 1.0, 1.0], "diffuseTexture": { "index": 0 }, "glossinessFactor": 0.75,
+    } });
+    let material = read_json(&root).data().materials[0].clone();
+    assert_eq!(material.base_color, [0.125, 0.25, 0.5]);
+    assert_eq!((material.roughness, material.metallic), (0.25, 0.0));
+}
+
+/// [`triangle`], and a second one of another material above it.
+fn under(material: Value) -> Value {
+    let mut root = triangle();
+    push(&mut root["materials"], material);
+    let above = json!({ "attributes": { "POSITION": 0 }, "indices": 1, "material": 1 });
+    push(&mut root["meshes"], json!({ "primitives": [above] }));
+    push(
+        &mut root["nodes"],
+        json!({ "mesh": 1, "translation": [0.0, 0.0, 1.0] }),
+    );
+    root["scenes"][0]["nodes"] = json!([0, 1]);
+    root
+}
+
+#[test]
+fn clear_glass_hides_nothing() {
+    let transmission = |factor: f32| json!({ "extensions": { "KHR_materials_transmission": { "transmissionFactor": factor } } });
+    let blend = |opacity: f32| json!({ "alphaMode": "BLEND", "pbrMetallicRoughness": { "baseColorFactor": [1.0, 1.0, 1.0, opacity] } });
+    for (material, triangles) in [
+        (transmission(1.0), 1),
+        (transmission(0.5), 1),
+        (transmission(0.4), 2),
+        (blend(0.25), 1),
+        (blend(0.75), 2),
+        (json!({ "alphaMode": "MASK" }), 2),
+    ] {
+        let scene = read_json(&under(material.clone()));
+        assert_eq!(scene.triangle_count(), triangles, "{material}");
+        assert_eq!(scene.frame(0).triangles.len(), triangles, "{material}");
+        assert_eq!(scene.emissive_count(), 1);
+        // Passes over all kinds of light show it.
+        assert_eq!(scene.frame(0).clear.len(), 2 - triangles, "{material}");
+        let back = read(&scene.to_glb().expect("written")).expect("read back");
+        assert_eq!(back.frame(0), scene.frame(0), "{material}");
+    }
+    // Glass that glows is there.
+    let mut glowing = transmission(1.0);
+    glowing["emissiveFactor"] = json!([0.0, 0.0, 1.0]);
+    assert_eq!(read_json(&under(glowing)).frame(0).triangles.len(), 2);
+    let error = refused(&under(transmission(2.0)));
+    assert!(error.contains("transmission of material 1"), "{error}");
+}
+
+#[test]
+fn unlit_surfaces_show_their_colour() {
+    let mut root = textured(LEFT, &png_white_black());
+    root["materials"] = json!([{
+        "pbrMetallicRoughness": { "baseColorFactor": [0.5, 1.0, 0.25, 1.0], "baseColorTexture": { "index": 0 } },
+        "extensions": { "KHR_materials_unlit": {} }, "emissiveFactor": [9.0, 9.0, 9.0],
+    }]);
+    root["extensionsRequired"] = json!(["KHR_materials_unlit"]);
+    let scene = read_json(&root);
+    assert_eq!(scene.frame(0).emissive[0].radiance, [0.5, 1.0, 0.25]);
+    let surface = scene.data().materials[0].surface();
+    assert_eq!(
+        (surface.albedo, surface.specular),
+        ([0.0; 3], 0.0),
+        "it reflects nothing"
+    );
+    warned(&scene, "unlit");
+}
+
+/// Files say what cannot be shown, and what stands for it is what is said.
+#[test]
+fn what_cannot_be_shown_has_what_stands_for_it() {
+    let png = png_white_black();
+    let file = || textured(LEFT, &png);
+    let opacity = |root: &Value| {
+        let scene = read_json(root);
+        scene.data().materials[0].paint.expect("painted").opacity
+    };
+    // A cutoff that no opacity reaches.
+    let mut root = file();
+    root["materials"][0]["pbrMetallicRoughness"] = json!({ "baseColorTexture": { "index": 0 } });
+    root["materials"][0]["alphaMode"] = "MASK".into();
+    root["materials"][0]["alphaCutoff"] = 2.0.into();
+    assert_eq!(opacity(&root), Opacity::Cut(2.0));
+    root["materials"][0]["alphaCutoff"] = 0.5.into();
+    assert_eq!(opacity(&root), Opacity::Opaque);
+    // Without coordinates means stand for textures.
+    let attributes = &mut root["meshes"][0]["primitives"][0]["attributes"];
+    attributes.as_object_mut().expect("a list").remove("TEXCOORD_0");
+    let scene = read_json(&root);
+    assert!(
+        scene.frame(0).corners[0]
+            .iter()
+            .all(|corner| corner.material == u32::MAX)
+    );
+    let mean = scene.data().materials[0].base_color[0];
+    assert!((mean - 0.5).abs() < 1e-6, "{mean}");
+    // A map that turns over, and a colour that is shown as it is, in part.
+    let mut root = file();
+    root["materials"] = json!([{
+        "alphaMode": "BLEND",
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [0.5, 1.0, 0.25, 0.25],
+            "baseColorTexture": {
+                "index": 0,
+                "extensions": { "KHR_texture_transform": { "scale": [1.0, -1.0], "offset": [0.25, 0.5] } },
+            },
+        },
+        "extensions": { "KHR_materials_unlit": {} },
+    }]);
+    let scene = read_json(&root);
+    let back = read(&scene.to_glb().expect("written")).expect("read back");
+    let paint = |scene: &Scene| scene.data().materials[0].paint.expect("painted");
+    assert_eq!(paint(&scene).radiance, [0.5, 1.0, 0.25]);
+    assert_eq!(paint(&scene), paint(&back));
+}
+
+/// They place the same for lights and for surfaces.
+#[test]
+fn numbers_that_place_textures_are_bounded_and_named() {
+    let far = (1 << 20) as f32;
+    let png = png_white_black();
+    for (bad, instead) in [(f32::INFINITY, far), (-1e30, -far), (f32::NAN, 0.0)] {
+        let scene = read_json(&textured([[0.0, 0.0], [bad, 0.0], [0.0, 1.0]], &png));
+        let lies = scene.data().meshes[0].primitives[0].coordinates.as_ref();
+        assert_eq!(lies.expect("where it lies")[1], [instead, 0.0]);
+        warned(&scene, "beyond 2^20 count as 2^20");
+    }
+    let mut short = textured(LEFT, &png);
+    short["accessors"][2]["count"] = json!(2);
+    short["materials"][0]["emissiveTexture"] = json!(null);
+    short["materials"][0]["pbrMetallicRoughness"] = json!({ "baseColorTexture": { "index": 0 } });
+    warned(&read_json(&short), "TEXCOORD_0 has fewer entries than POSITION");
+    for (given, expected) in [
+        (
+            json!({ "scale": [1, 1e40] }),
+            [[1.0, 0.0], [0.0, far], [0.0, 0.0]],
+        ),
+        (
+            json!({ "offset": [0, -1e30] }),
+            [[1.0, 0.0], [0.0, 1.0], [0.0, -far]],
+        ),
+    ] {
+        let mut root = textured([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], &png);
+        let texture = json!({ "index": 0, "extensions": { "KHR_texture_transform": given } });
+        root["materials"][0]["emissiveTexture"] = texture.clone();
+        root["materials"][0]["pbrMetallicRoughness"] = json!({ "baseColorTexture": texture });
+        let scene = read_json(&root);
+        let paint = scene.data().materials[0].paint.expect("a picture");
+        for texture in [paint.base_texture, paint.glow_texture] {
+            assert_eq!(texture.expect("a picture").transform, expected);
+        }
+        warned(&scene, "beyond 2^20");
+    }
+}
+
+/// The flux of a triangle that glows by a picture is that of an integral over it, to a hundredth, however it lies.
+#[test]
+fn textured_flux_is_an_integral() {
+    let (width, height) = (37_u32, 19_u32);
+    let texel = |x: u32, y: u32| hash(x + 64 * y).to_le_bytes();
+    let png = png(width, height, texel);
+    let linear = |byte: u8| {
+        let x = f64::from(byte) / 255.0;
+        if x <= 0.04045 {
+            x / 12.92
+        } else {
+            ((x + 0.055) / 1.055).powf(2.4)
+        }
+    };
+    for corners in [
+        [[0.1, 0.2], [0.9, 0.3], [0.2, 0.8]],
+        [[-1.3, 0.4], [2.7, 0.9], [0.3, 3.1]],
+        [[0.51, 0.52], [0.53, 0.52], [0.51, 0.55]],
+    ] {
+        let mut root = textured(corners, &png);
+        root["samplers"] = json!([{ "magFilter": 9729 }]);
+        let scene = read_json(&root);
+        let found = scene.frame(0).emissive[0].radiance;
+        let mut sum = [0.0; 3];
+        let n = 1500;
+        for i in 0..n {
+            for j in 0..n - i {
+                let (v, w) = ((i as f64 + 0.5) / f64::from(n), (j as f64 + 0.5) / f64::from(n));
+                let at = |k: usize| {
+                    let [a, b, c] = corners.map(|corner| f64::from(corner[k]));
+                    a + (b - a) * v + (c - a) * w
+                };
+                let (x, y) = (at(0) * f64::from(width) - 0.5, at(1) * f64::from(height) - 0.5);
+                let (left, top) = (x.floor(), y.floor());
+                for (dx, dy) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+                    let weight = (1.0 - (x - left - dx).abs()) * (1.0 - (y - top - dy).abs());
+                    let wrap = |i: f64, size: u32| i.rem_euclid(f64::from(size)) as u32;
+                    let rgb = texel(wrap(left + dx, width), wrap(top + dy, height));
+                    for k in 0..3 {
+                        sum[k] += weight * linear(rgb[k]);
+                    }
+                }
+            }
+        }
+        let count = f64::from(n) * f64::from(n + 1) / 2.0;
+        let factor = scene.data().materials[0].radiance;
+        for k in 0..3 {
+            let expected = sum[k] / count * f64::from(factor[k]);
+            let ratio = f64::from(found[k]) / expected;
+            assert!((ratio - 1.0).abs() < 0.01, "{corners:?} channel {k}: {ratio}");
+        }
+    }
+}
+
+/// `EXT_lights_ies`: profiles by uri, lights by node, what is wrong left out with a note; a file that is written has them all.
+#[test]
+fn files_name_profiles() {
+    let file = "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 40\n0 45 90\n0\n100 70 0\n";
+    let mut root = triangle();
+    root["extensionsRequired"] = json!(["EXT_lights_ies"]);
+    root["extensions"] = json!({ "EXT_lights_ies": { "lights": [
+        { "name": "sound", "uri": embedded(file.as_bytes()) },
+        { "name": "broken", "uri": embedded(&file.as_bytes()[..40]) },
+        { "name": "empty" },
+    ] } });
+    for extension in [
+        json!({ "light": 0 }),
+        json!({ "light": 0, "multiplier": 2.5, "color": [1.0, 0.5, 0.0] }),
+        json!({ "light": 1 }),
+        json!({ "light": 1 }),
+        json!({ "light": 2 }),
+        json!({ "light": 3 }),
+        json!({ "light": 0, "multiplier": -1.0 }),
+    ] {
+        let at = root["nodes"].as_array().expect("nodes").len();
+        push(
+            &mut root["nodes"],
+            json!({ "extensions": { "EXT_lights_ies": extension } }),
+        );
+        push(&mut root["scenes"][0]["nodes"], json!(at));
+    }
+    let scene = read_json(&root);
+    let data = scene.data();
+    let found: Vec<_> = data
+        .analytic
+        .iter()
+        .map(|own| (own.intensity, own.color))
+        .collect();
+    assert_eq!(found, [(1.0, [1.0; 3]), (2.5, [1.0, 0.5, 0.0])]);
+    let said = scene.warnings();
+    for part in [
+        "profile 1 (EXT_lights_ies) is left out",
+        "profile 2 (EXT_lights_ies) is left out",
+        "profile 3 (EXT_lights_ies) is left out",
+        "negative or not finite",
+    ] {
+        assert_eq!(
+            said.iter().filter(|own| own.contains(part)).count(),
+            1,
+            "{said:?}"
+        );
+    }
+    let back = read(&scene.to_glb().expect("written")).expect("read back");
+    assert_eq!(data.profiles, back.data().profiles);
+    assert_eq!(scene.frame(3), back.frame(3));
+    // Without textures, profiles stay.
+    assert_eq!(scene.clone().unpainted().frame(0).paint, scene.frame(0).paint);
+}
