@@ -12,38 +12,26 @@ use crate::error::HostError;
 use crate::render::{RayBvh, camera};
 use crate::scene::{Scene, SceneLight, SkinArrays};
 
-/// Image and frame of a rendering.
-#[derive(Clone, Copy, Debug)]
-pub struct RenderSettings {
-    /// Frame of the animation, 25 per second.
-    pub frame: u32,
-    /// Columns.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// Light samples per pixel.
-    pub samples: u32,
-    /// Seed of the light samples.
-    pub seed: u32,
-}
-
-impl RenderSettings {
-    /// Parameters of the render pass.
-    pub fn params(&self, background: [f32; 3]) -> RenderParams {
-        RenderParams {
-            width: self.width,
-            height: self.height,
-            samples: self.samples,
-            first: 0,
-            all: 0,
-            candidates: 1,
-            scattered: 0,
-            part: 0,
-            parts: 1,
-            seed: self.seed,
-            jitter: 0,
-            background,
-        }
+/// Parameters of an image of this size, lit by single candidates.
+pub const fn render_params(
+    (width, height): (u32, u32),
+    samples: u32,
+    seed: u32,
+    background: [f32; 3],
+) -> RenderParams {
+    RenderParams {
+        width,
+        height,
+        samples,
+        first: 0,
+        all: 0,
+        candidates: 1,
+        scattered: 0,
+        part: 0,
+        parts: 1,
+        seed,
+        jitter: 0,
+        background,
     }
 }
 

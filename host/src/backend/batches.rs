@@ -25,7 +25,7 @@ const MAX_SURFACES_PER_INVOCATION: u32 = 16;
 const CANDIDATES_PER_DIRECTION: u32 = 8;
 
 /// Candidates of a sample and of its directions, all counted as candidates.
-pub fn all_candidates(candidates: u32, scattered: u32) -> u32 {
+pub(super) fn all_candidates(candidates: u32, scattered: u32) -> u32 {
     let directions = scattered.min(MAX_SCATTERED) * CANDIDATES_PER_DIRECTION;
     candidates.clamp(1, MAX_CANDIDATES) + directions
 }

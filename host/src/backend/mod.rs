@@ -13,7 +13,7 @@ mod record;
 mod scene;
 mod words;
 
-pub use batches::{Integrator, all_candidates};
+pub use batches::Integrator;
 pub use cpu::CpuBackend;
 pub use device::DeviceBackend;
 pub use error::BackendError;

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use bytemuck::cast_slice;
 use lightbvh::BuildParams;
+use lightbvh_kernels::render::RenderParams;
 use serde::Serialize;
 use serde_json::json;
 
@@ -20,7 +21,7 @@ use crate::error::HostError;
 use crate::metrics::mean_squared_error;
 use crate::render::Film;
 use crate::scene::Scene;
-use crate::workload::{RenderSettings, arrays_at, build, lights_at, queries, words_in_use};
+use crate::workload::{arrays_at, build, lights_at, queries, render_params, words_in_use};
 
 const SCENE: &str = "street";
 /// Frames shown: those of the paper's Table 1.
@@ -97,21 +98,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     for frame in FRAMES {
         news!("frame {frame}");
         let arrays = arrays_at(&scene, frame, width, height)?;
-        let settings = RenderSettings {
-            frame,
-            width,
-            height,
-            samples: SAMPLES,
-            seed: frame,
-        };
-        frame_on_all(
-            &scene,
-            &arrays,
-            &settings,
-            &mut cpu,
-            &mut on_devices,
-            &mut records,
-        )?;
+        let params = render_params((width, height), SAMPLES, frame, scene.frame(frame).background);
+        frame_on_all(&arrays, &params, &mut cpu, &mut on_devices, &mut records)?;
 
         let film = Film::new(width, height, records[0].image.clone())?;
         // One exposure for all frames, so that they can be compared.
@@ -127,14 +115,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     news!("reference");
     let last = FRAMES[FRAMES.len() - 1];
     let arrays = arrays_at(&scene, last, width, height)?;
-    let settings = RenderSettings {
-        frame: last,
-        width,
-        height,
-        samples: REFERENCE_SAMPLES,
-        seed: u32::MAX,
-    };
-    let params = settings.params(scene.frame(last).background);
+    let background = scene.frame(last).background;
+    let params = render_params((width, height), REFERENCE_SAMPLES, u32::MAX, background);
     let reference = Film::new(
         width,
         height,
@@ -169,17 +151,15 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::good_if(rows.iter().all(|row| row.different == 0)))
 }
 
-/// Refits, samples and renders one frame on the CPU, then on each device, and compares.
+/// Refits, samples and renders one frame, whose number is the seed, on the CPU, then on each device, and compares.
 fn frame_on_all(
-    scene: &Scene,
     arrays: &SceneArrays,
-    settings: &RenderSettings,
+    params: &RenderParams,
     cpu: &mut CpuBackend,
     devices: &mut [DeviceBackend<'_>],
     records: &mut [Run],
 ) -> Result<(), HostError> {
-    let asked = queries(arrays, settings.frame, 0, QUERIES);
-    let params = settings.params(scene.frame(settings.frame).background);
+    let asked = queries(arrays, params.seed, 0, QUERIES);
     let refitted = Timed::of(|| cpu.bvh_mut().follow(&arrays.lights));
     refitted.value.map_err(BackendError::from)?;
     let mut refits = vec![refitted.time];
@@ -193,7 +173,7 @@ fn frame_on_all(
     for ((backend, record), refit) in backends.zip(records).zip(refits) {
         let nodes = words_in_use(&bvh, &backend.nodes()?);
         let sampled = backend.sample(&asked)?;
-        let image = backend.render(arrays, &params, Sampler::TwoLevel, Integrator::Direct)?;
+        let image = backend.render(arrays, params, Sampler::TwoLevel, Integrator::Direct)?;
         record.refit.push(refit);
         record.sample.push(sampled.time);
         record.render.push(image.time);

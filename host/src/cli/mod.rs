@@ -54,7 +54,7 @@ enum Command {
     Inspect(Json<inspect::Args>),
     /// List the Vulkan devices and whether their arithmetic is exact
     Info(OnDevices<Nothing>),
-    /// Compare all methods over an animation as the paper does: errors, times, graphs, crops
+    /// Compare all methods over an animation as the paper does: errors and times
     Compare(OnDevices<compare::Args>),
     /// Measure speed against accuracy for importances, builders, levels and candidates
     Trade(OnDevices<trade::Args>),

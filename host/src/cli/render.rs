@@ -113,7 +113,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         report["integrator"] = json!(args.integrator);
         if args.integrator == IntegratorName::Direct {
             report["candidates"] = recipe.candidates.into();
-            report["scattered"] = recipe.scattered.into();
         }
         if args.animate.is_some() {
             report["frames"] = shown.into();

@@ -36,26 +36,6 @@ pub(super) fn store(path: &Path, bytes: &[u8]) -> std::result::Result<(), HostEr
     write_whole(&path, bytes).map_err(|source| HostError::Store { path, source })
 }
 
-/// A name in files for each scene: that of the scene or its file as far as every system and every document takes it, with a number
-/// if another one has it.
-pub(super) fn stems<'a>(scenes: impl Iterator<Item = &'a str>) -> Vec<String> {
-    let mut stems: Vec<String> = Vec::new();
-    for scene in scenes {
-        let name = Path::new(scene).file_stem().unwrap_or_default().to_string_lossy();
-        let plain = |c: char| match c.is_alphanumeric() || c == '_' {
-            true => c,
-            false => '-',
-        };
-        let stem: String = name.chars().take(40).map(plain).collect();
-        let numbered = (2..).map(|k| format!("{stem}-{k}"));
-        let free = std::iter::once(stem.clone())
-            .chain(numbered)
-            .find(|stem| !stems.contains(stem));
-        stems.extend(free);
-    }
-    stems
-}
-
 /// Whether files can be written to a folder: only writing tells.
 fn writable(folder: &Path) -> Result<()> {
     let trial = folder.join(format!(".lightbvh.{}.tmp", std::process::id()));
@@ -125,12 +105,5 @@ mod tests {
         for other in ["b", ".png", "b.png.gz", "b.jpg"] {
             assert!(!ends_in(Path::new(other), &["exr", "png"]), "{other}");
         }
-    }
-
-    #[test]
-    fn each_scene_has_a_name_of_its_own() {
-        let long = format!("x/{}.glb", "y".repeat(245));
-        let found = stems(["a/s.gltf", "b/s.gltf", "](z) <b>.glb", &long, "s-2.glb"].into_iter());
-        assert_eq!(found, ["s", "s-2", "--z---b-", &"y".repeat(40), "s-2-2"]);
     }
 }

@@ -13,13 +13,13 @@ use std::time::Duration;
 use lightbvh::light::AnyLight;
 use lightbvh::{EditError, EmissiveTriangle, Lights};
 use lightbvh_kernels::bvh::{Choice, Kinds, Paper, Standard, WIDTH};
+use lightbvh_kernels::render::RenderParams;
 
 use self::independent::Independent;
 use crate::backend::{Backend, BackendError, Bvh, CpuBackend, DeviceBackend, Follow, SceneArrays, Timed};
 use crate::error::HostError;
 use crate::scene::{Scene, SceneLight};
 use crate::vulkan::Device;
-use crate::workload::RenderSettings;
 
 /// A frame of an animation, as a method learns of it.
 #[derive(Clone, Copy, Debug)]
@@ -32,9 +32,14 @@ pub struct Step<'a, L = EmissiveTriangle> {
     pub lights: &'a Lights<L>,
 }
 
-impl<L> Step<'_, L> {
+impl<'a, L> Step<'a, L> {
+    /// A frame of a scene.
+    pub fn new(scene: &'a Scene, frame: u32, lights: &'a Lights<L>) -> Self {
+        Self { scene, frame, lights }
+    }
+
     /// The error for lights of this frame that a light BVH does not take.
-    fn refused(&self, error: EditError) -> HostError {
+    pub(crate) fn refused(&self, error: EditError) -> HostError {
         HostError::in_frame(self.scene.name(), self.frame, error)
     }
 }
@@ -61,7 +66,7 @@ impl UpdateTimes {
     }
 }
 
-/// What [`RenderSettings::samples`] counts.
+/// What [`RenderParams::samples`] counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleBudget {
     /// Shadow rays per pixel, so that methods can be compared at equal cost. All look at the same points in the pixels.
@@ -80,7 +85,7 @@ pub trait Runner<L: SceneLight = EmissiveTriangle> {
     /// [`HostError`] from a device, or for lights that the method cannot take.
     fn advance(&mut self, step: &Step<'_, L>) -> Result<UpdateTimes, HostError>;
 
-    /// Renders the frame last advanced to, which `arrays` are of, and `settings` too.
+    /// Renders the frame last advanced to, which `arrays` are of.
     ///
     /// # Errors
     /// [`HostError`] from a device, or for a scene that the method cannot take.
@@ -88,7 +93,7 @@ pub trait Runner<L: SceneLight = EmissiveTriangle> {
         &mut self,
         step: &Step<'_, L>,
         arrays: &SceneArrays<L>,
-        settings: &RenderSettings,
+        params: &RenderParams,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError>;
 
     /// What renders, as of the frame last advanced to.

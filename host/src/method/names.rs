@@ -90,8 +90,6 @@ pub struct Recipe {
     pub rebuilt: bool,
     /// Candidates that each sample of direct light is one of; 1 for lights as picked.
     pub candidates: u32,
-    /// Directions that the surface reflects into whose lights join the candidates of each sample of direct light.
-    pub scattered: u32,
     /// What light is followed.
     pub integrator: Integrator,
     /// What the samples of an image count.
@@ -118,7 +116,6 @@ impl Method {
             builder: importance.builder(),
             rebuilt: false,
             candidates: 1,
-            scattered: 0,
             integrator: Integrator::Direct,
             budget: SampleBudget::ShadowRays,
         };

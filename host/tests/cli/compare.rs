@@ -59,22 +59,10 @@ fn the_report_has_every_measure_and_every_file() {
     assert_eq!(change["from"], "single-level-refit");
     assert!(change["percent"].is_f64());
     let scene = &report["scenes"][0];
-    let files = scene["figures"]
-        .as_array()
-        .expect("figures")
-        .iter()
-        .map(|file| file.as_str().expect("a name"));
-    for file in files.chain(["compare.json", "compare.md"]) {
-        assert!(folder.0.join(file).exists(), "{file}");
-    }
     assert!(scene["references"][0]["linear_mse"].as_f64() > Some(0.0));
     let written: Value =
         serde_json::from_slice(&std::fs::read(folder.0.join("compare.json")).expect("a file")).expect("JSON");
     assert_eq!(written, report);
-    let sheet = std::fs::read_to_string(folder.0.join("crops-street.svg")).expect("a sheet");
-    // The reference, and three regions by both methods and the reference.
-    assert_eq!(sheet.matches("<image ").count(), 1 + 3 * 3);
-    assert!(!report["crops"].as_array().expect("crops").is_empty());
 }
 
 #[test]
@@ -98,10 +86,6 @@ fn quick_compares_all_methods_on_all_scenes() {
                 3,
                 "{scene} {method}"
             );
-        }
-        for file in ["mse", "ssim"] {
-            let svg = std::fs::read_to_string(folder.0.join(format!("{file}-{scene}.svg"))).expect("a graph");
-            assert!(svg.contains("two-level-saoh") && svg.ends_with("</svg>\n"));
         }
     }
 }

@@ -45,7 +45,7 @@ pub(in crate::cli) struct Args {
     /// What renders; devices render one image of each frame [default: all, with --quick: cpu].
     #[arg(long, value_enum)]
     backend: Option<Backends>,
-    /// Folder for tables and figures; made if it is not there.
+    /// Folder for the tables; made if it is not there.
     #[arg(long, default_value = "compare", value_name = "DIR")]
     pub(super) out: PathBuf,
     /// Small images and few frames: a look within a minute. Other options still count.

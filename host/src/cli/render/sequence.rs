@@ -14,7 +14,7 @@ use crate::method::{MethodLight, Recipe, Step, Target};
 use crate::render::Film;
 use crate::scene::{Scene, SceneLight};
 use crate::vulkan::Device;
-use crate::workload::{RenderSettings, arrays_lit_by};
+use crate::workload::{arrays_lit_by, render_params};
 
 /// What is to be rendered.
 pub(super) struct Sequence<'a> {
@@ -56,18 +56,13 @@ impl Sequence<'_> {
                 Some(first) => first,
                 None => self.arrays(frame)?,
             };
-            let settings = RenderSettings {
-                frame,
-                width: args.width,
-                height: args.height,
-                samples: args.spp,
-                seed: args.seed,
-            };
+            let background = self.scene.data().background;
+            let params = render_params((args.width, args.height), args.spp, args.seed, background);
             let step = self.step(frame, &arrays);
             if frame > start {
                 runner.advance(&step)?;
             }
-            let image = runner.image(&step, &arrays, &settings)?;
+            let image = runner.image(&step, &arrays, &params)?;
             let film = Film::new(args.width, args.height, image.value)?;
             // What the greatest exposure shows as black fixes none.
             let is_black = match args.exposure {
@@ -127,11 +122,7 @@ impl Sequence<'_> {
     }
 
     fn step<'b, L>(&'b self, frame: u32, arrays: &'b SceneArrays<L>) -> Step<'b, L> {
-        Step {
-            scene: self.scene,
-            frame,
-            lights: &arrays.lights,
-        }
+        Step::new(self.scene, frame, &arrays.lights)
     }
 
     fn arrays<L: SceneLight>(&self, frame: u32) -> Result<SceneArrays<L>, HostError> {

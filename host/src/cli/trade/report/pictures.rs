@@ -3,7 +3,7 @@
 use image::ExtendedColorType;
 use serde::Serialize;
 
-use crate::cli::trade::point::Point;
+use crate::cli::trade::front::Point;
 use crate::error::HostError;
 use crate::metrics::{Judge, relative_squared_error};
 use crate::plot::png_url;
@@ -68,9 +68,9 @@ fn picture(point: &Point, judge: &Judge) -> Result<Picture, HostError> {
     let (film, rays) = &point.images.shown;
     let size = judge.size();
     let judged = judge.judge(film)?;
-    let quality = judge.quality(film)?;
+    let quality = judged.quality;
     let flip: Vec<u8> = judged
-        .flip()
+        .flip
         .iter()
         .map(|&flip| (flip * 255.0).round() as u8)
         .collect();
@@ -84,7 +84,7 @@ fn picture(point: &Point, judge: &Judge) -> Result<Picture, HostError> {
         })
         .collect();
     Ok(Picture {
-        image: png_url(judged.shown(), size, ExtendedColorType::Rgb8)?,
+        image: png_url(&judged.shown, size, ExtendedColorType::Rgb8)?,
         flip: png_url(&flip, size, ExtendedColorType::L8)?,
         relative: png_url(&relative, size, ExtendedColorType::L8)?,
         mean_flip: quality.flip,

@@ -46,9 +46,9 @@ impl Runner for Corrupt {
         &mut self,
         step: &Step<'_>,
         arrays: &SceneArrays,
-        settings: &RenderSettings,
+        params: &RenderParams,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
-        let mut image = self.inner.image(step, arrays, settings)?;
+        let mut image = self.inner.image(step, arrays, params)?;
         turn(Kind::Pixels, self.wrong, &mut image.value);
         Ok(image)
     }
@@ -113,11 +113,7 @@ fn found(wrong: Option<Kind>) -> Tally {
     let mut lane = None;
     for frame in [0, 1] {
         let arrays = arrays_at(&scene, frame, SIZE.0, SIZE.1).expect("a frame");
-        let step = Step {
-            scene: &scene,
-            frame,
-            lights: &arrays.lights,
-        };
+        let step = Step::new(&scene, frame, &arrays.lights);
         let lane = match &mut lane {
             None => {
                 let params = BuildParams::paper(Heuristic::Saoh);
