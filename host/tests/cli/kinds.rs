@@ -106,8 +106,6 @@ fn commands_for_triangles_say_which_commands_take_other_lights() {
             assert!(said.contains(part), "{command}: {said}");
         }
     }
-    let said = refused(&format!("inspect {path} --layout two-sided"));
-    assert!(said.contains("--layout"), "{said}");
 }
 
 /// What is there is shown, though it is glass: a tint before the sky, or nothing but a note.
