@@ -6,25 +6,23 @@ mod batches;
 mod cpu;
 mod device;
 mod device_arrays;
-mod error;
 mod follow;
 mod mirrored;
 mod record;
 mod scene;
-mod words;
 
 pub use batches::Integrator;
 pub use cpu::CpuBackend;
+pub use device::DeviceArrays;
 pub use device::DeviceBackend;
-pub use error::BackendError;
 pub use mirrored::Mirrored;
 pub use record::{PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, node_record};
 pub use scene::{Sampler, SceneArrays};
-pub use words::DeviceArrays;
 
 use std::time::{Duration, Instant};
 
 use bytemuck::cast_slice;
+use lightbvh::error::FollowError;
 use lightbvh::node::Node;
 use lightbvh::{EmissiveTriangle, SampledLight};
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
@@ -32,7 +30,19 @@ use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::emitter::Emitter;
 
+use crate::vulkan::VulkanError;
 use crate::words::Record;
+
+/// An error of a backend.
+#[derive(Debug, thiserror::Error)]
+pub enum BackendError {
+    /// The device.
+    #[error(transparent)]
+    Vulkan(#[from] VulkanError),
+    /// The lights are not those that the BVH was built over.
+    #[error(transparent)]
+    Lights(#[from] FollowError),
+}
 
 /// The light BVH of a choice.
 pub type Bvh<C = Standard, const W: usize = WIDTH> =

@@ -152,11 +152,6 @@ impl<T: Pod> Buffer<T> {
         self.memory.copy(&from.memory, whole.as_slice())
     }
 
-    /// Whether it was made on `device`.
-    pub fn is_on(&self, device: &Device) -> bool {
-        self.memory.shared.id == device.shared.id
-    }
-
     /// A copy of all elements.
     ///
     /// # Errors

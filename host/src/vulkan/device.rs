@@ -2,13 +2,13 @@
 
 use super::error::{CallContext, VulkanError};
 use super::instance::Instance;
-use super::options::Options;
 use super::probe::{Candidate, Probe};
 use super::shared::Shared;
 use ash::vk;
 use lightbvh_gpu::FloatEnvironment;
 use serde::Serialize;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// A device that can be opened.
 #[derive(Clone, Debug, Serialize)]
@@ -26,6 +26,29 @@ pub struct DeviceList {
     pub devices: Vec<DeviceInfo>,
     /// One sentence for each thing that is missing: no loader, no driver, a device that cannot be used and why.
     pub notes: Vec<String>,
+}
+
+/// How to open a device.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// Run under `VK_LAYER_KHRONOS_validation`: any message of it becomes an error of the call that drew it.
+    pub validation: bool,
+    /// Copy through staging buffers even where host and device share memory; for tests of that path.
+    pub force_staging: bool,
+    /// How long submitted work may take.
+    pub time_limit: Duration,
+}
+
+impl Default for Options {
+    /// No validation, staging only where needed, ten minutes: far beyond any sensible pass, even on two
+    /// slow cores.
+    fn default() -> Self {
+        Self {
+            validation: false,
+            force_staging: false,
+            time_limit: Duration::from_secs(600),
+        }
+    }
 }
 
 /// An open device. Buffers and kernels are made from it; it closes when the last of them is dropped.

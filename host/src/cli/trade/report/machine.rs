@@ -69,13 +69,4 @@ mod tests {
         let line = command(args.into_iter().map(String::from));
         assert_eq!(line, "lightbvh 'a&b.gltf' 'a$b' 'a\nb' '' C:/x=1,2");
     }
-
-    #[test]
-    fn a_date_is_a_date() {
-        let date = Made::now().date;
-        assert!(
-            date.len() == 20 && date.ends_with('Z') && date.starts_with("20"),
-            "{date}"
-        );
-    }
 }

@@ -13,7 +13,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use self::machine::Made;
-use self::pictures::{Pictures, pictures};
+use self::pictures::{Pictures, pictures, png_url};
 use self::tree::{Drawn, drawn};
 use super::front::Point;
 use super::subject::{Axis, Config, Followed};
@@ -22,7 +22,6 @@ use crate::cli::target;
 use crate::error::HostError;
 use crate::method::Step;
 use crate::metrics::Judge;
-use crate::plot::png_url;
 use crate::render::Film;
 use crate::scene::Scene;
 use crate::workload::{arrays_at, lights_at, render_params};
