@@ -7,8 +7,7 @@ use indicatif::ProgressBar;
 use lightbvh::exact::hash;
 use lightbvh_kernels::query::Query;
 
-use super::side::Side;
-use super::tally::{Kind, Tallies};
+use super::tally::{Kind, Side, Tallies};
 use crate::backend::{Sampler, SceneArrays};
 use crate::error::HostError;
 use crate::method::{Importance, Method, MethodLight, Recipe, Runner, Step, Target};

@@ -5,17 +5,16 @@ use lightbvh::exact::hash;
 use lightbvh::{BuildParams, Lights};
 use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::render::RenderParams;
+use serde::Serialize;
 
-use super::side::Side;
-use super::subject::{Subject, Tree};
-use super::tally::{Kind, Tallies};
+use super::tally::{Kind, Side, Tallies};
 use crate::backend::{
-    Backend, BackendError, CpuBackend, DeviceBackend, Follow, Integrator, PIXEL_RECORD, Sampler, SceneArrays,
-    node_words,
+    Backend, BackendError, Bvh, CpuBackend, DeviceBackend, Follow, Integrator, PIXEL_RECORD, Sampler,
+    SceneArrays, node_words,
 };
 use crate::cli::devices::Opened;
 use crate::error::HostError;
-use crate::scene::SceneLight;
+use crate::scene::{Scene, SceneLight};
 use crate::workload::{arrays_lit_by, build, lights_of, queries, render_params, words_in_use};
 
 /// Queries answered at a time.
@@ -27,6 +26,66 @@ const REFIT_FRAMES: [u32; 2] = [40, 110];
 const SIZE: (u32, u32) = (96, 54);
 /// Most reflections of the paths that are compared: enough for some to end by chance.
 const BOUNCES: u32 = 5;
+
+/// A structure over a scene.
+pub(super) struct Subject<'a> {
+    pub scene: &'a Scene,
+    pub sampler: Sampler,
+    /// What lights are chosen by, for messages.
+    pub importance: &'static str,
+    pub params: BuildParams,
+    /// Whether images without a tree are compared too: once per scene.
+    pub treeless: bool,
+}
+
+impl Subject<'_> {
+    /// Where words come from.
+    fn says(&self, kernel: &str) -> String {
+        let (scene, sampler) = (self.scene.name(), self.sampler.name());
+        format!("{scene} {sampler} {} {kernel}", self.importance)
+    }
+}
+
+/// A tree in one frame, and whether every invariant of it holds. It is over the lights as they stand in the world: two levels
+/// have a tree for each instance, which `inspect` and `trade` share.
+#[derive(Debug, Serialize)]
+pub(super) struct Tree {
+    pub scene: String,
+    pub importance: &'static str,
+    pub structure: Sampler,
+    pub frame: u32,
+    pub valid: bool,
+    pub said: String,
+    pub lights: usize,
+    pub mesh_lights: usize,
+    pub nodes: usize,
+    pub depth: u32,
+    pub bytes_per_light: f64,
+}
+
+impl Tree {
+    fn of<C: Choice<W>, const W: usize>(
+        subject: &Subject<'_>,
+        frame: u32,
+        bvh: &Bvh<C, W>,
+        lights: &Lights<C::Light>,
+    ) -> Self {
+        let violation = bvh.validate().err().map(|violation| violation.to_string());
+        Self {
+            scene: subject.scene.name().to_owned(),
+            importance: subject.importance,
+            structure: subject.sampler,
+            frame,
+            valid: violation.is_none(),
+            said: violation.unwrap_or_else(|| "hold".to_owned()),
+            lights: lights.triangles().len(),
+            mesh_lights: lights.mesh_count(),
+            nodes: bvh.nodes().len() + bvh.top_nodes().len(),
+            depth: bvh.depth(),
+            bytes_per_light: bvh.bytes() as f64 / lights.triangles().len().max(1) as f64,
+        }
+    }
+}
 
 /// A structure on the CPU and on each device.
 struct Made<'d, C: Choice<W>, const W: usize> {
