@@ -91,29 +91,6 @@ fn quick_compares_all_methods_on_all_scenes() {
 }
 
 #[test]
-fn devices_render_the_words_of_the_cpu() {
-    let folder = Folder::new("compare-devices");
-    let methods = "--method single-level-refit --method single-level-rebuilt --method two-level-saoh \
-                   --method two-level-moments";
-    let report = report(&folder, &format!("{SMALL} {methods} --timed-frames 0"));
-    assert_eq!(report["different"], 0);
-    let cpu: Vec<&Value> = rows(&report)
-        .iter()
-        .filter(|row| row["backend"] == "cpu")
-        .collect();
-    assert_eq!(cpu.len(), 8);
-    // No frame was timed.
-    assert!(cpu[0]["frame_ms"].is_null());
-    if rows(&report).len() == cpu.len() {
-        eprintln!("skipped: no Vulkan device");
-    }
-    // One image of each frame on a device, two on the CPU; the words were compared above.
-    for row in rows(&report).iter().filter(|row| row["backend"] != "cpu") {
-        assert_eq!(row["seeds"], 1, "{row}");
-    }
-}
-
-#[test]
 fn bad_input_is_refused() {
     let folder = Folder::new("compare-refused");
     let taken = folder.0.join("taken");
@@ -121,16 +98,10 @@ fn bad_input_is_refused() {
     for (options, expected) in [
         ("--scene streets", "streets"),
         ("--scene no/such/file.glb", "no/such/file.glb"),
-        ("--frames 0,fifty", "fifty"),
-        ("--frames 0,-1", "-1"),
-        ("--frames ", "--frames"),
         ("--frames 100001", "100001 is not in"),
         ("--samples 0", "--samples"),
-        ("--seeds 0", "--seeds"),
-        ("--width 5000", "5000 is not in 1..=4096"),
         ("--reference-samples 1", "--reference-samples"),
         ("--method best", "best"),
-        ("--backend abacus", "abacus"),
     ] {
         let out = folder.file("");
         let said = refused(&format!("compare --out {out} {options} --quick"));
