@@ -76,9 +76,6 @@ pub struct Difference {
 }
 
 /// Compares `actual` with `expected`, both arrays of `record`, using all cores.
-///
-/// # Errors
-/// [`CompareError`] if they are not equally long.
 pub fn compare_words(record: &Record, expected: &[u32], actual: &[u32]) -> Result<Comparison, CompareError> {
     if expected.len() != actual.len() {
         return Err(CompareError {

@@ -36,17 +36,11 @@ pub const fn render_params(
 }
 
 /// The emissive triangles of `scene` at `frame`.
-///
-/// # Errors
-/// [`HostError`] when there is none, or one is outside the domain.
 pub fn lights_at(scene: &Scene, frame: u32) -> Result<Lights, HostError> {
     lights_of(scene, frame)
 }
 
 /// The lights of `scene` at `frame` that type `L` holds.
-///
-/// # Errors
-/// As [`lights_at`].
 pub fn lights_of<L: SceneLight>(scene: &Scene, frame: u32) -> Result<Lights<L>, HostError> {
     listed(scene, frame, scene.frame(frame).lights())
 }
@@ -60,17 +54,11 @@ fn listed<L: SceneLight>(scene: &Scene, frame: u32, lights: Vec<L>) -> Result<Li
 }
 
 /// The arrays of `scene` at `frame` for an image of `width` × `height`, lit by its emissive triangles.
-///
-/// # Errors
-/// [`HostError`] when the scene has no such lights, or is outside the domain of lights or rays.
 pub fn arrays_at(scene: &Scene, frame: u32, width: u32, height: u32) -> Result<SceneArrays, HostError> {
     arrays_lit_by(scene, frame, width, height)
 }
 
 /// [`arrays_at`], lit by all lights that type `L` holds.
-///
-/// # Errors
-/// As [`arrays_at`].
 pub fn arrays_lit_by<L: SceneLight>(
     scene: &Scene,
     frame: u32,

@@ -52,9 +52,6 @@ pub struct DeviceArrays {
 
 impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// Uploads a BVH and refits all of it, for its own nodes may wait for that.
-    ///
-    /// # Errors
-    /// [`BackendError`] when it does not fit, or the device fails.
     pub fn new(device: &'d Device, bvh: &Bvh<C, W>) -> Result<Self, BackendError> {
         let mut new = Self {
             device,
@@ -67,9 +64,6 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     }
 
     /// All arrays as they are, after all that was followed.
-    ///
-    /// # Errors
-    /// [`BackendError`] from the device.
     pub fn arrays(&mut self) -> Result<DeviceArrays, BackendError> {
         Ok(DeviceArrays {
             nodes: pod_collect_to_vec(&self.tree.all_nodes()?),
@@ -81,9 +75,6 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     }
 
     /// Overwrites the device's nodes, those of bottom levels and of the top level, so that a refit has something to change.
-    ///
-    /// # Errors
-    /// [`BackendError`] from the device.
     pub fn write_nodes(&mut self, nodes: &[C::Node], top: &[C::Node]) -> Result<(), BackendError> {
         let parts = [(0, nodes), (self.tree.top.start, top)];
         Ok(self.tree.nodes.write(&parts)?)

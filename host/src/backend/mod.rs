@@ -86,30 +86,18 @@ pub trait Backend<L: Emitter = EmissiveTriangle> {
     fn node_record(&self) -> Record;
 
     /// The words of all nodes as they are, as [`node_words`] orders them.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
     fn nodes(&mut self) -> Result<Vec<u32>, BackendError>;
 
     /// Chooses a light for each query.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
     fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError>;
 
     /// Evaluates the probability of each query's light.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
     fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, BackendError>;
 
     /// Renders the light that `integrator` follows, with lights chosen by `sampler`; the light BVH's samplers use this backend's
     /// BVH. [`RenderParams::samples`] counts light samples, or paths; more than
     /// [`samples_per_invocation`](Integrator::samples_per_invocation) are the mean of several images, the same ones on every
     /// backend.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
     fn render(
         &mut self,
         scene: &SceneArrays<L>,
@@ -122,8 +110,5 @@ pub trait Backend<L: Emitter = EmissiveTriangle> {
 /// A backend that follows a BVH through its edits.
 pub trait Follow<C: Choice<W> = Standard, const W: usize = WIDTH>: Backend<C::Light> {
     /// Copies the changes in `bvh` as of its last refit, and refits here.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
     fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError>;
 }

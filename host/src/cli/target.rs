@@ -14,9 +14,6 @@ pub(super) fn ends_in(path: &Path, endings: &[&str]) -> bool {
 }
 
 /// Makes a folder for output where it is not there, and writes to it.
-///
-/// # Errors
-/// [`HostError::Folder`] or [`HostError::Store`].
 pub(super) fn folder(path: &Path) -> std::result::Result<(), HostError> {
     let made = match path.is_file() {
         true => Err(Error::new(ErrorKind::AlreadyExists, "it is a file")),
@@ -28,9 +25,6 @@ pub(super) fn folder(path: &Path) -> std::result::Result<(), HostError> {
 }
 
 /// Writes a file of a report; it appears whole or not at all.
-///
-/// # Errors
-/// [`HostError::Store`].
 pub(super) fn store(path: &Path, bytes: &[u8]) -> std::result::Result<(), HostError> {
     let path = path.to_owned();
     write_whole(&path, bytes).map_err(|source| HostError::Store { path, source })
@@ -44,9 +38,6 @@ fn writable(folder: &Path) -> Result<()> {
 
 /// Whether a file can be written there: its folder is one, and can be written to, and it is none itself. Links are followed; a pipe
 /// or a device is written directly.
-///
-/// # Errors
-/// What is in the way.
 pub(super) fn check(path: &Path) -> Result<()> {
     let Some(path) = real_path(path)? else {
         return Ok(());
@@ -69,9 +60,6 @@ pub(super) fn check(path: &Path) -> Result<()> {
 }
 
 /// Whether a picture can be written there.
-///
-/// # Errors
-/// What [`Film::write`](crate::render::Film::write) would say, but for what only writing tells.
 pub(super) fn picture(path: &Path) -> std::result::Result<(), FilmError> {
     let path = path.to_owned();
     if !ends_in(&path, &["png", "exr"]) {

@@ -80,15 +80,9 @@ pub enum SampleBudget {
 pub trait Runner<L: SceneLight = EmissiveTriangle> {
     /// Brings the structures to the next frame. Frames come in ascending order; only methods that say so in
     /// [`may_skip`](Self::may_skip) see them with gaps.
-    ///
-    /// # Errors
-    /// [`HostError`] from a device, or for lights that the method cannot take.
     fn advance(&mut self, step: &Step<'_, L>) -> Result<UpdateTimes, HostError>;
 
     /// Renders the frame last advanced to, which `arrays` are of.
-    ///
-    /// # Errors
-    /// [`HostError`] from a device, or for a scene that the method cannot take.
     fn image(
         &mut self,
         step: &Step<'_, L>,
@@ -138,9 +132,6 @@ impl<'d> Target<'d> {
 
 impl Recipe {
     /// Builds what the method needs at its first frame.
-    ///
-    /// # Errors
-    /// [`HostError`] from a device, or for a scene that the method cannot take.
     pub fn runner<'d, L: MethodLight>(
         &self,
         first: &Step<'_, L>,
@@ -164,9 +155,6 @@ pub trait MethodLight: SceneLight {
     const IMPORTANCES: &'static [Importance];
 
     /// Builds what `recipe` needs at its first frame.
-    ///
-    /// # Errors
-    /// [`HostError`] from a device, or for what the method does not take.
     fn runner<'d>(
         recipe: &Recipe,
         first: &Step<'_, Self>,

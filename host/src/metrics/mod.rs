@@ -79,9 +79,6 @@ pub struct Judged {
 
 impl Judge {
     /// Takes a reference and the exposure at which it and the images are displayed.
-    ///
-    /// # Errors
-    /// [`MetricError::NotFinite`] for a reference that is not.
     pub fn new(reference: Film, exposure: f32) -> Result<Self, MetricError> {
         require_finite(&reference)?;
         Ok(Self {
@@ -112,9 +109,6 @@ impl Judge {
     }
 
     /// Measures an image.
-    ///
-    /// # Errors
-    /// [`MetricError`] for an image of another size, or not finite, or too large for FLIP.
     pub fn judge(&self, image: &Film) -> Result<Judged, MetricError> {
         if (image.width(), image.height()) != self.size() {
             return Err(MetricError::Shapes {

@@ -77,9 +77,6 @@ pub struct Skipped {
 }
 
 /// Runs one extreme: on the CPU, and on each device.
-///
-/// # Errors
-/// [`HostError`] when the crate refuses the lights, or a device fails.
 pub fn run(case: &Case, effort: &Effort, devices: &[&Device], found: &mut Found) -> Result<(), HostError> {
     match &case.source {
         Source::World(triangles) => world(case, triangles, effort, devices, found),

@@ -19,9 +19,6 @@ const NUMBERS: u32 = 96;
 const ADVERSARIAL_LEVELS: u32 = 4;
 
 /// Compares refit, samples and probabilities over a BVH that is refitted.
-///
-/// # Errors
-/// [`HostError`] when the device fails, or has no buffers as large.
 pub fn compare(
     extreme: &str,
     structure: &str,

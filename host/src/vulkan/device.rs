@@ -61,9 +61,6 @@ impl Device {
     ///
     /// Without a loader, a driver or a device the list is empty and its notes say why: a reason to go on with the CPU,
     /// not an error.
-    ///
-    /// # Errors
-    /// [`VulkanError::Call`] if the loader is there and fails.
     pub fn list() -> Result<DeviceList, VulkanError> {
         let instance = match Instance::new(false) {
             Ok(instance) => instance,
@@ -90,11 +87,6 @@ impl Device {
     }
 
     /// Opens a device of the list.
-    ///
-    /// # Errors
-    /// [`VulkanError::FloatEnvironment`] if this thread's float mode is not the default,
-    /// [`VulkanError::NoValidationLayer`], [`VulkanError::UnknownDevice`] if the device has gone since it was listed,
-    /// [`VulkanError::Validation`] or [`VulkanError::Call`].
     pub fn open(info: &DeviceInfo, options: Options) -> Result<Self, VulkanError> {
         let instance = Instance::new(options.validation)?;
         let (candidates, _) = candidates(&instance)?;
@@ -138,10 +130,6 @@ impl Device {
     /// Closes the device and waits until all of it is gone, so that the validation layer has seen the tear-down too.
     ///
     /// Dropping does the same without a verdict.
-    ///
-    /// # Errors
-    /// [`VulkanError::StillHeld`] while buffers live, [`VulkanError::Busy`] while work that ran into its time limit is
-    /// still running, [`VulkanError::Validation`] for messages up to and in the tear-down.
     pub fn close(self) -> Result<(), VulkanError> {
         let device = self.shared.probe.name.clone();
         if self.shared.is_busy() {
@@ -165,9 +153,6 @@ impl Device {
 
 impl DeviceList {
     /// The device that `wanted` means: an index, or a part of a name in any case. The first of several matches.
-    ///
-    /// # Errors
-    /// [`VulkanError::NoDevice`] if the list is empty, [`VulkanError::UnknownDevice`] with the names there are.
     pub fn select(&self, wanted: &str) -> Result<&DeviceInfo, VulkanError> {
         if self.devices.is_empty() {
             return Err(VulkanError::NoDevice {

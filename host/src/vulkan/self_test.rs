@@ -44,10 +44,6 @@ pub struct Finding {
 
 impl Device {
     /// Runs the self-test.
-    ///
-    /// # Errors
-    /// Those of [`Device::kernel`], [`Device::upload`] and [`Device::run`]; differing answers are a verdict, not an
-    /// error.
     pub fn self_test(&self) -> Result<Exactness, VulkanError> {
         let operands = operands(TRIPLES);
         let cpu = answers_of_cpu(&operands);

@@ -99,9 +99,6 @@ fn picture(point: &Point, judge: &Judge) -> Result<Picture, HostError> {
 }
 
 /// `data:image/png;base64,…` of 8-bit pixels by rows.
-///
-/// # Errors
-/// [`FilmError::Encode`] for pixels that do not fit the size, and an empty picture.
 pub(super) fn png_url(
     bytes: &[u8],
     (width, height): (u32, u32),
