@@ -145,6 +145,3 @@ fn nodes<L: MethodLight>(runner: &mut dyn Runner<L>) -> Result<(Record, Vec<u32>
     let (record, words) = (backend.node_record(), backend.nodes()?);
     Ok((record, runner.words_in_use(words)))
 }
-
-#[cfg(test)]
-mod tests;

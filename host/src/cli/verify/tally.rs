@@ -168,3 +168,126 @@ impl<L: SceneLight> Side<'_, L> {
             .take(Kind::Pmfs, &what, &PMF_RECORD, &again.0, &again.1)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use lightbvh::{BuildParams, Heuristic, SampledLight};
+    use lightbvh_kernels::bvh::Paper;
+    use lightbvh_kernels::render::RenderParams;
+
+    use super::*;
+    use crate::backend::{Bvh, CpuBackend, Integrator, Sampler, SceneArrays, Timed};
+    use crate::scene::Scene;
+    use crate::workload::{arrays_at, build, queries, render_params};
+
+    /// The CPU in the place of a device, with one bit of the middle word of what is `wrong` turned.
+    struct Corrupt {
+        inner: CpuBackend<Paper, 4>,
+        wrong: Option<Kind>,
+    }
+
+    impl Corrupt {
+        fn turned<T: bytemuck::Pod>(&self, kind: Kind, mut timed: Timed<Vec<T>>) -> Timed<Vec<T>> {
+            if self.wrong == Some(kind) {
+                let words: &mut [u32] = bytemuck::cast_slice_mut(&mut timed.value);
+                words[words.len() / 2] ^= 1;
+            }
+            timed
+        }
+    }
+
+    impl Backend for Corrupt {
+        fn node_record(&self) -> Record {
+            self.inner.node_record()
+        }
+
+        fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
+            let nodes = self.inner.nodes()?;
+            Ok(self.turned(Kind::Nodes, Timed::of(|| nodes)).value)
+        }
+
+        fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError> {
+            let sampled = self.inner.sample(queries)?;
+            Ok(self.turned(Kind::Samples, sampled))
+        }
+
+        fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, BackendError> {
+            let pmfs = self.inner.pmf(queries)?;
+            Ok(self.turned(Kind::Pmfs, pmfs))
+        }
+
+        fn render(
+            &mut self,
+            scene: &SceneArrays,
+            params: &RenderParams,
+            sampler: Sampler,
+            integrator: Integrator,
+        ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
+            let image = self.inner.render(scene, params, sampler, integrator)?;
+            Ok(self.turned(Kind::Pixels, image))
+        }
+    }
+
+    #[test]
+    fn a_wrong_bit_of_anything_is_found_and_named() {
+        let scene = Scene::open("street").expect("built in");
+        let arrays = arrays_at(&scene, 0, 16, 9).expect("a frame");
+        let params = BuildParams::paper(Heuristic::Saoh);
+        let bvh: Bvh<Paper, 4> = build(&arrays.lights, Sampler::SingleLevel, &params);
+        for (wrong, said) in [
+            (None, ""),
+            (Some(Kind::Nodes), "street nodes: node "),
+            (Some(Kind::Samples), "street sample: sampled light 32, light: "),
+            (Some(Kind::Pmfs), "street pmf: pmf 32, pmf: "),
+            (Some(Kind::Pixels), "street render: pixel 72, radiance[0]: "),
+        ] {
+            let mut cpu: CpuBackend<Paper, 4> = CpuBackend::new(bvh.clone());
+            let mut device = Corrupt {
+                inner: CpuBackend::new(bvh.clone()),
+                wrong,
+            };
+            let mut tallies = Tallies {
+                devices: vec![Tally::default()],
+                ..Tallies::default()
+            };
+            let mut side = Side {
+                cpu: &mut cpu,
+                devices: vec![&mut device],
+            };
+            let (what, record) = (|kernel: &str| format!("street {kernel}"), side.cpu.node_record());
+            side.compare(&mut tallies, Kind::Nodes, &what("nodes"), &record, |backend| {
+                backend.nodes()
+            })
+            .expect("nodes");
+            let lights = (arrays.lights.triangles(), true);
+            side.compare_queries(&mut tallies, &what, queries(&arrays, 1, 0, 64), lights)
+                .expect("answers");
+            let params = render_params((16, 9), 1, 1, [0.0; 3]);
+            side.compare(
+                &mut tallies,
+                Kind::Pixels,
+                &what("render"),
+                &PIXEL_RECORD,
+                |backend| {
+                    let image = backend.render(&arrays, &params, Sampler::SingleLevel, Integrator::Direct)?;
+                    Ok(image.value)
+                },
+            )
+            .expect("images");
+            assert_eq!(tallies.cpu.different, 0);
+            let tally = &tallies.devices[0];
+            let words: u64 = tally.words.values().map(|words| words.compared).sum();
+            assert_eq!((words, tally.pixels), (tally.compared, 16 * 9));
+            assert_eq!(tally.different, u64::from(wrong.is_some()), "{wrong:?}");
+            if let Some(kind) = wrong {
+                assert_eq!(tally.words[&kind].different, 1);
+                let first = tally.first_difference.as_ref().expect("a difference");
+                assert!(first.starts_with(said), "{first}");
+                assert!(
+                    first.contains("expected 0x") && first.contains("got 0x"),
+                    "{first}"
+                );
+            }
+        }
+    }
+}
