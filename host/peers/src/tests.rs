@@ -5,7 +5,7 @@ mod published;
 use glam::Vec3;
 use lightbvh::exact::{hash, pow2, unit_f32};
 use lightbvh::importance::ImportanceModel;
-use lightbvh::node::{BoundsNode, CompactNode, LightBounds, Node, kind};
+use lightbvh::node::{BoundsNode, CompactNode, LightBounds, kind};
 use lightbvh::{ShadingPoint, exact};
 use published::Seen;
 

@@ -114,12 +114,16 @@ impl MeanRatio {
     }
 }
 
+type Sample = dyn Fn(&ShadingPoint, u32) -> SampledLight + Sync;
+type Pmf = dyn Fn(&ShadingPoint, u32, u32) -> f32 + Sync;
+type PmfOf<B> = fn(&B, &ShadingPoint, u32, u32) -> f32;
+
 /// A light BVH of some model.
 struct Subject {
     /// Bytes that sampling reads, and bytes of all its arrays.
     bytes: [usize; 2],
-    sample: Box<dyn Fn(&ShadingPoint, u32) -> SampledLight + Sync>,
-    pmf: Option<Box<dyn Fn(&ShadingPoint, u32, u32) -> f32 + Sync>>,
+    sample: Box<Sample>,
+    pmf: Option<Box<Pmf>>,
 }
 
 impl Subject {
@@ -127,7 +131,7 @@ impl Subject {
         bvh: B,
         bytes: [usize; 2],
         sample: fn(&B, &ShadingPoint, u32) -> SampledLight,
-        pmf: Option<fn(&B, &ShadingPoint, u32, u32) -> f32>,
+        pmf: Option<PmfOf<B>>,
     ) -> Self {
         let bvh = Arc::new(bvh);
         let own = Arc::clone(&bvh);
