@@ -30,7 +30,7 @@ pub(super) fn all_candidates(candidates: u32, scattered: u32) -> u32 {
     candidates.clamp(1, MAX_CANDIDATES) + directions
 }
 
-/// What light is followed.
+/// The light that is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Integrator {
     /// Reflected once.
@@ -127,7 +127,7 @@ mod tests {
         }
     }
 
-    /// What is asked of an image of `samples` samples in parts of 8, each of which returns its share as its pixel.
+    /// The parts of an image of `samples` samples in parts of 8, each of which returns its share as its pixel.
     fn asked(samples: u32, integrator: Integrator) -> (Vec<RenderParams>, [f32; 3]) {
         let mut asked = Vec::new();
         let image = in_batches(&params(samples), integrator, |part| {

@@ -1,4 +1,4 @@
-//! What runs the passes: the CPU over all its cores, or a Vulkan device. Both run the same functions on the same arrays,
+//! Backends, which run the passes: the CPU over all its cores, or a Vulkan device. Both run the same functions on the same arrays,
 //! so [`words`](crate::words) may ask for equal words. A [`Choice`] says over which node layout, by which importance;
 //! [`Standard`] where it is left out.
 

@@ -167,14 +167,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::Good)
 }
 
-/// What builders may spend, by name.
+/// The builders' presets.
 const PRESETS: [(&str, BuildParams); 3] = [
     ("fast", BuildParams::FAST),
     ("balanced", BuildParams::BALANCED),
     ("best", BuildParams::BEST),
 ];
 
-/// What is measured: the pass, and which of its passes, variants or presets.
+/// A measurement: the pass, and which of its passes, variants or presets.
 type What = (&'static str, [Option<&'static str>; 3]);
 const REFIT: What = ("refit", [Some("levels"), None, None]);
 const SAMPLE: What = ("sample", [None, Some("one"), None]);

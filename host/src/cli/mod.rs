@@ -89,7 +89,7 @@ struct OnDevices<A: clap::Args> {
 #[derive(Debug, clap::Args)]
 struct Nothing {}
 
-/// What all commands share.
+/// Options that all commands share.
 #[derive(Default)]
 struct Context {
     json: bool,
@@ -112,7 +112,7 @@ impl Outcome {
     }
 }
 
-/// What a command does with its options.
+/// A command by its options.
 type Run<A> = fn(&Context, &A) -> Result<Outcome, HostError>;
 
 impl<A: clap::Args> OnDevices<A> {

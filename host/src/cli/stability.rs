@@ -22,7 +22,7 @@ struct Report {
     rows: Vec<Row>,
     failed: usize,
     skipped: Vec<Skipped>,
-    /// What each check measures, and why its bound is what it is.
+    /// The measure of each check, and the reason of its bound.
     checks: BTreeMap<&'static str, &'static str>,
 }
 

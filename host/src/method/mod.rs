@@ -44,7 +44,7 @@ impl<'a, L> Step<'a, L> {
     }
 }
 
-/// What bringing a method's structures to a frame took.
+/// Times of bringing a method's structures to a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct UpdateTimes {
     /// New bounds in the structures there are.
@@ -66,7 +66,7 @@ impl UpdateTimes {
     }
 }
 
-/// What [`RenderParams::samples`] counts.
+/// The unit of [`RenderParams::samples`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleBudget {
     /// Shadow rays per pixel, so that methods can be compared at equal cost. All look at the same points in the pixels.
@@ -90,7 +90,7 @@ pub trait Runner<L: SceneLight = EmissiveTriangle> {
         params: &RenderParams,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError>;
 
-    /// What renders, as of the frame last advanced to.
+    /// The backend, as of the frame last advanced to.
     fn backend(&mut self) -> &mut dyn Backend<L>;
 
     /// The words in use, out of the words of all nodes of the [`backend`](Self::backend).
@@ -151,7 +151,7 @@ impl Recipe {
 
 /// Lights that methods are compiled for.
 pub trait MethodLight: SceneLight {
-    /// What they may be chosen by.
+    /// The importances that may choose them.
     const IMPORTANCES: &'static [Importance];
 
     /// Builds what `recipe` needs at its first frame.

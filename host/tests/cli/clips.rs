@@ -41,7 +41,7 @@ fn a_clip_outside_of_the_scene_is_named() {
         let said = refused(&format!("render {path} {SMALL} --animation {word} -o {image}"));
         assert!(said.contains("moves nothing of the scene"), "{word}: {said}");
     }
-    // What is named again is accepted.
+    // An animation may be named again.
     let twice = "--animation left --animation left --animation 1";
     said_nothing_of(
         &said(&format!("render {path} {SMALL} {twice} -o {image}")),
@@ -84,7 +84,7 @@ fn long_names_are_cut_in_texts() {
     );
 }
 
-/// What a file says may hold what a terminal obeys.
+/// Texts of a file may hold control characters.
 #[test]
 fn what_a_terminal_obeys_is_not_printed() {
     let folder = Folder::new("terminal");

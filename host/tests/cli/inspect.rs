@@ -1,4 +1,4 @@
-//! What a scene requires, on small files that differ in one thing each.
+//! Requirements of scenes, on small files that differ in one thing each.
 
 use serde_json::{Value, json};
 

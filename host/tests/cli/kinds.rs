@@ -108,7 +108,7 @@ fn commands_for_triangles_say_which_commands_take_other_lights() {
     }
 }
 
-/// What is there is shown, though it is glass: a tint before the sky, or nothing but a note.
+/// Glass alone is shown: a tint before the sky, or nothing but a note.
 #[test]
 fn glass_alone_is_rendered() {
     let folder = Folder::new("glass");

@@ -20,7 +20,7 @@ use crate::workload::{arrays_at, render_params};
 /// Seed of images that are rendered for their time.
 const TIMING_SEED: u32 = (1 << 31) - 1;
 
-/// What there is to know about the methods on one backend.
+/// Results of the methods on one backend.
 #[derive(Clone, Default)]
 pub(super) struct Results {
     /// By method, frame and seed: how good an image is, and the hash of its words, equal on all exact devices.

@@ -21,7 +21,7 @@ pub(super) struct Report {
     pub different: u64,
 }
 
-/// What belongs to a scene as a whole.
+/// Figures of a scene as a whole.
 #[derive(Serialize)]
 pub(super) struct SceneReport {
     pub scene: String,
@@ -39,7 +39,7 @@ pub(super) struct Noise {
     pub linear_mse: f64,
 }
 
-/// What the tables say that numbers cannot.
+/// Notes of the tables.
 pub(super) const NOTES: [&str; 7] = [
     "All methods trace the same number of shadow rays per pixel, through the same camera rays: what differs is the light that \
      each ray goes to.",

@@ -24,7 +24,7 @@ pub(super) const MOST_VARIANCE: f64 = 1.05;
 /// Samples of a point that are compared where no probability of a given light can be asked for.
 const SAMPLES: u32 = 64;
 
-/// What a part promises.
+/// The promise of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Promise {

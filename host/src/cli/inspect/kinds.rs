@@ -168,7 +168,7 @@ pub(super) fn run(
     Ok(Outcome::good_if(holds))
 }
 
-/// What was found of the tree over the lights, which was built in one frame and looked at in another.
+/// The figures of the tree over the lights in words; it was built in one frame and looked at in another.
 fn found(tree: &str, [first, moved]: [u32; 2], checked: &Checked) -> String {
     let refitted = match moved == first {
         true => String::new(),

@@ -1,4 +1,4 @@
-//! What `lightbvh render` is told.
+//! Options of `lightbvh render`.
 
 use std::ffi::OsString;
 use std::ops::Range;
@@ -111,7 +111,7 @@ fn place(text: &str) -> Result<[f32; 3], String> {
     }
 }
 
-/// What light is followed.
+/// The light that is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum IntegratorName {
@@ -121,7 +121,7 @@ pub(super) enum IntegratorName {
     Path,
 }
 
-/// What the options say of the method; the other ones are those of its name.
+/// The method by its name, changed as the options say.
 pub(super) fn recipe(args: &Args) -> Result<Recipe, HostError> {
     let mut recipe = Recipe {
         budget: SampleBudget::CameraRays,

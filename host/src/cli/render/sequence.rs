@@ -14,7 +14,7 @@ use crate::scene::{Scene, SceneLight};
 use crate::vulkan::Device;
 use crate::workload::{arrays_lit_by, render_params};
 
-/// What is to be rendered.
+/// A frame or a sequence to render.
 pub(super) struct Sequence<'a> {
     pub(super) args: &'a Args,
     pub(super) recipe: Recipe,
@@ -56,7 +56,7 @@ impl Sequence<'_> {
             }
             let image = runner.image(&step, &arrays, &params)?;
             let film = Film::new(args.width, args.height, image.value)?;
-            // What the greatest exposure shows as black fixes none.
+            // A frame that is black at the greatest exposure fixes none.
             let is_black = match args.exposure {
                 Some(_) => film.is_black(),
                 None => !film.shows_anything(),

@@ -27,7 +27,7 @@ const LEAST_UPDATE_MS: f64 = 0.02;
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Point {
     pub scene: String,
-    /// What differs from the default, in words.
+    /// The difference from the default, in words.
     pub choice: String,
     pub config: Config,
     pub default: bool,
@@ -40,7 +40,7 @@ pub(super) struct Point {
     pub pareto: bool,
 }
 
-/// What a choice costs: the time of its update, and image by image the times and errors by the same rays.
+/// The costs of a choice: the time of its update, and image by image the times and errors by the same rays.
 struct Costs<'a>(f64, &'a [f64], &'a [f64]);
 
 /// Marks the default, and the points that are others than it, as far as no other beats them: another one beats a point if its

@@ -114,7 +114,7 @@ pub(super) struct Measured {
     judge: Option<Judge>,
 }
 
-/// What was measured of one configuration, image by image over all frames.
+/// The measurements of one configuration, image by image over all frames.
 #[derive(Default)]
 struct OfOne {
     times: Vec<f64>,
@@ -200,7 +200,7 @@ impl Measured {
         Ok(())
     }
 
-    /// What it comes to, one for each configuration, and who judged the last frame.
+    /// The results, one for each configuration, and the judge of the last frame.
     pub fn finish(self) -> (Vec<Images>, Judge) {
         let default = &self.of_each[0];
         let images = |of: &OfOne| Images {

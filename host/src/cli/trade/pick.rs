@@ -15,7 +15,7 @@ const MOST_IMAGES: f64 = 256.0;
 /// A gain below this is none.
 const LEAST_GAIN: f64 = 1.05;
 
-/// What is asked for.
+/// A budget.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Goal {
     /// Least error in a frame of this time, ms.
@@ -42,7 +42,7 @@ pub(super) struct Pick {
     pub scene: String,
     #[serde(flatten)]
     pub best: Reached,
-    /// What the default does within the same budget, where it keeps it.
+    /// The default within the same budget, where it keeps it.
     pub of_default: Option<Reached>,
     /// Where both keep it: the pick's error in a frame of that time, or its frame's time to that error, over the default's.
     pub margin: Option<Interval>,

@@ -1,4 +1,4 @@
-//! What a tree costs and how well it chooses: bytes, times, the variance of unshadowed light.
+//! The costs of a tree and how well it chooses: bytes, times, the variance of unshadowed light.
 
 use glam::Vec3;
 use lightbvh::exact::{hash, unit_f32};

@@ -1,4 +1,4 @@
-//! What a configuration is: a light BVH that follows the animation, and an importance by which lights are chosen. Trees are of two
+//! A configuration: a light BVH that follows the animation, and an importance by which lights are chosen. Trees are of two
 //! types, the default's and the paper's: other importances choose from the same nodes.
 
 use std::fmt;
@@ -23,10 +23,10 @@ use crate::render::render;
 use crate::scene::Instances;
 use crate::workload::{build, instance_of};
 
-/// What a user can choose.
+/// A user's choices.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Config {
-    /// What differs from the default.
+    /// The difference from the default.
     pub axis: Axis,
     pub levels: Sampler,
     pub importance: &'static str,
@@ -39,13 +39,13 @@ pub(super) struct Config {
     pub candidates: u32,
 }
 
-/// What a configuration is there to show.
+/// The choice that a configuration shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Axis {
-    /// What `LightBvh::two_level` and `render` do unless told otherwise.
+    /// The default of `LightBvh::two_level` and `render`.
     Default,
-    /// What lights are chosen by.
+    /// The importance by which lights are chosen.
     Importance,
     /// How the tree is built.
     Builder,
@@ -59,7 +59,7 @@ pub(super) enum Axis {
     Arithmetic,
 }
 
-/// What is done to a tree between two frames.
+/// The update of a tree between two frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, strum::IntoStaticStr)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
@@ -144,7 +144,7 @@ impl Config {
 }
 
 impl fmt::Display for Config {
-    /// What differs from the default.
+    /// The difference from the default.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (builder, levels) = (self.builder.name(), self.levels.name());
         let update: &str = self.update.into();

@@ -17,7 +17,7 @@ use crate::method::Step;
 use crate::scene::Scene;
 use crate::workload::{arrays_at, lights_at};
 
-/// What differs from one another in the probabilities of lights, of trees as they are built.
+/// Axes that differ in the probabilities of lights, of trees as they are built.
 const AXES: [Axis; 5] = [
     Axis::Importance,
     Axis::Builder,

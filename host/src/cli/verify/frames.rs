@@ -18,7 +18,7 @@ use crate::workload::{arrays_lit_by, queries, render_params};
 /// Images are small: an animation has thousands of them, and SwiftShader takes a millisecond for a pixel of some.
 const SIZE: (u32, u32) = (16, 9);
 
-/// What is compared in each frame.
+/// The work of each frame.
 pub(super) struct Plan {
     pub frames: Range<u32>,
     /// Lights sampled and pmfs evaluated per frame and method.

@@ -31,7 +31,7 @@ const BOUNCES: u32 = 5;
 pub(super) struct Subject<'a> {
     pub scene: &'a Scene,
     pub sampler: Sampler,
-    /// What lights are chosen by, for messages.
+    /// The importance, for messages.
     pub importance: &'static str,
     pub params: BuildParams,
     /// Whether images without a tree are compared too: once per scene.

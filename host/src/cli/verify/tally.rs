@@ -14,7 +14,7 @@ use crate::error::HostError;
 use crate::scene::SceneLight;
 use crate::words::{Record, compare_words};
 
-/// What words are of.
+/// The kind of words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
@@ -39,7 +39,7 @@ pub(in crate::cli) struct Words {
     pub different: u64,
 }
 
-/// What was compared with one device. Nodes, samples, pmfs and pixels are counted as such, the others in words.
+/// Counts of one device. Nodes, samples, pmfs and pixels are counted as such, the others in words.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub(in crate::cli) struct Tally {
     pub compared: u64,
@@ -54,7 +54,7 @@ pub(in crate::cli) struct Tally {
     pub first_difference: Option<String>,
 }
 
-/// What was compared with each device, and of the CPU's words those that it computes twice.
+/// Counts of each device, and of words that the CPU computes twice.
 #[derive(Default)]
 pub(super) struct Tallies {
     pub devices: Vec<Tally>,

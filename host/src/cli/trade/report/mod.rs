@@ -1,4 +1,4 @@
-//! What was measured as one page, `trade.html`, which needs no network and no other file, and as JSON.
+//! The measurements as one page, `trade.html`, which needs no network and no other file, and as JSON.
 
 pub(in crate::cli) mod machine;
 mod page;
@@ -37,7 +37,7 @@ pub(super) struct Report {
     scene_count: usize,
 }
 
-/// What a page shows of a scene beside its points.
+/// The parts of a page about a scene, next to its points.
 #[derive(Debug, Serialize)]
 struct SceneShown {
     name: String,
