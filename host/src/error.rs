@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use lightbvh::RebuildError;
 use lightbvh::error::FollowError;
-use lightbvh_gpu::NotCompiled;
 
 use crate::backend::BackendError;
 use crate::metrics::MetricError;
@@ -76,9 +75,6 @@ pub enum HostError {
         option: &'static str,
         needs: &'static str,
     },
-    /// A model without kernels, where a device is to run it.
-    #[error("{0}")]
-    Kernels(#[from] NotCompiled),
     /// No device, where one is required.
     #[error("no Vulkan device, and LIGHTBVH_REQUIRE_VULKAN is set: {0}")]
     DeviceRequired(String),

@@ -6,7 +6,6 @@ pub mod cli;
 pub mod error;
 pub mod method;
 pub mod metrics;
-pub mod plot;
 pub mod render;
 // Written by `build-kernels`.
 #[rustfmt::skip]

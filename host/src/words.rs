@@ -3,109 +3,50 @@
 use rayon::prelude::*;
 use std::fmt;
 
-/// What an output word holds that no kernel wrote; the Vulkan buffers are filled with it.
+/// The value of an output word that no kernel wrote; the Vulkan buffers are filled with it.
 pub const UNWRITTEN: u32 = 0xffff_ffff;
 
 /// Words that one task compares.
 const CHUNK: usize = 1 << 16;
 
-/// The fields of a record, in memory order, so that a difference can be told by name.
+/// The fields of a record, so that a difference can be reported by name.
 #[derive(Clone, Copy, Debug)]
 pub struct Record {
     /// Name of the record type.
     pub name: &'static str,
-    /// Its fields; together they cover it.
-    pub fields: &'static [Field],
-}
-
-/// A field of a record.
-#[derive(Clone, Copy, Debug)]
-pub struct Field {
-    name: &'static str,
-    words: u32,
-    all_ones: bool,
-}
-
-impl Field {
-    /// A field of `words` words that never rightly holds [`UNWRITTEN`].
-    pub const fn new(name: &'static str, words: u32) -> Self {
-        Self {
-            name,
-            words,
-            all_ones: false,
-        }
-    }
-
-    /// An index that is `u32::MAX` where there is nothing to refer to: one word, as of [`any`](Self::any).
-    pub const fn index(name: &'static str) -> Self {
-        Self::any(name, 1)
-    }
-
-    /// A field of `words` words that may hold anything, and so cannot tell a word from one that was never written. A record
-    /// needs another field that can.
-    pub const fn any(name: &'static str, words: u32) -> Self {
-        Self {
-            name,
-            words,
-            all_ones: true,
-        }
-    }
+    /// Names and words of its fields, in memory order; together they cover it.
+    pub fields: &'static [(&'static str, usize)],
 }
 
 impl Record {
-    /// A plain array of words.
-    pub const WORDS: Self = Self {
-        name: "word",
-        fields: &[Field::new("value", 1)],
-    };
-
     /// Words of one record.
     pub fn words(&self) -> usize {
-        self.fields.iter().map(|field| field.words as usize).sum()
+        self.fields.iter().map(|(_, words)| words).sum()
     }
 
     /// The name of word `word` of a record: that of its field, with the place in it if it has several words.
     pub fn name_of(&self, word: usize) -> String {
-        match self.field(word) {
-            Some((field, place)) if field.words > 1 => format!("{}[{place}]", field.name),
-            Some((field, _)) => field.name.into(),
-            None => format!("word {word}"),
-        }
-    }
-
-    /// The field that word `word` of a record belongs to, and its place in that field.
-    fn field(&self, word: usize) -> Option<(&Field, usize)> {
         let mut place = word;
-        for field in self.fields {
-            if place < field.words as usize {
-                return Some((field, place));
+        for &(name, words) in self.fields {
+            if place < words {
+                return match words {
+                    1 => name.to_owned(),
+                    _ => format!("{name}[{place}]"),
+                };
             }
-            place -= field.words as usize;
+            place -= words;
         }
-        None
+        format!("word {word}")
     }
 }
 
-/// Why two results cannot be compared.
-#[allow(missing_docs, reason = "the messages name the fields")]
+/// Two results of different lengths.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum CompareError {
-    /// They are not equally long.
-    #[error("{record}: {expected} words expected, {actual} came; the two sides did different work")]
-    Length {
-        record: &'static str,
-        expected: usize,
-        actual: usize,
-    },
-    /// They do not hold a whole number of records.
-    #[error(
-        "{words} words are not a whole number of `{record}` records of {size} words; the field table is wrong"
-    )]
-    Ragged {
-        record: &'static str,
-        words: usize,
-        size: usize,
-    },
+#[error("{record}: {expected} words expected, {actual} came; the two sides did different work")]
+pub struct CompareError {
+    record: &'static str,
+    expected: usize,
+    actual: usize,
 }
 
 /// The outcome of a comparison.
@@ -113,7 +54,7 @@ pub enum CompareError {
 pub struct Comparison {
     /// Words compared.
     pub compared: u64,
-    /// Words that differ, or that nobody wrote.
+    /// Words that differ.
     pub different: u64,
     /// The first of them.
     pub first: Option<Difference>,
@@ -135,66 +76,43 @@ pub struct Difference {
 }
 
 /// Compares `actual` with `expected`, both arrays of `record`, using all cores.
-///
-/// A word of `actual` that is still [`UNWRITTEN`] counts as different even where the reference holds the same word,
-/// unless its field may hold it ([`Field::any`]).
-///
-/// # Errors
-/// [`CompareError`] if the two cannot be laid beside each other.
 pub fn compare_words(record: &Record, expected: &[u32], actual: &[u32]) -> Result<Comparison, CompareError> {
     if expected.len() != actual.len() {
-        let (expected, actual) = (expected.len(), actual.len());
-        return Err(CompareError::Length {
+        return Err(CompareError {
             record: record.name,
-            expected,
-            actual,
+            expected: expected.len(),
+            actual: actual.len(),
         });
     }
-    let size = record.words();
-    if size == 0 || !expected.len().is_multiple_of(size) {
-        return Err(CompareError::Ragged {
-            record: record.name,
-            words: expected.len(),
-            size,
-        });
-    }
-    let differs = |at: usize| {
-        let unwritten =
-            actual[at] == UNWRITTEN && record.field(at % size).is_none_or(|(field, _)| !field.all_ones);
-        unwritten || expected[at] != actual[at]
+    let pairs = expected
+        .par_chunks(CHUNK)
+        .zip(actual.par_chunks(CHUNK))
+        .enumerate();
+    let of = |(chunk, (expected, actual)): (usize, (&[u32], &[u32]))| {
+        let places = (0..expected.len()).filter(|&at| expected[at] != actual[at]);
+        let first = places.clone().next().map(|at| chunk * CHUNK + at);
+        (places.count() as u64, first)
     };
-    let (different, first) = (0..expected.len().div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|chunk| {
-            let range = chunk * CHUNK..((chunk + 1) * CHUNK).min(expected.len());
-            let mut different = 0u64;
-            let mut first = None;
-            for at in range.filter(|at| differs(*at)) {
-                different += 1;
-                first = first.or(Some(at));
-            }
-            (different, first)
-        })
-        .reduce(
-            || (0, None),
-            |left, right| (left.0 + right.0, left.1.into_iter().chain(right.1).min()),
-        );
-    let first = first.map(|at| Difference {
-        record: record.name,
-        index: at / size,
-        field: record.name_of(at % size),
-        expected: expected[at],
-        actual: actual[at],
-    });
+    let (different, first) = pairs.map(of).reduce(
+        || (0, None),
+        |left, right| (left.0 + right.0, left.1.into_iter().chain(right.1).min()),
+    );
+    let size = record.words().max(1);
     Ok(Comparison {
         compared: expected.len() as u64,
         different,
-        first,
+        first: first.map(|at| Difference {
+            record: record.name,
+            index: at / size,
+            field: record.name_of(at % size),
+            expected: expected[at],
+            actual: actual[at],
+        }),
     })
 }
 
 /// Number of floats from one bit pattern to the other, `None` if either is not a number. Both zeros are one float.
-pub fn ulp_distance(a: u32, b: u32) -> Option<u32> {
+fn ulp_distance(a: u32, b: u32) -> Option<u32> {
     if f32::from_bits(a).is_nan() || f32::from_bits(b).is_nan() {
         return None;
     }
@@ -229,4 +147,40 @@ impl fmt::Display for Difference {
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+
+    const NODE: Record = Record {
+        name: "node",
+        fields: &[("min", 3), ("phi", 1), ("light", 1)],
+    };
+
+    #[test]
+    fn the_first_difference_is_named() {
+        let expected = vec![1.0f32.to_bits(); 5 * 40_000];
+        let mut actual = expected.clone();
+        for at in [5 * 39_999, 5 * 20_000 + 3, 5 * 20_000 + 2] {
+            actual[at] += 2;
+        }
+        let comparison = compare_words(&NODE, &expected, &actual).unwrap();
+        assert_eq!((comparison.compared, comparison.different), (200_000, 3));
+        let text = "node 20000, min[2]: expected 0x3f800000 (1e0), got 0x3f800002 (1.0000002e0), 2 ulp apart";
+        assert_eq!(comparison.first.unwrap().to_string(), text);
+        assert!(compare_words(&NODE, &[0; 5], &[0; 10]).is_err());
+        let unwritten = compare_words(&NODE, &[0; 5], &[0, 0, 0, UNWRITTEN, 0]).unwrap();
+        let said = unwritten.first.unwrap().to_string();
+        assert!(
+            said.starts_with("node 0, phi: ") && said.ends_with("never written"),
+            "{said}"
+        );
+    }
+
+    #[test]
+    fn ulps_count_floats() {
+        assert_eq!(ulp_distance(0, 0x8000_0000), Some(0));
+        assert_eq!(ulp_distance(1, 0x8000_0001), Some(2));
+        let [least, most] = [f32::NEG_INFINITY, f32::INFINITY].map(f32::to_bits);
+        assert_eq!(ulp_distance(least, most), Some(2 * 0x7f80_0000));
+        assert_eq!(ulp_distance(f32::NAN.to_bits(), 0), None);
+    }
+}

@@ -12,53 +12,35 @@ use crate::error::HostError;
 use crate::render::{RayBvh, camera};
 use crate::scene::{Scene, SceneLight, SkinArrays};
 
-/// Image and frame of a rendering.
-#[derive(Clone, Copy, Debug)]
-pub struct RenderSettings {
-    /// Frame of the animation, 25 per second.
-    pub frame: u32,
-    /// Columns.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// Light samples per pixel.
-    pub samples: u32,
-    /// Seed of the light samples.
-    pub seed: u32,
-}
-
-impl RenderSettings {
-    /// Parameters of the render pass.
-    pub fn params(&self, background: [f32; 3]) -> RenderParams {
-        RenderParams {
-            width: self.width,
-            height: self.height,
-            samples: self.samples,
-            first: 0,
-            all: 0,
-            candidates: 1,
-            scattered: 0,
-            part: 0,
-            parts: 1,
-            seed: self.seed,
-            jitter: 0,
-            background,
-        }
+/// Parameters of an image of this size, lit by single candidates.
+pub const fn render_params(
+    (width, height): (u32, u32),
+    samples: u32,
+    seed: u32,
+    background: [f32; 3],
+) -> RenderParams {
+    RenderParams {
+        width,
+        height,
+        samples,
+        first: 0,
+        all: 0,
+        candidates: 1,
+        scattered: 0,
+        part: 0,
+        parts: 1,
+        seed,
+        jitter: 0,
+        background,
     }
 }
 
 /// The emissive triangles of `scene` at `frame`.
-///
-/// # Errors
-/// [`HostError`] when there is none, or one is outside the domain.
 pub fn lights_at(scene: &Scene, frame: u32) -> Result<Lights, HostError> {
     lights_of(scene, frame)
 }
 
 /// The lights of `scene` at `frame` that type `L` holds.
-///
-/// # Errors
-/// As [`lights_at`].
 pub fn lights_of<L: SceneLight>(scene: &Scene, frame: u32) -> Result<Lights<L>, HostError> {
     listed(scene, frame, scene.frame(frame).lights())
 }
@@ -72,17 +54,11 @@ fn listed<L: SceneLight>(scene: &Scene, frame: u32, lights: Vec<L>) -> Result<Li
 }
 
 /// The arrays of `scene` at `frame` for an image of `width` × `height`, lit by its emissive triangles.
-///
-/// # Errors
-/// [`HostError`] when the scene has no such lights, or is outside the domain of lights or rays.
 pub fn arrays_at(scene: &Scene, frame: u32, width: u32, height: u32) -> Result<SceneArrays, HostError> {
     arrays_lit_by(scene, frame, width, height)
 }
 
 /// [`arrays_at`], lit by all lights that type `L` holds.
-///
-/// # Errors
-/// As [`arrays_at`].
 pub fn arrays_lit_by<L: SceneLight>(
     scene: &Scene,
     frame: u32,

@@ -2,13 +2,11 @@
 
 use std::error::Error;
 
-use lightbvh::error::{EditError, EditReason, FollowError};
+use lightbvh::error::{EditError, EditReason};
 use lightbvh::light::{MAX_RADIANCE, TWO_SIDED};
 use lightbvh::point::MAX_REACH;
-use lightbvh::transform::TransformError;
 use lightbvh::{
-    Bvh, CompactNode, Edit, EmissiveTriangle, LightError, Lights, LightsError, RebuildError, ShadingPoint,
-    Transform,
+    Bvh, CompactNode, Edit, EmissiveTriangle, Lights, LightsError, RebuildError, ShadingPoint, Transform,
 };
 
 #[track_caller]
@@ -33,9 +31,17 @@ fn lights() {
         change(&mut lamp);
         says(&lamp.checked().expect_err("wrong"), words);
     };
-    let far = ["coordinate x of the first vertex", "1e20", "2^40", "scale the scene"];
+    let far = [
+        "coordinate x of the first vertex",
+        "1e20",
+        "2^40",
+        "scale the scene",
+    ];
     wrong(&|lamp| lamp.p[0][0] = 1e20, &far);
-    wrong(&|lamp| lamp.p[1][2] = -1e20, &["coordinate z of the second vertex"]);
+    wrong(
+        &|lamp| lamp.p[1][2] = -1e20,
+        &["coordinate z of the second vertex"],
+    );
     for (channel, name) in ["red", "green", "blue"].into_iter().enumerate() {
         let negative = [name, "-3", "2^-100 to 2^100", "repair"];
         wrong(&|lamp| lamp.radiance[channel] = -3.0, &negative);

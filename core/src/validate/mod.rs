@@ -78,7 +78,7 @@ pub(crate) fn same_words<T: Pod>(node: u32, slot: u32, expected: &T, found: &T) 
     let [expected, found] = [expected, found].map(|record| bytemuck::bytes_of(record).chunks(4));
     for (word, (e, f)) in expected.zip(found).enumerate() {
         if e != f {
-            let [e, f] = [e, f].map(|bytes| bytemuck::pod_read_unaligned::<u32>(bytes));
+            let [e, f] = [e, f].map(bytemuck::pod_read_unaligned::<u32>);
             return Err(Violation::new(node, slot, format!("word {word}"), e, f));
         }
     }

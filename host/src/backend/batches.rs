@@ -25,12 +25,12 @@ const MAX_SURFACES_PER_INVOCATION: u32 = 16;
 const CANDIDATES_PER_DIRECTION: u32 = 8;
 
 /// Candidates of a sample and of its directions, all counted as candidates.
-pub fn all_candidates(candidates: u32, scattered: u32) -> u32 {
+pub(super) fn all_candidates(candidates: u32, scattered: u32) -> u32 {
     let directions = scattered.min(MAX_SCATTERED) * CANDIDATES_PER_DIRECTION;
     candidates.clamp(1, MAX_CANDIDATES) + directions
 }
 
-/// What light is followed.
+/// The light that is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Integrator {
     /// Reflected once.
@@ -127,7 +127,7 @@ mod tests {
         }
     }
 
-    /// What is asked of an image of `samples` samples in parts of 8, each of which returns its share as its pixel.
+    /// The parts of an image of `samples` samples in parts of 8, each of which returns its share as its pixel.
     fn asked(samples: u32, integrator: Integrator) -> (Vec<RenderParams>, [f32; 3]) {
         let mut asked = Vec::new();
         let image = in_batches(&params(samples), integrator, |part| {

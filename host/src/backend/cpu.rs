@@ -129,7 +129,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> CpuBackend<C, W> {
         super::node_words(&self.bvh)
     }
 
-    /// What `answer` says to each query.
+    /// The `answer` to each query.
     fn query<T: Send>(
         &self,
         queries: &[Query],

@@ -29,17 +29,29 @@ const SURFACES_PER_PASS: usize = 1 << 18;
 
 /// A light BVH on a device.
 pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
-    pub(super) device: &'d Device,
-    pub(super) tree: DeviceTree<C::Node, C::Light>,
+    device: &'d Device,
+    tree: DeviceTree<C::Node, C::Light>,
     /// The scene rendered last.
-    pub(super) scene: HeldScene,
+    scene: HeldScene,
+}
+
+/// The words of all arrays of a light BVH, as a device holds them.
+#[derive(Clone, Debug)]
+pub struct DeviceArrays {
+    /// In the order of [`node_words`](super::node_words).
+    pub nodes: Vec<u32>,
+    /// Of [`lightbvh::Bvh::roots`].
+    pub roots: Vec<u32>,
+    /// Of [`lightbvh::Bvh::instances`].
+    pub instances: Vec<u32>,
+    /// Of [`lightbvh::Bvh::triangles`].
+    pub triangles: Vec<u32>,
+    /// Trails and links of a [`lightbvh::LightTree`], as the device has them.
+    pub trails: Vec<u32>,
 }
 
 impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// Uploads a BVH and refits all of it, for its own nodes may wait for that.
-    ///
-    /// # Errors
-    /// [`BackendError`] when it does not fit, or the device fails.
     pub fn new(device: &'d Device, bvh: &Bvh<C, W>) -> Result<Self, BackendError> {
         let mut new = Self {
             device,
@@ -51,10 +63,18 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         Ok(new)
     }
 
+    /// All arrays as they are, after all that was followed.
+    pub fn arrays(&mut self) -> Result<DeviceArrays, BackendError> {
+        Ok(DeviceArrays {
+            nodes: pod_collect_to_vec(&self.tree.all_nodes()?),
+            roots: self.tree.roots.read_words()?,
+            instances: self.tree.instances.read_words()?,
+            triangles: self.tree.triangles.read_words()?,
+            trails: self.tree.trails.read_words()?,
+        })
+    }
+
     /// Overwrites the device's nodes, those of bottom levels and of the top level, so that a refit has something to change.
-    ///
-    /// # Errors
-    /// [`BackendError`] from the device.
     pub fn write_nodes(&mut self, nodes: &[C::Node], top: &[C::Node]) -> Result<(), BackendError> {
         let parts = [(0, nodes), (self.tree.top.start, top)];
         Ok(self.tree.nodes.write(&parts)?)

@@ -78,7 +78,7 @@ impl HeldScene {
     }
 }
 
-/// What says in kernels that lights are chosen by `sampler`.
+/// The constant by which kernels choose lights by `sampler`.
 pub(super) fn choosing(sampler: Sampler) -> u32 {
     match sampler {
         Sampler::Uniform => by::UNIFORM,

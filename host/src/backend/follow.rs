@@ -48,7 +48,7 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
         Ok([&nodes[..self.bottoms], &nodes[self.top.clone()]].concat())
     }
 
-    /// What the passes of queries take.
+    /// The arguments of the passes of queries.
     pub fn bindings(&self) -> [Binding; 3] {
         [self.nodes.bind(), self.instances.bind(), self.trails.bind()]
     }

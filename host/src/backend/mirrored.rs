@@ -19,9 +19,6 @@ pub struct Mirrored<'d, N: Node<W>, const W: usize> {
 
 impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
     /// One that holds nothing yet, refitted by the kernels of its layout.
-    ///
-    /// # Errors
-    /// [`BackendError`] from the device.
     pub fn new(device: &'d Device, kernels: KernelSet) -> Result<Self, BackendError> {
         Ok(Self {
             device,
@@ -36,9 +33,6 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
     }
 
     /// Updates the arrays to `bvh` as of its last refit: the plan's copies, then the passes of a refit.
-    ///
-    /// # Errors
-    /// [`BackendError`] from the device.
     pub fn follow<I>(&mut self, bvh: &Bvh<N, I, W>) -> Result<(), BackendError> {
         let kernels = &self.kernels;
         self.tree
@@ -47,9 +41,6 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
     }
 
     /// All nodes: those of bottom levels, then those of the top level.
-    ///
-    /// # Errors
-    /// [`BackendError`] from the device.
     pub fn nodes(&self) -> Result<Vec<N>, BackendError> {
         Ok(self.tree.all_nodes()?)
     }
@@ -60,18 +51,12 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
     }
 
     /// The roots of bottom levels.
-    ///
-    /// # Errors
-    /// [`BackendError`] from the device.
     pub fn roots(&self) -> Result<Vec<BlasRoot>, BackendError> {
         Ok(self.tree.roots.read()?)
     }
 
     /// The results of a kernel over `count` invocations. It takes the arrays of the tree and, by the names of its bindings,
     /// `others`; what is named nowhere are its results.
-    ///
-    /// # Errors
-    /// [`BackendError`] from the device.
     pub fn ask<T: Pod>(
         &self,
         kernel: &lightbvh_gpu::kernel::Kernel,

@@ -1,4 +1,4 @@
-//! What runs the passes: the CPU over all its cores, or a Vulkan device. Both run the same functions on the same arrays,
+//! Backends, which run the passes: the CPU over all its cores, or a Vulkan device. Both run the same functions on the same arrays,
 //! so [`words`](crate::words) may ask for equal words. A [`Choice`] says over which node layout, by which importance;
 //! [`Standard`] where it is left out.
 
@@ -6,25 +6,23 @@ mod batches;
 mod cpu;
 mod device;
 mod device_arrays;
-mod error;
 mod follow;
 mod mirrored;
 mod record;
 mod scene;
-mod words;
 
-pub use batches::{Integrator, all_candidates};
+pub use batches::Integrator;
 pub use cpu::CpuBackend;
+pub use device::DeviceArrays;
 pub use device::DeviceBackend;
-pub use error::BackendError;
 pub use mirrored::Mirrored;
 pub use record::{PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, node_record};
 pub use scene::{Sampler, SceneArrays};
-pub use words::DeviceArrays;
 
 use std::time::{Duration, Instant};
 
 use bytemuck::cast_slice;
+use lightbvh::error::FollowError;
 use lightbvh::node::Node;
 use lightbvh::{EmissiveTriangle, SampledLight};
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
@@ -32,7 +30,19 @@ use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::emitter::Emitter;
 
+use crate::vulkan::VulkanError;
 use crate::words::Record;
+
+/// An error of a backend.
+#[derive(Debug, thiserror::Error)]
+pub enum BackendError {
+    /// The device.
+    #[error(transparent)]
+    Vulkan(#[from] VulkanError),
+    /// The lights are not those that the BVH was built over.
+    #[error(transparent)]
+    Lights(#[from] FollowError),
+}
 
 /// The light BVH of a choice.
 pub type Bvh<C = Standard, const W: usize = WIDTH> =
@@ -76,30 +86,18 @@ pub trait Backend<L: Emitter = EmissiveTriangle> {
     fn node_record(&self) -> Record;
 
     /// The words of all nodes as they are, as [`node_words`] orders them.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
     fn nodes(&mut self) -> Result<Vec<u32>, BackendError>;
 
     /// Chooses a light for each query.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
     fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError>;
 
     /// Evaluates the probability of each query's light.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
     fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, BackendError>;
 
     /// Renders the light that `integrator` follows, with lights chosen by `sampler`; the light BVH's samplers use this backend's
     /// BVH. [`RenderParams::samples`] counts light samples, or paths; more than
     /// [`samples_per_invocation`](Integrator::samples_per_invocation) are the mean of several images, the same ones on every
     /// backend.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
     fn render(
         &mut self,
         scene: &SceneArrays<L>,
@@ -112,8 +110,5 @@ pub trait Backend<L: Emitter = EmissiveTriangle> {
 /// A backend that follows a BVH through its edits.
 pub trait Follow<C: Choice<W> = Standard, const W: usize = WIDTH>: Backend<C::Light> {
     /// Copies the changes in `bvh` as of its last refit, and refits here.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
     fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError>;
 }

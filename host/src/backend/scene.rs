@@ -43,11 +43,11 @@ impl Sampler {
 /// A frame's arrays.
 #[derive(Clone, Debug)]
 pub struct SceneArrays<L = EmissiveTriangle> {
-    /// What rays meet.
+    /// The surfaces that rays meet.
     pub rays: RayBvh,
     /// How it reflects.
     pub materials: Vec<Material>,
-    /// What of it emits, in the world.
+    /// The lights in the world.
     pub lights: Lights<L>,
     /// The one instance that all lights are of where they are read from here.
     identity: [Instance; 1],
@@ -55,9 +55,9 @@ pub struct SceneArrays<L = EmissiveTriangle> {
     pub thresholds: Vec<u32>,
     /// Who looks.
     pub camera: Camera,
-    /// What is beyond all surfaces.
+    /// The sky beyond all surfaces.
     pub sky: Sky,
-    /// What is painted on them.
+    /// The surfaces' paint.
     pub skin: SkinArrays,
 }
 
@@ -105,7 +105,7 @@ impl<L: SceneLight> SceneArrays<L> {
         }
     }
 
-    /// What rays meet, and what is painted on it.
+    /// The surfaces that rays meet, and their paint.
     pub fn surfaces(&self) -> Surfaces<'_, L::Skin<'_>> {
         let Surfaces { nodes, blocks, .. } = self.rays.surfaces();
         let skin = L::skin(&self.skin);

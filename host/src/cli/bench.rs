@@ -19,7 +19,7 @@ use crate::backend::{Bvh, CpuBackend, DeviceBackend, Follow, Sampler};
 use crate::cli::table::news;
 use crate::error::HostError;
 use crate::workload::build;
-use passes::{batches, library_passes, measure, passes};
+use passes::{batches, measure, passes};
 use scene::{random_lights, random_queries};
 
 #[derive(Debug, clap::Args)]
@@ -129,11 +129,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 times(all, &builds(&lights, structure, &params));
             }
         }
-        // One thread by the library alone, all threads through the backend.
-        let single = one.install(|| library_passes(bvh.clone(), &lights, &queries));
-        let batch = one.install(|| batches(&bvh, &queries));
-        let mut results = vec![(1, single, batch)];
-        if all > 1 {
+        let measured = || {
             let mut cpu: CpuBackend = CpuBackend::new(bvh.clone());
             let refit = |cpu: &mut CpuBackend| {
                 let start = Instant::now();
@@ -141,9 +137,13 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 Ok(start.elapsed())
             };
             let times = passes(&mut cpu, refit, &queries)?;
-            results.push((all, times, batches(&bvh, &queries)));
+            Ok::<_, HostError>((times, batches(&bvh, &queries)))
+        };
+        let mut results = vec![(1, one.install(measured)?)];
+        if all > 1 {
+            results.push((all, measured()?));
         }
-        for (threads, times, batch) in &results {
+        for (threads, (times, batch)) in &results {
             push(REFIT, "cpu", *threads, &times.refit, args.lights);
             push(SAMPLE, "cpu", *threads, &times.sample, args.queries);
             push(BATCH, "cpu", *threads, batch, args.queries);
@@ -167,10 +167,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::Good)
 }
 
-/// What builders may spend, by name.
+/// The builders' presets.
 const PRESETS: [(&str, BuildParams); 1] = [("balanced", BuildParams::BALANCED)];
 
-/// What is measured: the pass, and which of its passes, variants or presets.
+/// A measurement: the pass, and which of its passes, variants or presets.
 type What = (&'static str, [Option<&'static str>; 3]);
 const REFIT: What = ("refit", [Some("levels"), None, None]);
 const SAMPLE: What = ("sample", [None, Some("one"), None]);

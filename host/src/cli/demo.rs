@@ -1,7 +1,7 @@
 //! `lightbvh demo`: the main job from end to end on a built-in scene.
 
-use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::path::PathBuf;
+use std::time::Duration;
 
 use bytemuck::cast_slice;
 use lightbvh::BuildParams;
@@ -12,22 +12,19 @@ use super::measure::times::{ms, spread_ms};
 use super::verify::tally::{Kind, Tally};
 use super::{Context, Outcome, devices, table, target};
 use crate::backend::{
-    Backend, BackendError, Bvh, CpuBackend, DeviceBackend, Follow, Integrator, SAMPLED_RECORD, Sampler,
-    SceneArrays, Timed,
+    Backend, BackendError, Bvh, CpuBackend, DeviceBackend, Follow, Integrator, SAMPLED_RECORD, Sampler, Timed,
 };
 use crate::cli::table::{news, say};
 use crate::error::HostError;
-use crate::metrics::mean_squared_error;
 use crate::render::Film;
 use crate::scene::Scene;
-use crate::workload::{RenderSettings, arrays_at, build, lights_at, queries, words_in_use};
+use crate::workload::{arrays_at, build, lights_at, queries, render_params, words_in_use};
 
 const SCENE: &str = "street";
 /// Frames shown: those of the paper's Table 1.
 const FRAMES: [u32; 4] = [0, 50, 100, 150];
-/// Light samples per pixel of the frames, and of the reference that the last one is measured against.
+/// Light samples per pixel.
 const SAMPLES: u32 = 4;
-const REFERENCE_SAMPLES: u32 = 64;
 /// Lights sampled per frame, besides those of the image.
 const QUERIES: u32 = 100_000;
 
@@ -44,7 +41,7 @@ pub(super) struct Args {
     height: u32,
 }
 
-/// A row of the table.
+/// A row of the table: a backend over all frames.
 #[derive(Clone, Debug, Serialize)]
 struct Row {
     backend: String,
@@ -60,172 +57,96 @@ struct Row {
     render_ms: f64,
     compared: u64,
     different: u64,
-    /// Mean squared error of the last frame's radiance against the reference.
-    mse: f64,
-}
-
-/// What one backend did over the frames.
-#[derive(Default)]
-struct Run {
-    refit: Vec<Duration>,
-    sample: Vec<Duration>,
-    render: Vec<Duration>,
-    tally: Tally,
-    image: Vec<[f32; 3]>,
+    first_difference: Option<String>,
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
-    let (width, height) = (args.width, args.height);
+    let size = (args.width, args.height);
     target::folder(&args.out)?;
     let opened = devices::open(context)?;
     let scene = Scene::open(SCENE)?;
     let lights = lights_at(&scene, 0)?;
-    let start = Instant::now();
-    let bvh: Bvh = build(&lights, Sampler::TwoLevel, &BuildParams::default());
-    let build_time = start.elapsed();
-
-    let (nodes, depth) = (bvh.nodes().len() + bvh.top_nodes().len(), bvh.depth());
-
-    let mut cpu: CpuBackend = CpuBackend::new(bvh);
+    let built = Timed::of(|| -> Bvh { build(&lights, Sampler::TwoLevel, &BuildParams::default()) });
+    let mut cpu: CpuBackend = CpuBackend::new(built.value);
     let mut on_devices = opened
         .iter()
         .map(|o| DeviceBackend::new(&o.device, cpu.bvh()))
-        .collect::<Result<Vec<_>, _>>()?;
-    let mut records: Vec<Run> = (0..=opened.len()).map(|_| Run::default()).collect();
-    let mut written = Vec::new();
-    let mut exposure = None;
+        .collect::<Result<Vec<DeviceBackend<'_>>, _>>()?;
+    // Refit, sample and render of each backend, by frame.
+    let mut times: Vec<[Vec<Duration>; 3]> = vec![Default::default(); opened.len() + 1];
+    let mut tallies = vec![Tally::default(); opened.len() + 1];
+    let (mut written, mut exposure) = (Vec::new(), None);
     for frame in FRAMES {
         news!("frame {frame}");
-        let arrays = arrays_at(&scene, frame, width, height)?;
-        let settings = RenderSettings {
-            frame,
-            width,
-            height,
-            samples: SAMPLES,
-            seed: frame,
-        };
-        frame_on_all(
-            &scene,
-            &arrays,
-            &settings,
-            &mut cpu,
-            &mut on_devices,
-            &mut records,
-        )?;
-
-        let film = Film::new(width, height, records[0].image.clone())?;
-        // One exposure for all frames, so that they can be compared.
-        let exposure = *exposure.get_or_insert_with(|| film.auto_exposure());
-        written.push(write(
-            &args.out,
-            &format!("{SCENE}-{frame:03}.png"),
-            &film,
-            exposure,
-        )?);
-    }
-
-    news!("reference");
-    let last = FRAMES[FRAMES.len() - 1];
-    let arrays = arrays_at(&scene, last, width, height)?;
-    let settings = RenderSettings {
-        frame: last,
-        width,
-        height,
-        samples: REFERENCE_SAMPLES,
-        seed: u32::MAX,
-    };
-    let params = settings.params(scene.frame(last).background);
-    let reference = Film::new(
-        width,
-        height,
-        cpu.render(&arrays, &params, Sampler::TwoLevel, Integrator::Direct)?
-            .value,
-    )?;
-    let name = format!("{SCENE}-{last:03}-reference.png");
-    written.push(write(&args.out, &name, &reference, exposure.unwrap_or(1.0))?);
-
-    let names = std::iter::once("cpu".to_owned()).chain(opened.iter().map(|o| o.device.name().to_owned()));
-    let rows: Vec<Row> = names
-        .zip(&records)
-        .map(|(backend, record)| Row {
-            backend,
-            scene: SCENE,
-            lights: lights.triangles().len(),
-            triangles: scene.triangle_count(),
-            nodes,
-            depth,
-            build_ms: ms(build_time),
-            refit_ms: spread_ms(&record.refit).median,
-            sample_ms: spread_ms(&record.sample).median,
-            render_ms: spread_ms(&record.render).median,
-            compared: record.tally.compared,
-            different: record.tally.different,
-            mse: mean_squared_error(&record.image, reference.pixels()),
-        })
-        .collect();
-    drop(on_devices);
-    devices::close(opened)?;
-    print(context, &rows, &records, &written)?;
-    Ok(Outcome::good_if(rows.iter().all(|row| row.different == 0)))
-}
-
-/// Refits, samples and renders one frame on the CPU, then on each device, and compares.
-fn frame_on_all(
-    scene: &Scene,
-    arrays: &SceneArrays,
-    settings: &RenderSettings,
-    cpu: &mut CpuBackend,
-    devices: &mut [DeviceBackend<'_>],
-    records: &mut [Run],
-) -> Result<(), HostError> {
-    let asked = queries(arrays, settings.frame, 0, QUERIES);
-    let params = settings.params(scene.frame(settings.frame).background);
-    let refitted = Timed::of(|| cpu.bvh_mut().follow(&arrays.lights));
-    refitted.value.map_err(BackendError::from)?;
-    let mut refits = vec![refitted.time];
-    for device in devices.iter_mut() {
-        refits.push(device.follow(cpu.bvh())?.time);
-    }
-    let bvh = cpu.bvh().clone();
-    let mut expected = None;
-    let backends =
-        std::iter::once(cpu as &mut dyn Backend).chain(devices.iter_mut().map(|d| d as &mut dyn Backend));
-    for ((backend, record), refit) in backends.zip(records).zip(refits) {
-        let nodes = words_in_use(&bvh, &backend.nodes()?);
-        let sampled = backend.sample(&asked)?;
-        let image = backend.render(arrays, &params, Sampler::TwoLevel, Integrator::Direct)?;
-        record.refit.push(refit);
-        record.sample.push(sampled.time);
-        record.render.push(image.time);
-        record.image.clone_from(&image.value);
-        match &expected {
-            None => expected = Some((nodes, sampled.value, image.value)),
-            Some((cpu_nodes, cpu_sampled, cpu_image)) => {
-                let tally = &mut record.tally;
-                let nodes_record = backend.node_record();
-                tally.take(Kind::Nodes, "refit", &nodes_record, cpu_nodes, &nodes)?;
-                let (expected, found) = (cast_slice(cpu_sampled), cast_slice(&sampled.value));
-                tally.take(Kind::Samples, "sample", &SAMPLED_RECORD, expected, found)?;
-                tally.take_pixels("render", cpu_image, &image.value)?;
+        let arrays = arrays_at(&scene, frame, size.0, size.1)?;
+        let params = render_params(size, SAMPLES, frame, scene.frame(frame).background);
+        let asked = queries(&arrays, frame, 0, QUERIES);
+        let refitted = Timed::of(|| cpu.bvh_mut().follow(&arrays.lights));
+        refitted.value.map_err(BackendError::from)?;
+        let mut refits = vec![refitted.time];
+        for device in &mut on_devices {
+            refits.push(device.follow(cpu.bvh())?.time);
+        }
+        let bvh = cpu.bvh().clone();
+        let mut expected = None;
+        let others = on_devices.iter_mut().map(|device| device as &mut dyn Backend);
+        let backends = std::iter::once(&mut cpu as &mut dyn Backend).chain(others);
+        for (at, (backend, refit)) in backends.zip(refits).enumerate() {
+            let nodes = words_in_use(&bvh, &backend.nodes()?);
+            let sampled = backend.sample(&asked)?;
+            let image = backend.render(&arrays, &params, Sampler::TwoLevel, Integrator::Direct)?;
+            for (list, time) in times[at].iter_mut().zip([refit, sampled.time, image.time]) {
+                list.push(time);
+            }
+            let found = (nodes, sampled.value, image.value);
+            let (nodes, sampled, image) = expected.get_or_insert_with(|| found.clone());
+            if at > 0 {
+                let tally = &mut tallies[at];
+                tally.take(Kind::Nodes, "refit", &backend.node_record(), nodes, &found.0)?;
+                let (expected, found_samples) = (cast_slice(sampled), cast_slice(&found.1));
+                tally.take(Kind::Samples, "sample", &SAMPLED_RECORD, expected, found_samples)?;
+                tally.take_pixels("render", image, &found.2)?;
             }
         }
+        let image = expected.map(|(_, _, image)| image).unwrap_or_default();
+        let film = Film::new(size.0, size.1, image)?;
+        // One exposure for all frames, so that they can be compared.
+        let exposure = *exposure.get_or_insert_with(|| film.auto_exposure());
+        let path = args.out.join(format!("{SCENE}-{frame:03}.png"));
+        film.write(&path, exposure)?;
+        written.push(path);
     }
-    Ok(())
-}
-
-fn write(folder: &Path, name: &str, film: &Film, exposure: f32) -> Result<PathBuf, HostError> {
-    let path = folder.join(name);
-    film.write(&path, exposure)?;
-    Ok(path)
-}
-
-fn print(context: &Context, rows: &[Row], records: &[Run], written: &[PathBuf]) -> Result<(), HostError> {
+    let names = std::iter::once("cpu").chain(opened.iter().map(|o| o.device.name()));
+    let rows = names
+        .zip(times.iter().zip(tallies))
+        .map(|(backend, (times, tally))| {
+            let [refit_ms, sample_ms, render_ms] = times.each_ref().map(|own| spread_ms(own).median);
+            Row {
+                backend: backend.to_owned(),
+                scene: SCENE,
+                lights: lights.triangles().len(),
+                triangles: scene.triangle_count(),
+                nodes: cpu.bvh().nodes().len() + cpu.bvh().top_nodes().len(),
+                depth: cpu.bvh().depth(),
+                build_ms: ms(built.time),
+                refit_ms,
+                sample_ms,
+                render_ms,
+                compared: tally.compared,
+                different: tally.different,
+                first_difference: tally.first_difference,
+            }
+        });
+    let rows: Vec<Row> = rows.collect();
+    drop(on_devices);
+    devices::close(opened)?;
+    let outcome = Outcome::good_if(rows.iter().all(|row| row.different == 0));
     if context.json {
         table::print_json(&json!({ "rows": rows, "images": written }))?;
-        return Ok(());
+        return Ok(outcome);
     }
     table::print(
-        rows,
+        &rows,
         &[
             ("backend", |r| r.backend.clone()),
             ("scene", |r| r.scene.to_owned()),
@@ -239,16 +160,15 @@ fn print(context: &Context, rows: &[Row], records: &[Run], written: &[PathBuf]) 
             ("render ms", |r| format!("{:.0}", r.render_ms)),
             ("words compared", |r| r.compared.to_string()),
             ("different", |r| r.different.to_string()),
-            ("MSE", |r| format!("{:.3e}", r.mse)),
         ],
     )?;
-    for (row, record) in rows.iter().zip(records) {
-        if let Some(first) = &record.tally.first_difference {
+    for row in &rows {
+        if let Some(first) = &row.first_difference {
             say!("{}: first difference: {first}", row.backend)?;
         }
     }
     for path in written {
         say!("{}", path.display())?;
     }
-    Ok(())
+    Ok(outcome)
 }

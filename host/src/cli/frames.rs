@@ -40,18 +40,7 @@ mod tests {
     fn ranges_of_frames() {
         assert_eq!(parse("0..150"), Ok(0..150));
         assert_eq!(parse("7..8"), Ok(7..8));
-        for wrong in [
-            "",
-            "5",
-            "5..",
-            "..5",
-            "5..5",
-            "6..5",
-            "-1..5",
-            "a..b",
-            "0..=5",
-            "0..100001",
-        ] {
+        for wrong in ["5", "..5", "5..5", "6..5", "-1..5", "a..b", "0..100001"] {
             assert!(parse(wrong).is_err(), "{wrong}");
         }
     }

@@ -6,6 +6,7 @@ mod view;
 
 use std::sync::Arc;
 
+use lightbvh::EmissiveTriangle;
 use lightbvh::light::AnyLight;
 use serde_json::{Value, json};
 
@@ -76,8 +77,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         recipe,
         scene: &scene,
     };
+    let render = match scene.has_kinds() {
+        true => Sequence::render::<AnyLight>,
+        false => Sequence::render::<EmissiveTriangle>,
+    };
     let (shown, name) = match args.backend {
-        BackendName::Cpu => (sequence.render(context, None)?, "cpu".to_owned()),
+        BackendName::Cpu => (render(&sequence, context, None)?, "cpu".to_owned()),
         BackendName::Vulkan => {
             let opened = devices::open(context)?;
             let Some(first) = opened.first() else {
@@ -86,7 +91,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 }
                 .into());
             };
-            let shown = sequence.render(context, Some(&first.device))?;
+            let shown = render(&sequence, context, Some(&first.device))?;
             let name = first.device.name().to_owned();
             devices::close(opened)?;
             (shown, name)
@@ -109,7 +114,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         report["integrator"] = json!(args.integrator);
         if args.integrator == IntegratorName::Direct {
             report["candidates"] = recipe.candidates.into();
-            report["scattered"] = recipe.scattered.into();
         }
         if args.animate.is_some() {
             report["frames"] = shown.into();

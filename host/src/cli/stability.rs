@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::{Context, Outcome, devices, progress, table};
 use crate::error::HostError;
 use crate::stability::row::{Check, Row};
-use crate::stability::{Effort, Found, cases, invariance, run as run_case};
+use crate::stability::{Effort, Found, Skipped, cases, invariance, run as run_case};
 use crate::vulkan::Device;
 
 #[derive(Debug, clap::Args)]
@@ -17,20 +17,12 @@ pub(super) struct Args {
     quick: bool,
 }
 
-/// An extreme that a device has no room for.
-#[derive(Serialize)]
-struct Skipped {
-    name: String,
-    device: String,
-    why: &'static str,
-}
-
 #[derive(Serialize)]
 struct Report {
     rows: Vec<Row>,
     failed: usize,
     skipped: Vec<Skipped>,
-    /// What each check measures, and why its bound is what it is.
+    /// The measure of each check, and the reason of its bound.
     checks: BTreeMap<&'static str, &'static str>,
 }
 
@@ -61,17 +53,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     progress.finish_and_clear();
     devices::close(opened)?;
 
-    let too_large = found.too_large.into_iter();
     let report = Report {
         failed: found.rows.iter().filter(|row| !row.pass).count(),
         rows: found.rows,
-        skipped: too_large
-            .map(|(extreme, structure, device)| Skipped {
-                name: format!("{extreme}, {structure}"),
-                device,
-                why: "larger than a buffer of the device may be",
-            })
-            .collect(),
+        skipped: found.skipped,
         checks: Check::ALL
             .iter()
             .map(|check| (check.name(), check.reason()))

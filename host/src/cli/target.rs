@@ -14,9 +14,6 @@ pub(super) fn ends_in(path: &Path, endings: &[&str]) -> bool {
 }
 
 /// Makes a folder for output where it is not there, and writes to it.
-///
-/// # Errors
-/// [`HostError::Folder`] or [`HostError::Store`].
 pub(super) fn folder(path: &Path) -> std::result::Result<(), HostError> {
     let made = match path.is_file() {
         true => Err(Error::new(ErrorKind::AlreadyExists, "it is a file")),
@@ -28,32 +25,9 @@ pub(super) fn folder(path: &Path) -> std::result::Result<(), HostError> {
 }
 
 /// Writes a file of a report; it appears whole or not at all.
-///
-/// # Errors
-/// [`HostError::Store`].
 pub(super) fn store(path: &Path, bytes: &[u8]) -> std::result::Result<(), HostError> {
     let path = path.to_owned();
     write_whole(&path, bytes).map_err(|source| HostError::Store { path, source })
-}
-
-/// A name in files for each scene: that of the scene or its file as far as every system and every document takes it, with a number
-/// if another one has it.
-pub(super) fn stems<'a>(scenes: impl Iterator<Item = &'a str>) -> Vec<String> {
-    let mut stems: Vec<String> = Vec::new();
-    for scene in scenes {
-        let name = Path::new(scene).file_stem().unwrap_or_default().to_string_lossy();
-        let plain = |c: char| match c.is_alphanumeric() || c == '_' {
-            true => c,
-            false => '-',
-        };
-        let stem: String = name.chars().take(40).map(plain).collect();
-        let numbered = (2..).map(|k| format!("{stem}-{k}"));
-        let free = std::iter::once(stem.clone())
-            .chain(numbered)
-            .find(|stem| !stems.contains(stem));
-        stems.extend(free);
-    }
-    stems
 }
 
 /// Whether files can be written to a folder: only writing tells.
@@ -64,9 +38,6 @@ fn writable(folder: &Path) -> Result<()> {
 
 /// Whether a file can be written there: its folder is one, and can be written to, and it is none itself. Links are followed; a pipe
 /// or a device is written directly.
-///
-/// # Errors
-/// What is in the way.
 pub(super) fn check(path: &Path) -> Result<()> {
     let Some(path) = real_path(path)? else {
         return Ok(());
@@ -89,9 +60,6 @@ pub(super) fn check(path: &Path) -> Result<()> {
 }
 
 /// Whether a picture can be written there.
-///
-/// # Errors
-/// What [`Film::write`](crate::render::Film::write) would say, but for what only writing tells.
 pub(super) fn picture(path: &Path) -> std::result::Result<(), FilmError> {
     let path = path.to_owned();
     if !ends_in(&path, &["png", "exr"]) {
@@ -125,12 +93,5 @@ mod tests {
         for other in ["b", ".png", "b.png.gz", "b.jpg"] {
             assert!(!ends_in(Path::new(other), &["exr", "png"]), "{other}");
         }
-    }
-
-    #[test]
-    fn each_scene_has_a_name_of_its_own() {
-        let long = format!("x/{}.glb", "y".repeat(245));
-        let found = stems(["a/s.gltf", "b/s.gltf", "](z) <b>.glb", &long, "s-2.glb"].into_iter());
-        assert_eq!(found, ["s", "s-2", "--z---b-", &"y".repeat(40), "s-2-2"]);
     }
 }

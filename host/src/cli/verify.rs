@@ -2,10 +2,8 @@
 //! frames of an animation, on every device against the CPU, word for word; or the same of a soak.
 
 mod frames;
-mod side;
 mod soak;
 mod structures;
-mod subject;
 pub(super) mod tally;
 
 use std::ops::Range;
@@ -24,7 +22,7 @@ use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::method::{Importance, MethodLight, Target};
 use crate::scene::{BUILT_IN, Scene};
-use subject::{Subject, Tree};
+use structures::{Subject, Tree};
 use tally::{Tallies, Tally};
 
 #[derive(Debug, clap::Args)]
@@ -41,9 +39,9 @@ pub(super) struct Args {
     /// Lights to sample and pmfs to evaluate per method and frame of --frames.
     #[arg(long, default_value_t = 256)]
     frame_queries: u32,
-    /// What lights of a BVH are chosen by.
-    #[arg(long, value_enum, default_value_t = Importances::Both)]
-    importance: Importances,
+    /// What lights of a BVH are chosen by [default: both, one after the other].
+    #[arg(long, value_enum)]
+    importance: Option<Importance>,
     /// Scenes, built-in or files; all built-in ones by default. May be repeated.
     #[arg(long)]
     scene: Vec<String>,
@@ -58,26 +56,6 @@ pub(super) struct Args {
     /// Triangles of the largest mesh of --soak, 10 to 10^6.
     #[arg(long, requires = "soak", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(10..=1_000_000))]
     mesh_triangles: u32,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Importances {
-    /// The default: moments of the lights, 8 children to a node.
-    Moments,
-    /// The paper's Eq. 4 on bounds, 4 children to a node.
-    Eq4,
-    /// One after the other.
-    Both,
-}
-
-impl Importances {
-    fn chosen(self) -> &'static [Importance] {
-        match self {
-            Self::Moments => &[Importance::Moments],
-            Self::Eq4 => &[Importance::Eq4],
-            Self::Both => &Importance::ALL,
-        }
-    }
 }
 
 #[derive(Serialize)]
@@ -108,37 +86,29 @@ struct Report {
     rows: Vec<Tree>,
 }
 
-fn run_soak(context: &Context, args: &Args, frames: u32) -> Result<Outcome, HostError> {
-    let plan = soak::Plan {
-        frames,
-        seed: args.seed,
-        instances: args.instances,
-        mesh_triangles: args.mesh_triangles,
-    };
-    let opened = devices::open(context)?;
-    let report = soak::soak(&plan, &opened, context.json)?;
-    devices::close(opened)?;
-    if context.json {
-        table::print_json(&json!({ "soak": report }))?;
-    } else {
-        soak::print(&report)?;
-    }
-    Ok(Outcome::good_if(report.is_good()))
-}
-
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     if let Some(frames) = args.soak {
-        return run_soak(context, args, frames);
+        let plan = soak::Plan {
+            frames,
+            seed: args.seed,
+            instances: args.instances,
+            mesh_triangles: args.mesh_triangles,
+        };
+        let opened = devices::open(context)?;
+        let report = soak::soak(&plan, &opened, context.json)?;
+        devices::close(opened)?;
+        match context.json {
+            true => table::print_json(&json!({ "soak": report }))?,
+            false => soak::print(&report)?,
+        }
+        return Ok(Outcome::good_if(report.is_good()));
     }
-    let names: Vec<String> = if args.scene.is_empty() {
-        BUILT_IN.iter().map(|&name| name.to_owned()).collect()
-    } else {
-        args.scene.clone()
+    let names = match args.scene.is_empty() {
+        true => BUILT_IN.map(str::to_owned).to_vec(),
+        false => args.scene.clone(),
     };
-    let scenes = names
-        .iter()
-        .map(|name| args.reading.open(name))
-        .collect::<Result<Vec<_>, _>>()?;
+    let scenes = names.iter().map(|name| args.reading.open(name));
+    let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
     for scene in &scenes {
         for warning in scene.warnings() {
             news!("{}: {warning}", scene.name());
@@ -151,7 +121,11 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         trees: Vec::new(),
     };
     let bar = progress(args.queries, "queries", context.json);
-    let importances = args.importance.chosen();
+    let importances: &[Importance] = match args.importance {
+        None => &Importance::ALL,
+        Some(Importance::Moments) => &[Importance::Moments],
+        Some(Importance::Eq4) => &[Importance::Eq4],
+    };
     let shares = scenes.len() as u64 * 2 * importances.len() as u64;
     let asked = (args.queries.div_ceil(shares), args.seed);
     for scene in &scenes {

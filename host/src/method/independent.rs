@@ -6,16 +6,15 @@ use std::time::Duration;
 
 use lightbvh::exact::hash;
 use lightbvh_kernels::bvh::Choice;
+use lightbvh_kernels::render::RenderParams;
 
 use super::moving::Moving;
 use super::{Recipe, Runner, SampleBudget, Step, Target, UpdateTimes};
-use crate::backend::{
-    Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, all_candidates,
-};
+use crate::backend::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed};
 use crate::error::HostError;
 use crate::render::power_thresholds;
 use crate::scene::SceneLight;
-use crate::workload::{RenderSettings, build, words_in_use};
+use crate::workload::{build, words_in_use};
 
 /// Camera rays per pixel that make edges smooth; the light samples of a pixel are shared out among them.
 const MAX_CAMERA_RAYS: u32 = 8;
@@ -86,7 +85,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
         &mut self,
         step: &Step<'_, C::Light>,
         arrays: &SceneArrays<C::Light>,
-        settings: &RenderSettings,
+        params: &RenderParams,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
         let recipe = self.recipe;
         if recipe.lights == Sampler::Power && arrays.thresholds.is_empty() {
@@ -96,9 +95,10 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
                 lights: arrays.lights.triangles().len(),
             });
         }
-        let mut all = settings.params(step.scene.data().background);
-        all.candidates = recipe.candidates;
-        all.scattered = recipe.scattered;
+        let all = RenderParams {
+            candidates: recipe.candidates,
+            ..*params
+        };
         let mut render = |params| {
             self.backend
                 .render(arrays, &params, recipe.lights, recipe.integrator)
@@ -106,18 +106,14 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
         match recipe.budget {
             SampleBudget::ShadowRays => Ok(render(all)?),
             SampleBudget::CameraRays => {
-                let parts = parts(
-                    recipe.integrator,
-                    settings.samples,
-                    all_candidates(recipe.candidates, recipe.scattered),
-                );
-                mean_of(parts, settings, |part| {
+                let parts = parts(recipe.integrator, all.samples, recipe.candidates);
+                mean_of(parts, &all, |part| {
                     let mut params = all;
-                    params.samples = settings.samples / parts;
+                    params.samples = all.samples / parts;
                     params.jitter = part;
                     match recipe.integrator {
                         Integrator::Direct => (params.part, params.parts) = (part, parts),
-                        Integrator::Path { .. } => params.seed = hash(settings.seed).wrapping_add(part),
+                        Integrator::Path { .. } => params.seed = hash(all.seed).wrapping_add(part),
                     }
                     Ok(render(params)?)
                 })
@@ -158,11 +154,11 @@ fn parts(integrator: Integrator, samples: u32, candidates: u32) -> u32 {
 /// The mean of `count` images, and their times together.
 fn mean_of(
     count: u32,
-    settings: &RenderSettings,
+    params: &RenderParams,
     mut image: impl FnMut(u32) -> Result<Timed<Vec<[f32; 3]>>, HostError>,
 ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
     let mut sum = Timed {
-        value: vec![[0.0f32; 3]; settings.width as usize * settings.height as usize],
+        value: vec![[0.0f32; 3]; params.width as usize * params.height as usize],
         time: Duration::ZERO,
     };
     for number in 0..count {

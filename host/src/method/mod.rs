@@ -13,13 +13,13 @@ use std::time::Duration;
 use lightbvh::light::AnyLight;
 use lightbvh::{EditError, EmissiveTriangle, Lights};
 use lightbvh_kernels::bvh::{Choice, Kinds, Paper, Standard, WIDTH};
+use lightbvh_kernels::render::RenderParams;
 
 use self::independent::Independent;
 use crate::backend::{Backend, BackendError, Bvh, CpuBackend, DeviceBackend, Follow, SceneArrays, Timed};
 use crate::error::HostError;
 use crate::scene::{Scene, SceneLight};
 use crate::vulkan::Device;
-use crate::workload::RenderSettings;
 
 /// A frame of an animation, as a method learns of it.
 #[derive(Clone, Copy, Debug)]
@@ -32,14 +32,19 @@ pub struct Step<'a, L = EmissiveTriangle> {
     pub lights: &'a Lights<L>,
 }
 
-impl<L> Step<'_, L> {
+impl<'a, L> Step<'a, L> {
+    /// A frame of a scene.
+    pub fn new(scene: &'a Scene, frame: u32, lights: &'a Lights<L>) -> Self {
+        Self { scene, frame, lights }
+    }
+
     /// The error for lights of this frame that a light BVH does not take.
-    fn refused(&self, error: EditError) -> HostError {
+    pub(crate) fn refused(&self, error: EditError) -> HostError {
         HostError::in_frame(self.scene.name(), self.frame, error)
     }
 }
 
-/// What bringing a method's structures to a frame took.
+/// Times of bringing a method's structures to a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct UpdateTimes {
     /// New bounds in the structures there are.
@@ -61,7 +66,7 @@ impl UpdateTimes {
     }
 }
 
-/// What [`RenderSettings::samples`] counts.
+/// The unit of [`RenderParams::samples`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleBudget {
     /// Shadow rays per pixel, so that methods can be compared at equal cost. All look at the same points in the pixels.
@@ -75,23 +80,17 @@ pub enum SampleBudget {
 pub trait Runner<L: SceneLight = EmissiveTriangle> {
     /// Brings the structures to the next frame. Frames come in ascending order; only methods that say so in
     /// [`may_skip`](Self::may_skip) see them with gaps.
-    ///
-    /// # Errors
-    /// [`HostError`] from a device, or for lights that the method cannot take.
     fn advance(&mut self, step: &Step<'_, L>) -> Result<UpdateTimes, HostError>;
 
-    /// Renders the frame last advanced to, which `arrays` are of, and `settings` too.
-    ///
-    /// # Errors
-    /// [`HostError`] from a device, or for a scene that the method cannot take.
+    /// Renders the frame last advanced to, which `arrays` are of.
     fn image(
         &mut self,
         step: &Step<'_, L>,
         arrays: &SceneArrays<L>,
-        settings: &RenderSettings,
+        params: &RenderParams,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError>;
 
-    /// What renders, as of the frame last advanced to.
+    /// The backend, as of the frame last advanced to.
     fn backend(&mut self) -> &mut dyn Backend<L>;
 
     /// The words in use, out of the words of all nodes of the [`backend`](Self::backend).
@@ -133,9 +132,6 @@ impl<'d> Target<'d> {
 
 impl Recipe {
     /// Builds what the method needs at its first frame.
-    ///
-    /// # Errors
-    /// [`HostError`] from a device, or for a scene that the method cannot take.
     pub fn runner<'d, L: MethodLight>(
         &self,
         first: &Step<'_, L>,
@@ -155,13 +151,10 @@ impl Recipe {
 
 /// Lights that methods are compiled for.
 pub trait MethodLight: SceneLight {
-    /// What they may be chosen by.
+    /// The importances that may choose them.
     const IMPORTANCES: &'static [Importance];
 
     /// Builds what `recipe` needs at its first frame.
-    ///
-    /// # Errors
-    /// [`HostError`] from a device, or for what the method does not take.
     fn runner<'d>(
         recipe: &Recipe,
         first: &Step<'_, Self>,

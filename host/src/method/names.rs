@@ -50,7 +50,7 @@ pub enum Method {
     TwoLevelMomentsResampled,
 }
 
-/// What lights of a BVH are chosen by: a [`Choice`].
+/// The importance of a light BVH: a [`Choice`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Importance {
@@ -73,14 +73,14 @@ pub enum Builder {
     Ward,
 }
 
-/// What a method does.
+/// The parts of a method.
 #[derive(Clone, Copy, Debug)]
 pub struct Recipe {
     /// The method's name, for messages.
     pub name: &'static str,
     /// How lights are chosen.
     pub lights: Sampler,
-    /// What lights of a BVH are chosen by.
+    /// The importance of a light BVH.
     pub importance: Importance,
     /// How the light BVH is built.
     pub builder: Builder,
@@ -88,11 +88,9 @@ pub struct Recipe {
     pub rebuilt: bool,
     /// Candidates that each sample of direct light is one of; 1 for lights as picked.
     pub candidates: u32,
-    /// Directions that the surface reflects into whose lights join the candidates of each sample of direct light.
-    pub scattered: u32,
-    /// What light is followed.
+    /// The light that is followed.
     pub integrator: Integrator,
-    /// What the samples of an image count.
+    /// The unit of an image's samples.
     pub budget: SampleBudget,
 }
 
@@ -105,7 +103,7 @@ impl Method {
         self.into()
     }
 
-    /// What the method does where samples count shadow rays.
+    /// The method where samples count shadow rays.
     pub fn recipe(self) -> Recipe {
         use Importance::{Eq4, Moments};
         use Sampler::{Power, SingleLevel, TwoLevel, Uniform};
@@ -116,7 +114,6 @@ impl Method {
             builder: importance.builder(),
             rebuilt: false,
             candidates: 1,
-            scattered: 0,
             integrator: Integrator::Direct,
             budget: SampleBudget::ShadowRays,
         };

@@ -10,10 +10,6 @@ use super::MetricError;
 
 /// FLIP of each pixel of displayed images (sRGB, three bytes per pixel), 0 to 1, for a viewer who sees 67 pixels per degree:
 /// the paper's 0.7 m from a screen 0.7 m wide with 3840 columns.
-///
-/// # Errors
-/// [`MetricError::Shapes`] where the bytes are not those of two images of `size`, [`MetricError::Flip`] where they are too
-/// many.
 pub fn flip_map(reference: &[u8], image: &[u8], size: (u32, u32)) -> Result<Vec<f32>, MetricError> {
     let take = |bytes: &[u8]| {
         RgbImage::new(size.0 as usize, size.1 as usize, bytes.to_vec())

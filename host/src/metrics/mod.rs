@@ -2,18 +2,16 @@
 //!
 //! The paper's measures are taken of what a screen shows: tone-mapped sRGB of 8 bits, so that MSE is in squared steps of
 //! 0 to 255, and PSNR, SSIM and FLIP follow. Next to them stand the MSE of the radiance itself and the relative MSE, which
-//! no display curve flatters. Every measure can be taken of the whole image or of a region.
+//! no display curve flatters.
 
 mod estimate;
 mod flip;
 mod mse;
-mod region;
 mod ssim;
 
 pub use estimate::{Estimate, mean};
 pub use flip::{flip_map, mean_flip};
 pub use mse::{mean_squared_error, psnr, relative_mean_squared_error, relative_squared_error, squared_error};
-pub use region::Region;
 pub use ssim::{luma, ssim};
 
 use serde::Serialize;
@@ -33,9 +31,6 @@ pub enum MetricError {
     /// Radiance that is infinite or not a number: no distance from it means anything.
     #[error("pixel {pixel} of the image is not finite; report it as a defect of the renderer")]
     NotFinite { pixel: usize },
-    /// A region that is empty or beyond the image.
-    #[error("the region {region} is not within an image of {} x {}; choose one inside, of at least one pixel", .size.0, .size.1)]
-    Region { region: Region, size: (u32, u32) },
     /// FLIP refuses the size.
     #[error("an image of {} x {} is beyond what FLIP takes; render a smaller one", .size.0, .size.1)]
     Flip { size: (u32, u32) },
@@ -71,20 +66,19 @@ pub struct Judge {
     shown: Vec<u8>,
 }
 
-/// An image next to a reference: what several regions of it are measured from.
+/// An image next to a reference.
 #[derive(Clone, Debug)]
-pub struct Judged<'a> {
-    judge: &'a Judge,
-    image: &'a Film,
-    shown: Vec<u8>,
-    flip: Vec<f32>,
+pub struct Judged {
+    /// As displayed, three bytes per pixel.
+    pub shown: Vec<u8>,
+    /// FLIP of each pixel, 0 to 1.
+    pub flip: Vec<f32>,
+    /// Every measure.
+    pub quality: Quality,
 }
 
 impl Judge {
     /// Takes a reference and the exposure at which it and the images are displayed.
-    ///
-    /// # Errors
-    /// [`MetricError::NotFinite`] for a reference that is not.
     pub fn new(reference: Film, exposure: f32) -> Result<Self, MetricError> {
         require_finite(&reference)?;
         Ok(Self {
@@ -114,11 +108,8 @@ impl Judge {
         (self.reference.width(), self.reference.height())
     }
 
-    /// Puts an image next to the reference.
-    ///
-    /// # Errors
-    /// [`MetricError`] for an image of another size, or not finite, or too large for FLIP.
-    pub fn judge<'a>(&'a self, image: &'a Film) -> Result<Judged<'a>, MetricError> {
+    /// Measures an image.
+    pub fn judge(&self, image: &Film) -> Result<Judged, MetricError> {
         if (image.width(), image.height()) != self.size() {
             return Err(MetricError::Shapes {
                 image: (image.width(), image.height()),
@@ -128,67 +119,17 @@ impl Judge {
         require_finite(image)?;
         let shown = image.shown(self.exposure);
         let flip = flip_map(&self.shown, &shown, self.size())?;
-        Ok(Judged {
-            judge: self,
-            image,
-            shown,
-            flip,
-        })
-    }
-
-    /// Measures a whole image.
-    ///
-    /// # Errors
-    /// As [`judge`](Self::judge).
-    pub fn quality(&self, image: &Film) -> Result<Quality, MetricError> {
-        let (width, height) = self.size();
-        let whole = Region {
-            x: 0,
-            y: 0,
-            width,
-            height,
+        let [bytes, expected] = [&shown, &self.shown].map(|bytes| bytes.as_chunks::<3>().0);
+        let (pixels, reference) = (image.pixels(), self.reference.pixels());
+        let (width, height) = (image.width() as usize, image.height() as usize);
+        let quality = Quality {
+            mse: mean_squared_error(bytes, expected),
+            ssim: ssim(&luma(bytes), &luma(expected), width, height),
+            flip: mean_flip(&flip),
+            linear_mse: mean_squared_error(pixels, reference),
+            relative_mse: relative_mean_squared_error(pixels, reference, self.exposure),
         };
-        self.judge(image)?.region(whole)
-    }
-}
-
-impl Judged<'_> {
-    /// The image as displayed, three bytes per pixel.
-    pub fn shown(&self) -> &[u8] {
-        &self.shown
-    }
-
-    /// FLIP of each pixel, 0 to 1.
-    pub fn flip(&self) -> &[f32] {
-        &self.flip
-    }
-
-    /// Measures a region. FLIP sees the whole images, as a viewer does, and is averaged over the region; the other measures
-    /// see nothing but the region.
-    ///
-    /// # Errors
-    /// [`MetricError::Region`] for a region that is empty or reaches beyond the images.
-    pub fn region(&self, region: Region) -> Result<Quality, MetricError> {
-        let size = self.judge.size();
-        if !region.is_within(size) {
-            return Err(MetricError::Region { region, size });
-        }
-        let shown = |bytes: &[u8]| region.cut(bytes.as_chunks::<3>().0, size.0);
-        let (image_shown, reference_shown) = (shown(&self.shown), shown(&self.judge.shown));
-        let image = region.cut(self.image.pixels(), size.0);
-        let reference = region.cut(self.judge.reference.pixels(), size.0);
-        Ok(Quality {
-            mse: mean_squared_error(&image_shown, &reference_shown),
-            ssim: ssim(
-                &luma(&image_shown),
-                &luma(&reference_shown),
-                region.width as usize,
-                region.height as usize,
-            ),
-            flip: mean_flip(&region.cut(&self.flip, size.0)),
-            linear_mse: mean_squared_error(&image, &reference),
-            relative_mse: relative_mean_squared_error(&image, &reference, self.judge.exposure),
-        })
+        Ok(Judged { shown, flip, quality })
     }
 }
 

@@ -50,9 +50,6 @@ pub struct Film {
 
 impl Film {
     /// An image of these pixels.
-    ///
-    /// # Errors
-    /// [`FilmError::Size`] unless there are `width * height` pixels, at least one.
     pub fn new(width: u32, height: u32, pixels: Vec<[f32; 3]>) -> Result<Self, FilmError> {
         if pixels.is_empty() || u64::from(width) * u64::from(height) != pixels.len() as u64 {
             return Err(FilmError::Size {
@@ -149,9 +146,6 @@ impl Film {
 
     /// Writes the image: tone-mapped 8-bit sRGB after scaling by `exposure` for `.png`, the radiance itself in 32-bit
     /// floats for `.exr`. The file appears whole or not at all.
-    ///
-    /// # Errors
-    /// [`FilmError`] for another extension, an image the encoder refuses, and a path that cannot be written.
     pub fn write(&self, path: &Path, exposure: f32) -> Result<(), FilmError> {
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         let (bytes, color, format): (Vec<u8>, _, _) = match extension.as_deref() {

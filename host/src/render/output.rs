@@ -17,9 +17,6 @@ pub fn uninterrupted<T>(work: impl FnOnce() -> T) -> T {
 
 /// Writes `bytes` to a temporary file in the folder of `path` and renames it: nobody sees half a file, and a failure leaves an
 /// older file as it was. Links are followed; pipes and devices are written directly.
-///
-/// # Errors
-/// As [`real_path`], and what the system says.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let Some(path) = real_path(path)? else {
         return fs::write(path, bytes);
@@ -42,9 +39,6 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
 }
 
 /// The path of the file itself, links followed; `None` for a pipe or a device.
-///
-/// # Errors
-/// A folder, and a link to a file that does not exist.
 pub fn real_path(path: &Path) -> io::Result<Option<PathBuf>> {
     match fs::metadata(path) {
         Ok(found) if found.is_dir() => Err(Error::new(ErrorKind::IsADirectory, "it is a folder")),

@@ -21,9 +21,6 @@ pub enum PowerError {
 ///
 /// Of the 2^24 units of probability each light that emits gets one, so that none is left out, and the others are shared
 /// out by flux. All entries are 0 where no light emits.
-///
-/// # Errors
-/// [`PowerError::TooMany`] where more than 2^24 lights emit.
 pub fn power_thresholds<L: SceneLight>(lights: &[L]) -> Result<Vec<u32>, PowerError> {
     let fluxes: Vec<f64> = lights.iter().map(SceneLight::flux).collect();
     let emitters = fluxes.iter().filter(|&&f| f > 0.0).count();

@@ -82,9 +82,6 @@ impl Case {
 }
 
 /// A light BVH of moving meshes, and its lights in the world.
-///
-/// # Errors
-/// [`HostError`] when the crate refuses them.
 pub fn moving_scene(
     name: &str,
     meshes: &[Vec<EmissiveTriangle>],
@@ -111,9 +108,6 @@ pub fn moving_scene(
 }
 
 /// Lights in the world as the crate takes them.
-///
-/// # Errors
-/// [`HostError`] when it refuses them.
 pub fn validated(name: &str, triangles: Vec<EmissiveTriangle>) -> Result<Lights, HostError> {
     Lights::new(triangles).map_err(|error| HostError::in_frame(name, 0, error))
 }

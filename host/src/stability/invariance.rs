@@ -141,9 +141,6 @@ impl Study {
 }
 
 /// All rows, on the CPU.
-///
-/// # Errors
-/// [`HostError`] when the crate refuses a scene.
 pub fn rows() -> Result<Vec<Row>, HostError> {
     let mut out = Vec::new();
     for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {

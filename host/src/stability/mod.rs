@@ -17,13 +17,14 @@ pub mod words;
 
 use lightbvh::{BoundsNode, Bvh, CompactNode, EmissiveTriangle, Eq4, ImportanceModel, LightNode, Lights};
 use lightbvh_kernels::bvh::{Choice, Node, Standard, WIDTH};
+use serde::Serialize;
 
 use self::case::{Case, Source, moving_scene, validated};
 use self::row::{Check, Row};
 use self::subject::{Subject, Walked};
 use crate::backend::{self, Sampler};
 use crate::error::HostError;
-use crate::vulkan::Device;
+use crate::vulkan::{Device, VulkanError};
 use crate::workload;
 
 /// Importance of the default choice.
@@ -55,19 +56,27 @@ impl Effort {
     };
 }
 
-/// Rows, and what could not be compared: extreme, structure, device.
+/// Rows, and comparisons that were skipped.
 #[derive(Debug, Default)]
 pub struct Found {
     /// The rows.
     pub rows: Vec<Row>,
     /// Extremes that are larger than a device's buffers may be.
-    pub too_large: Vec<(String, String, String)>,
+    pub skipped: Vec<Skipped>,
+}
+
+/// An extreme that a device has no room for.
+#[derive(Debug, Serialize)]
+pub struct Skipped {
+    /// Extreme and structure.
+    pub name: String,
+    /// The device.
+    pub device: String,
+    /// The reason.
+    pub why: &'static str,
 }
 
 /// Runs one extreme: on the CPU, and on each device.
-///
-/// # Errors
-/// [`HostError`] when the crate refuses the lights, or a device fails.
 pub fn run(case: &Case, effort: &Effort, devices: &[&Device], found: &mut Found) -> Result<(), HostError> {
     match &case.source {
         Source::World(triangles) => world(case, triangles, effort, devices, found),
@@ -166,13 +175,13 @@ fn on_devices(
     found: &mut Found,
 ) -> Result<(), HostError> {
     for device in devices {
-        match words::compare(&case.name, structure, bvh, lights, &case.points, device)? {
-            Some(rows) => found.rows.extend(rows),
-            None => {
-                let names = [&case.name, structure, device.name()].map(str::to_owned);
-                let [extreme, structure, device] = names;
-                found.too_large.push((extreme, structure, device));
-            }
+        match words::compare(&case.name, structure, bvh, lights, &case.points, device) {
+            Err(HostError::Vulkan(VulkanError::BufferTooLarge { .. })) => found.skipped.push(Skipped {
+                name: format!("{}, {structure}", case.name),
+                device: device.name().to_owned(),
+                why: "larger than a buffer of the device may be",
+            }),
+            rows => found.rows.extend(rows?),
         }
     }
     Ok(())

@@ -9,7 +9,7 @@ use super::random::{Random, adversarial};
 use super::row::{Check, Row};
 use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, PMF_RECORD, SAMPLED_RECORD};
 use crate::error::HostError;
-use crate::vulkan::{Device, VulkanError};
+use crate::vulkan::Device;
 use crate::words::{Record, compare_words};
 use crate::workload::words_in_use;
 
@@ -18,25 +18,8 @@ const NUMBERS: u32 = 96;
 /// Levels for which adversarial random numbers are made.
 const ADVERSARIAL_LEVELS: u32 = 4;
 
-/// Compares refit, samples and probabilities over a BVH that is refitted. `None` where the device has no buffers as large.
-///
-/// # Errors
-/// [`HostError`] when the device fails otherwise.
+/// Compares refit, samples and probabilities over a BVH that is refitted.
 pub fn compare(
-    extreme: &str,
-    structure: &str,
-    bvh: &Bvh,
-    lights: &Lights,
-    points: &[ShadingPoint],
-    device: &Device,
-) -> Result<Option<Vec<Row>>, HostError> {
-    match rows(extreme, structure, bvh, lights, points, device) {
-        Err(HostError::Vulkan(VulkanError::BufferTooLarge { .. })) => Ok(None),
-        rows => rows.map(Some),
-    }
-}
-
-fn rows(
     extreme: &str,
     structure: &str,
     bvh: &Bvh,

@@ -41,9 +41,6 @@ impl Binding {
 
 impl Device {
     /// A buffer with a copy of `data`. An empty slice gives a buffer of no elements that can be bound all the same.
-    ///
-    /// # Errors
-    /// [`VulkanError::BufferTooLarge`], [`VulkanError::OutOfMemory`], or those of [`Buffer::write`].
     pub fn upload<T: Pod>(&self, data: &[T]) -> Result<Buffer<T>, VulkanError> {
         let buffer = self.buffer(data.len())?;
         buffer.write(&[(0, data)])?;
@@ -51,9 +48,6 @@ impl Device {
     }
 
     /// A buffer of `len` elements whose words are all [`UNWRITTEN`].
-    ///
-    /// # Errors
-    /// As [`Device::upload`].
     pub fn output<T: Pod>(&self, len: usize) -> Result<Buffer<T>, VulkanError> {
         let buffer = self.buffer(len)?;
         buffer.memory.fill(UNWRITTEN)?;
@@ -61,9 +55,6 @@ impl Device {
     }
 
     /// A buffer of `len` elements. What it holds is not known until it is written.
-    ///
-    /// # Errors
-    /// [`VulkanError::BufferTooLarge`], [`VulkanError::OutOfMemory`] or [`VulkanError::Call`].
     pub fn buffer<T: Pod>(&self, len: usize) -> Result<Buffer<T>, VulkanError> {
         Buffer::new(&self.shared, len)
     }
@@ -123,9 +114,6 @@ impl<T: Pod> Buffer<T> {
     }
 
     /// Replaces elements by those of each part, from its first one on.
-    ///
-    /// # Errors
-    /// [`VulkanError::WrongLength`] if the buffer has fewer, [`VulkanError::Busy`], or those of a copy to the device.
     pub fn write(&self, parts: &[(usize, &[T])]) -> Result<(), VulkanError> {
         for (first, data) in parts {
             if *first > self.len || data.len() > self.len - first {
@@ -143,24 +131,13 @@ impl<T: Pod> Buffer<T> {
     }
 
     /// Copies what `from` holds to the start of this one, as far as both reach.
-    ///
-    /// # Errors
-    /// [`VulkanError::Busy`], or those of a copy on the device.
     pub(crate) fn copy_from(&self, from: &Self) -> Result<(), VulkanError> {
         let bytes = self.byte_len().min(from.byte_len()) as u64;
         let whole = (bytes > 0).then(|| region(0, 0, bytes));
         self.memory.copy(&from.memory, whole.as_slice())
     }
 
-    /// Whether it was made on `device`.
-    pub fn is_on(&self, device: &Device) -> bool {
-        self.memory.shared.id == device.shared.id
-    }
-
     /// A copy of all elements.
-    ///
-    /// # Errors
-    /// [`VulkanError::Busy`], or those of a copy from the device.
     pub fn read(&self) -> Result<Vec<T>, VulkanError> {
         let mut data = vec![T::zeroed(); self.len];
         self.memory.read(bytemuck::cast_slice_mut(&mut data))?;
@@ -168,9 +145,6 @@ impl<T: Pod> Buffer<T> {
     }
 
     /// A copy of all elements as words, for comparing.
-    ///
-    /// # Errors
-    /// As [`Buffer::read`].
     pub fn read_words(&self) -> Result<Vec<u32>, VulkanError> {
         let mut words = vec![0u32; self.byte_len() / 4];
         self.memory.read(bytemuck::cast_slice_mut(&mut words))?;

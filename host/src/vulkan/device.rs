@@ -2,13 +2,13 @@
 
 use super::error::{CallContext, VulkanError};
 use super::instance::Instance;
-use super::options::Options;
 use super::probe::{Candidate, Probe};
 use super::shared::Shared;
 use ash::vk;
 use lightbvh_gpu::FloatEnvironment;
 use serde::Serialize;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// A device that can be opened.
 #[derive(Clone, Debug, Serialize)]
@@ -28,6 +28,29 @@ pub struct DeviceList {
     pub notes: Vec<String>,
 }
 
+/// How to open a device.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// Run under `VK_LAYER_KHRONOS_validation`: any message of it becomes an error of the call that drew it.
+    pub validation: bool,
+    /// Copy through staging buffers even where host and device share memory; for tests of that path.
+    pub force_staging: bool,
+    /// How long submitted work may take.
+    pub time_limit: Duration,
+}
+
+impl Default for Options {
+    /// No validation, staging only where needed, ten minutes: far beyond any sensible pass, even on two
+    /// slow cores.
+    fn default() -> Self {
+        Self {
+            validation: false,
+            force_staging: false,
+            time_limit: Duration::from_secs(600),
+        }
+    }
+}
+
 /// An open device. Buffers and kernels are made from it; it closes when the last of them is dropped.
 pub struct Device {
     pub(crate) shared: Arc<Shared>,
@@ -38,9 +61,6 @@ impl Device {
     ///
     /// Without a loader, a driver or a device the list is empty and its notes say why: a reason to go on with the CPU,
     /// not an error.
-    ///
-    /// # Errors
-    /// [`VulkanError::Call`] if the loader is there and fails.
     pub fn list() -> Result<DeviceList, VulkanError> {
         let instance = match Instance::new(false) {
             Ok(instance) => instance,
@@ -67,11 +87,6 @@ impl Device {
     }
 
     /// Opens a device of the list.
-    ///
-    /// # Errors
-    /// [`VulkanError::FloatEnvironment`] if this thread's float mode is not the default,
-    /// [`VulkanError::NoValidationLayer`], [`VulkanError::UnknownDevice`] if the device has gone since it was listed,
-    /// [`VulkanError::Validation`] or [`VulkanError::Call`].
     pub fn open(info: &DeviceInfo, options: Options) -> Result<Self, VulkanError> {
         let instance = Instance::new(options.validation)?;
         let (candidates, _) = candidates(&instance)?;
@@ -115,10 +130,6 @@ impl Device {
     /// Closes the device and waits until all of it is gone, so that the validation layer has seen the tear-down too.
     ///
     /// Dropping does the same without a verdict.
-    ///
-    /// # Errors
-    /// [`VulkanError::StillHeld`] while buffers live, [`VulkanError::Busy`] while work that ran into its time limit is
-    /// still running, [`VulkanError::Validation`] for messages up to and in the tear-down.
     pub fn close(self) -> Result<(), VulkanError> {
         let device = self.shared.probe.name.clone();
         if self.shared.is_busy() {
@@ -142,9 +153,6 @@ impl Device {
 
 impl DeviceList {
     /// The device that `wanted` means: an index, or a part of a name in any case. The first of several matches.
-    ///
-    /// # Errors
-    /// [`VulkanError::NoDevice`] if the list is empty, [`VulkanError::UnknownDevice`] with the names there are.
     pub fn select(&self, wanted: &str) -> Result<&DeviceInfo, VulkanError> {
         if self.devices.is_empty() {
             return Err(VulkanError::NoDevice {

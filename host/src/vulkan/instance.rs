@@ -27,10 +27,6 @@ struct Validation {
 
 impl Instance {
     /// Loads the Vulkan library and makes an instance, with the validation layer if `validate`.
-    ///
-    /// # Errors
-    /// [`VulkanError::Unavailable`] without a loader or driver, [`VulkanError::NoValidationLayer`] without the layer,
-    /// [`VulkanError::Call`] for anything else.
     pub(crate) fn new(validate: bool) -> Result<Self, VulkanError> {
         // SAFETY: loading a library runs its initialisers; the Vulkan loader's are safe to run at any time, and the
         // library stays loaded for as long as `entry` lives.

@@ -15,17 +15,11 @@ impl Device {
     /// The built-in kernel of that name; its pipeline is made on first use.
     ///
     /// Some drivers compile only at the first dispatch: leave that one out of any timing.
-    ///
-    /// # Errors
-    /// [`VulkanError::UnknownKernel`], or those of [`Device::kernel_from_words`].
     pub fn kernel(&self, name: &str) -> Result<Arc<Kernel>, VulkanError> {
         self.kernel_with(name, 0)
     }
 
     /// [`kernel`](Self::kernel) with `constant` for specialisation constant 0, where it has one.
-    ///
-    /// # Errors
-    /// As [`kernel`](Self::kernel).
     pub fn kernel_with(&self, name: &str, constant: u32) -> Result<Arc<Kernel>, VulkanError> {
         let module = built_in(name)?;
         let mut kernels = self.shared.kernels();
@@ -45,9 +39,6 @@ impl Device {
 
     /// Puts a module of the caller's in the place of the built-in kernel of that name, for all that this device runs from now
     /// on. Tests run deliberately broken kernels by it, to see that the self-test and every comparison find them.
-    ///
-    /// # Errors
-    /// [`VulkanError::UnknownKernel`], or those of [`Device::kernel_from_words`].
     #[doc(hidden)]
     pub fn replace_kernel(&self, name: &str, words: &[u32]) -> Result<(), VulkanError> {
         let module = built_in(name)?;
@@ -67,10 +58,6 @@ impl Device {
     ///
     /// Float-control execution modes are set as the device reports them. The module's instructions are trusted like
     /// any program: Vulkan does not promise to catch an invalid one.
-    ///
-    /// # Errors
-    /// [`VulkanError::BadModule`] if the words are no such module, [`VulkanError::KernelOverLimit`] if it needs more
-    /// than the device has, [`VulkanError::Validation`], or [`VulkanError::Call`].
     pub fn kernel_from_words(&self, name: &str, words: &[u32]) -> Result<Arc<Kernel>, VulkanError> {
         let kernel = Arc::new(Kernel::new(&self.shared, name, words, 0)?);
         self.shared.kernels().others.push(Arc::clone(&kernel));

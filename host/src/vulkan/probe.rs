@@ -55,8 +55,6 @@ pub struct FloatControls {
     pub rounding_mode_rte_32: bool,
     /// `shaderDenormPreserveFloat32`.
     pub denorm_preserve_32: bool,
-    /// `shaderDenormFlushToZeroFloat32`.
-    pub denorm_flush_to_zero_32: bool,
 }
 
 impl From<FloatControls> for lightbvh_gpu::FloatControls {
@@ -71,8 +69,6 @@ impl From<FloatControls> for lightbvh_gpu::FloatControls {
 /// Optional features.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Features {
-    /// `vulkanMemoryModel`: every module that rust-gpu makes needs it.
-    pub vulkan_memory_model: bool,
     /// `scalarBlockLayout`: arrays of 12-byte structures in buffers.
     pub scalar_block_layout: bool,
     /// `robustBufferAccess`: accesses beyond a buffer are defined.
@@ -90,8 +86,6 @@ pub struct Limits {
     pub max_storage_buffers: u32,
     /// Push constant block.
     pub max_push_constants_size: u32,
-    /// Workgroups per dispatch, x, y, z.
-    pub max_workgroup_count: [u32; 3],
     /// Invocations per workgroup, x, y, z.
     pub max_workgroup_size: [u32; 3],
     /// Invocations per workgroup, all together.
@@ -100,8 +94,6 @@ pub struct Limits {
     pub timestamp_period: f32,
     /// Meaningful low bits of a timestamp on the compute queue; 0 where there are none.
     pub timestamp_valid_bits: u32,
-    /// Invocations per subgroup (results never depend on it).
-    pub subgroup_size: u32,
 }
 
 /// A physical device that can run this program's kernels.
@@ -135,12 +127,10 @@ impl Candidate {
         let mut float_controls = vk::PhysicalDeviceFloatControlsProperties::default();
         let mut driver = vk::PhysicalDeviceDriverProperties::default();
         let mut maintenance3 = vk::PhysicalDeviceMaintenance3Properties::default();
-        let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
         let mut properties = vk::PhysicalDeviceProperties2::default()
             .push_next(&mut float_controls)
             .push_next(&mut driver)
-            .push_next(&mut maintenance3)
-            .push_next(&mut subgroup);
+            .push_next(&mut maintenance3);
         // SAFETY: as above; every chained structure is core in the device's version, 1.2 or later.
         unsafe { vk_instance.get_physical_device_properties2(physical, &mut properties) };
         let mut vulkan12 = vk::PhysicalDeviceVulkan12Features::default();
@@ -170,10 +160,8 @@ impl Candidate {
                     == vk::TRUE,
                 rounding_mode_rte_32: float_controls.shader_rounding_mode_rte_float32 == vk::TRUE,
                 denorm_preserve_32: float_controls.shader_denorm_preserve_float32 == vk::TRUE,
-                denorm_flush_to_zero_32: float_controls.shader_denorm_flush_to_zero_float32 == vk::TRUE,
             },
             features: Features {
-                vulkan_memory_model: true,
                 scalar_block_layout: vulkan12.scalar_block_layout == vk::TRUE,
                 robust_buffer_access,
             },
@@ -184,12 +172,10 @@ impl Candidate {
                     .max_per_stage_descriptor_storage_buffers
                     .min(limits.max_descriptor_set_storage_buffers),
                 max_push_constants_size: limits.max_push_constants_size,
-                max_workgroup_count: limits.max_compute_work_group_count,
                 max_workgroup_size: limits.max_compute_work_group_size,
                 max_workgroup_invocations: limits.max_compute_work_group_invocations,
                 timestamp_period: limits.timestamp_period,
                 timestamp_valid_bits: family.timestamp_valid_bits,
-                subgroup_size: subgroup.subgroup_size,
             },
             unified_memory: unified(basic.device_type, memory.memory_types_as_slice()),
         };

@@ -26,10 +26,6 @@ struct Sets<'a> {
 
 impl Device {
     /// Runs all of a pass in order and waits for its end.
-    ///
-    /// # Errors
-    /// [`VulkanError::BadDispatch`] or [`VulkanError::ForeignObject`] before anything is submitted; [`VulkanError::Timeout`],
-    /// [`VulkanError::Busy`], [`VulkanError::DeviceLost`], [`VulkanError::Validation`] or [`VulkanError::Call`].
     pub fn run(&self, pass: &Pass) -> Result<Timings, VulkanError> {
         let shared = &*self.shared;
         for dispatch in &pass.dispatches {

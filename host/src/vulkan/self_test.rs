@@ -44,10 +44,6 @@ pub struct Finding {
 
 impl Device {
     /// Runs the self-test.
-    ///
-    /// # Errors
-    /// Those of [`Device::kernel`], [`Device::upload`] and [`Device::run`]; differing answers are a verdict, not an
-    /// error.
     pub fn self_test(&self) -> Result<Exactness, VulkanError> {
         let operands = operands(TRIPLES);
         let cpu = answers_of_cpu(&operands);
@@ -143,18 +139,12 @@ mod tests {
     }
 
     #[test]
-    fn equal_answers_are_exact() {
-        let operands = operands(100);
-        let cpu = answers_of_cpu(&operands);
-        let verdict = judge(&operands, &cpu, &cpu);
-        assert!(verdict.exact && verdict.defects.is_empty() && verdict.freedoms.is_empty());
-        assert_eq!(verdict.to_string(), "exact");
-    }
-
-    #[test]
     fn flushing_is_reported_and_allowed() {
         let operands = operands(100);
         let cpu = answers_of_cpu(&operands);
+        let verdict = judge(&operands, &cpu, &cpu);
+        assert!(verdict.exact && verdict.freedoms.is_empty());
+        assert_eq!(verdict.to_string(), "exact");
         let mut device = cpu.clone();
         device[position("denormal_result")] = 0;
         let verdict = judge(&operands, &cpu, &device);
@@ -189,12 +179,5 @@ mod tests {
             verdict.to_string().starts_with("NOT exact: it fuses"),
             "{verdict}"
         );
-    }
-
-    #[test]
-    fn an_unwritten_answer_is_a_defect() {
-        let operands = operands(10);
-        let cpu = answers_of_cpu(&operands);
-        assert!(!judge(&operands, &cpu, &vec![super::super::UNWRITTEN; cpu.len()]).exact);
     }
 }

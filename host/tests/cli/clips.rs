@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::model::{self, FLOOR, Keys, LAMP, OUTSIDE};
-use crate::program::{Folder, json as report, refused, run};
+use crate::model::{self, Keys, LAMP, OUTSIDE};
+use crate::program::{Folder, refused, run};
 
 const SMALL: &str = "--width 16 --height 12 --spp 1";
 
@@ -20,73 +20,6 @@ fn said(line: &str) -> String {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{line}: {said}");
     said
-}
-
-/// One jump, which lasts a frame, of the last of many long clips.
-#[test]
-fn a_lamp_that_jumps_once_in_one_of_many_clips_is_found() {
-    let folder = Folder::new("jump");
-    let still = || {
-        vec![Keys::new(
-            FLOOR,
-            "translation",
-            &[(0.0, [0.0; 3]), (4.0, [0.0, 0.1, 0.0])],
-        )]
-    };
-    let mut clips: Vec<model::Clip> = (0..100).map(|k| (format!("clip {k}"), still())).collect();
-    let low = [0.0, 2.0, 0.0];
-    let jump = [
-        (0.0, low),
-        (0.1, low),
-        (0.12, [0.0, 3.0, 0.0]),
-        (0.14, low),
-        (4.0, low),
-    ];
-    clips[99].1.push(Keys::new(LAMP, "translation", &jump));
-    let path = model::write(&folder, "jump", &clips, |_| ());
-    let found = report(&format!("inspect {path} --json --points 4"));
-    assert_eq!(found["motion"]["moving"], 1, "{}", found["motion"]);
-    assert_eq!(found["model"]["updates"], "instances");
-}
-
-#[test]
-fn clips_that_are_not_looked_at_are_told() {
-    let folder = Folder::new("not-looked-at");
-    let mut clips: Vec<model::Clip> = (0..253)
-        .map(|k| (format!("clip {k}"), moved(FLOOR, 0.1)))
-        .collect();
-    // The third of those that are left out goes back in time.
-    clips[3].0 = String::from("\u{1b}[31mbad");
-    clips[3].1[0].keys.reverse();
-    let path = model::write(&folder, "many", &clips, |_| ());
-    let output = run(&format!("inspect {path} --points 4"));
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(output.status.success(), "{text}");
-    assert!(
-        text.contains("2 animations beyond the first 250 were not looked at"),
-        "{text}"
-    );
-    assert!(
-        text.contains(r#"animation 3 "\u{1b}[31mbad" is left out"#),
-        "{text}"
-    );
-    let found = report(&format!("inspect {path} --json --points 4"));
-    assert_eq!(found["motion"]["beyond"], 2);
-    let all = found["animations"].as_array().expect("animations");
-    assert_eq!((all.len(), &all[3]["number"]), (253, &json!(3)));
-    assert_eq!(
-        (&all[0]["shown"], &all[1]["shown"]),
-        (&json!(true), &json!(false))
-    );
-    // More keys of lamps than are looked at.
-    let keys: Vec<(f32, [f32; 3])> = (0..9000_u16)
-        .map(|k| (0.1 * f32::from(k), [0.0, 2.0, 0.0]))
-        .collect();
-    let clips = [0, 1].map(|k| (format!("clip {k}"), vec![Keys::new(LAMP, "translation", &keys)]));
-    let path = model::write(&folder, "long", &clips, |_| ());
-    let output = run(&format!("inspect {path} --points 4"));
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(text.contains("were not all looked at"), "{text}");
 }
 
 #[test]
@@ -108,7 +41,7 @@ fn a_clip_outside_of_the_scene_is_named() {
         let said = refused(&format!("render {path} {SMALL} --animation {word} -o {image}"));
         assert!(said.contains("moves nothing of the scene"), "{word}: {said}");
     }
-    // What is named again is accepted.
+    // An animation may be named again.
     let twice = "--animation left --animation left --animation 1";
     said_nothing_of(
         &said(&format!("render {path} {SMALL} {twice} -o {image}")),
@@ -151,7 +84,7 @@ fn long_names_are_cut_in_texts() {
     );
 }
 
-/// What a file says may hold what a terminal obeys.
+/// Texts of a file may hold control characters.
 #[test]
 fn what_a_terminal_obeys_is_not_printed() {
     let folder = Folder::new("terminal");

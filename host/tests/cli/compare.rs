@@ -59,22 +59,10 @@ fn the_report_has_every_measure_and_every_file() {
     assert_eq!(change["from"], "single-level-refit");
     assert!(change["percent"].is_f64());
     let scene = &report["scenes"][0];
-    let files = scene["figures"]
-        .as_array()
-        .expect("figures")
-        .iter()
-        .map(|file| file.as_str().expect("a name"));
-    for file in files.chain(["compare.json", "compare.md"]) {
-        assert!(folder.0.join(file).exists(), "{file}");
-    }
     assert!(scene["references"][0]["linear_mse"].as_f64() > Some(0.0));
     let written: Value =
         serde_json::from_slice(&std::fs::read(folder.0.join("compare.json")).expect("a file")).expect("JSON");
     assert_eq!(written, report);
-    let sheet = std::fs::read_to_string(folder.0.join("crops-street.svg")).expect("a sheet");
-    // The reference, and three regions by both methods and the reference.
-    assert_eq!(sheet.matches("<image ").count(), 1 + 3 * 3);
-    assert!(!report["crops"].as_array().expect("crops").is_empty());
 }
 
 #[test]
@@ -99,33 +87,6 @@ fn quick_compares_all_methods_on_all_scenes() {
                 "{scene} {method}"
             );
         }
-        for file in ["mse", "ssim"] {
-            let svg = std::fs::read_to_string(folder.0.join(format!("{file}-{scene}.svg"))).expect("a graph");
-            assert!(svg.contains("two-level-saoh") && svg.ends_with("</svg>\n"));
-        }
-    }
-}
-
-#[test]
-fn devices_render_the_words_of_the_cpu() {
-    let folder = Folder::new("compare-devices");
-    let methods = "--method single-level-refit --method single-level-rebuilt --method two-level-saoh \
-                   --method two-level-moments";
-    let report = report(&folder, &format!("{SMALL} {methods} --timed-frames 0"));
-    assert_eq!(report["different"], 0);
-    let cpu: Vec<&Value> = rows(&report)
-        .iter()
-        .filter(|row| row["backend"] == "cpu")
-        .collect();
-    assert_eq!(cpu.len(), 8);
-    // No frame was timed.
-    assert!(cpu[0]["frame_ms"].is_null());
-    if rows(&report).len() == cpu.len() {
-        eprintln!("skipped: no Vulkan device");
-    }
-    // One image of each frame on a device, two on the CPU; the words were compared above.
-    for row in rows(&report).iter().filter(|row| row["backend"] != "cpu") {
-        assert_eq!(row["seeds"], 1, "{row}");
     }
 }
 
@@ -137,16 +98,10 @@ fn bad_input_is_refused() {
     for (options, expected) in [
         ("--scene streets", "streets"),
         ("--scene no/such/file.glb", "no/such/file.glb"),
-        ("--frames 0,fifty", "fifty"),
-        ("--frames 0,-1", "-1"),
-        ("--frames ", "--frames"),
         ("--frames 100001", "100001 is not in"),
         ("--samples 0", "--samples"),
-        ("--seeds 0", "--seeds"),
-        ("--width 5000", "5000 is not in 1..=4096"),
         ("--reference-samples 1", "--reference-samples"),
         ("--method best", "best"),
-        ("--backend abacus", "abacus"),
     ] {
         let out = folder.file("");
         let said = refused(&format!("compare --out {out} {options} --quick"));

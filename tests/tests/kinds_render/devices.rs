@@ -14,14 +14,8 @@ fn every_kind_and_paint_have_the_same_words_on_every_device() {
 
 /// That a device has the CPU's words of a scene, by every sampler, directly, of several candidates, and by paths.
 fn same_on(device: &Device, scene: &Scene) {
-    let settings = RenderSettings {
-        width: 40,
-        height: 25,
-        samples: 2,
-        ..SETTINGS
-    };
-    let arrays = arrays(scene, &settings);
-    let params = settings.params([0.2, 0.3, 0.4]);
+    let params = render_params((40, 25), 2, 5, [0.2, 0.3, 0.4]);
+    let arrays = arrays(scene, &params);
     let (two_level, _) = Instances::<AnyLight>::new(scene, 0, BuildParams::default()).expect("sound");
     for sampler in Sampler::ALL {
         let bvh: Bvh<Kinds, WIDTH> = match sampler {
@@ -34,7 +28,7 @@ fn same_on(device: &Device, scene: &Scene) {
         let direct = candidates.map(|(candidates, scattered)| (Integrator::Direct, candidates, scattered));
         let paths = [1, 4].map(|bounces| (Integrator::Path { bounces }, 1, 0));
         for (integrator, candidates, scattered) in direct.into_iter().chain(paths) {
-            let params = lightbvh_kernels::render::RenderParams {
+            let params = RenderParams {
                 candidates,
                 scattered,
                 ..params

@@ -18,8 +18,9 @@ use lightbvh_host::scene::{
 };
 use lightbvh_host::vulkan::{Device, Options};
 use lightbvh_host::words::compare_words;
-use lightbvh_host::workload::{RenderSettings, arrays_lit_by, build};
+use lightbvh_host::workload::{arrays_lit_by, build, render_params};
 use lightbvh_kernels::bvh::{Kinds, WIDTH};
+use lightbvh_kernels::render::RenderParams;
 use lightbvh_tests::devices::on_each_device;
 
 use crate::profiles;
@@ -65,16 +66,8 @@ pub fn down(translation: [f32; 3]) -> Transform {
     }
 }
 
-pub const SETTINGS: RenderSettings = RenderSettings {
-    frame: 0,
-    width: 32,
-    height: 32,
-    samples: 64,
-    seed: 5,
-};
-
-pub fn arrays(scene: &Scene, settings: &RenderSettings) -> SceneArrays<AnyLight> {
-    arrays_lit_by(scene, settings.frame, settings.width, settings.height).expect("a frame")
+pub fn arrays(scene: &Scene, params: &RenderParams) -> SceneArrays<AnyLight> {
+    arrays_lit_by(scene, 0, params.width, params.height).expect("a frame")
 }
 
 /// Mean of an image, and its standard error.
@@ -188,14 +181,8 @@ pub fn open_room() -> Scene {
 
 /// That the images of all samplers agree, of direct light and of paths.
 pub fn agree(scene: &Scene) {
-    let settings = RenderSettings {
-        width: 48,
-        height: 36,
-        samples: 256,
-        ..SETTINGS
-    };
-    let arrays = arrays(scene, &settings);
-    let params = settings.params([0.05; 3]);
+    let params = render_params((48, 36), 256, 5, [0.05; 3]);
+    let arrays = arrays(scene, &params);
     for integrator in [Integrator::Direct, Integrator::Path { bounces: 3 }] {
         let images: Vec<Vec<[f32; 3]>> = Sampler::ALL
             .iter()

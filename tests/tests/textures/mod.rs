@@ -18,12 +18,12 @@ use lightbvh_host::scene::{
     AnalyticKind, AnalyticLight, Camera, IN_PLACE, Instances, Material, Mesh, Node, Opacity, Paint, Picture,
     Primitive, Scene, SceneData, Texture, Transform, Wrap,
 };
-use lightbvh_host::workload::build;
+use lightbvh_host::workload::{build, render_params};
 use lightbvh_kernels::bvh::{Kinds, WIDTH};
 use lightbvh_kernels::shading::picture::{Picture as Words, PictureWords};
 use lightbvh_kernels::shading::skin::{HEADER_WORDS, SRGB_WORDS};
 
-use crate::kinds_render::{SETTINGS, agree, arrays, at, down, mean, node, open_room};
+use crate::kinds_render::{agree, arrays, at, down, mean, node, open_room};
 
 /// What a painted floor reflects of the light that falls on it: its diffuse part, and at most this of gloss.
 const GLOSS: f64 = 0.04 * 7.0 / 8.0;
@@ -134,7 +134,8 @@ pub fn along(d: [f64; 3]) -> Transform {
 
 /// Every way to render the scene: the mean of each channel, and its standard error.
 fn images(scene: &Scene) -> Vec<(String, [f64; 3], [f64; 3])> {
-    let arrays = arrays(scene, &SETTINGS);
+    let base = render_params((32, 32), 64, 5, [0.0; 3]);
+    let arrays = arrays(scene, &base);
     let mut found = Vec::new();
     for sampler in Sampler::ALL {
         let bvh: Bvh<Kinds, WIDTH> = match sampler {
@@ -150,7 +151,7 @@ fn images(scene: &Scene) -> Vec<(String, [f64; 3], [f64; 3])> {
             let params = lightbvh_kernels::render::RenderParams {
                 candidates,
                 scattered,
-                ..SETTINGS.params([0.0; 3])
+                ..base
             };
             let image = cpu
                 .render(&arrays, &params, sampler, integrator)

@@ -50,9 +50,6 @@ struct Variance {
 }
 
 /// Measures all scenes, or those of a quick run.
-///
-/// # Errors
-/// [`HostError::Rebuild`] if a build panics.
 pub(super) fn rows(is_quick: bool) -> Result<Vec<Row>, HostError> {
     scenes::scenes(is_quick).into_iter().map(measure).collect()
 }

@@ -1,9 +1,9 @@
-//! The passes, timed: through a backend, and by the library alone.
+//! The passes, timed.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use lightbvh::{Lights, Random64, SampledLight, ShadingPoint};
+use lightbvh::{Random64, SampledLight, ShadingPoint};
 use lightbvh_kernels::query::Query;
 use rayon::prelude::*;
 
@@ -60,28 +60,13 @@ pub(super) fn passes<B: Backend>(
     Ok(times)
 }
 
-/// The passes by the library alone, on this thread.
-pub(super) fn library_passes(mut bvh: Bvh, lights: &Lights, queries: &[Query]) -> Times {
-    let mut sampled = vec![SampledLight::NONE; queries.len()];
-    let mut pmfs = vec![0.0; queries.len()];
-    let refit = measure(|| bvh.follow(lights).expect("the lights that it was built over"));
-    let sample = measure(|| {
-        for (query, out) in queries.iter().zip(&mut sampled) {
-            *out = bvh.sample(&query.point, number(query));
-        }
-    });
-    let pmf = measure(|| {
-        for ((query, sampled), out) in queries.iter().zip(&sampled).zip(&mut pmfs) {
-            *out = bvh.pmf(&query.point, sampled.light, sampled.instance);
-        }
-    });
-    black_box((&sampled, &pmfs));
-    Times { refit, sample, pmf }
-}
-
 /// Samples in batches, by the threads of the current pool.
 pub(super) fn batches(bvh: &Bvh, queries: &[Query]) -> Vec<Duration> {
     let points: Vec<ShadingPoint> = queries.iter().map(|query| query.point).collect();
+    let number = |query: &Query| Random64 {
+        high: query.words[0],
+        low: query.words[1],
+    };
     let randoms: Vec<Random64> = queries.iter().map(number).collect();
     let mut sampled = vec![SampledLight::NONE; queries.len()];
     let times = measure(|| {
@@ -93,14 +78,6 @@ pub(super) fn batches(bvh: &Bvh, queries: &[Query]) -> Vec<Duration> {
     });
     black_box(&sampled);
     times
-}
-
-/// The number of a query of `sample`.
-fn number(query: &Query) -> Random64 {
-    Random64 {
-        high: query.words[0],
-        low: query.words[1],
-    }
 }
 
 pub(super) fn measure(mut work: impl FnMut()) -> Vec<Duration> {

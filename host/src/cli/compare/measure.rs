@@ -2,41 +2,31 @@
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hasher};
-use std::time::Duration;
 
 use bytemuck::cast_slice;
 use indicatif::ProgressBar;
 
-use super::frames::Frames;
 use super::plan::{BLOCK, Plan};
+use crate::backend::SceneArrays;
 use crate::cli::measure::reference::Reference;
 use crate::cli::measure::times::ms;
 use crate::error::HostError;
-use crate::method::{Method, Runner, Target, UpdateTimes};
+use crate::method::{Method, Runner, Step, Target, UpdateTimes};
 use crate::metrics::Quality;
 use crate::render::Film;
-use crate::workload::RenderSettings;
+use crate::scene::Scene;
+use crate::workload::{arrays_at, render_params};
 
 /// Seed of images that are rendered for their time.
 const TIMING_SEED: u32 = (1 << 31) - 1;
 
-/// The times of a frame, milliseconds.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct FrameTimes {
-    pub refit_ms: f64,
-    pub rebuild_ms: f64,
-    pub wait_ms: f64,
-    pub image_ms: f64,
-}
-
-/// What there is to know about the methods on one backend.
-#[derive(Default)]
+/// Results of the methods on one backend.
+#[derive(Clone, Default)]
 pub(super) struct Results {
     /// By method, frame and seed: how good an image is, and the hash of its words, equal on all exact devices.
     pub images: BTreeMap<(Method, u32, u32), (Quality, u64)>,
-    pub times: BTreeMap<Method, Vec<FrameTimes>>,
-    /// The images of the last frame with the first seed.
-    pub films: BTreeMap<Method, Film>,
+    /// By method: refit, rebuild, wait and image of each timed frame, ms.
+    pub times: BTreeMap<Method, Vec<[f64; 4]>>,
 }
 
 impl Results {
@@ -52,6 +42,7 @@ impl Results {
 /// One scene on one backend.
 pub(super) struct Job<'a, 'd> {
     pub plan: &'a Plan,
+    pub scene: &'a Scene,
     pub references: &'a [Reference],
     pub target: Target<'d>,
     /// Images per frame, and blocks that are timed.
@@ -60,133 +51,82 @@ pub(super) struct Job<'a, 'd> {
     pub progress: &'a ProgressBar,
 }
 
-/// A method at work.
-struct Lane<'d> {
-    method: Method,
-    runner: Option<Box<dyn Runner + 'd>>,
-}
+type Lane<'d> = (Method, Option<Box<dyn Runner + 'd>>);
 
 impl<'d> Job<'_, 'd> {
-    /// Measures all methods.
-    pub fn run(&self, frames: &mut Frames<'_>) -> Result<Results, HostError> {
+    /// Measures all methods, block by block.
+    pub fn run(&self) -> Result<Results, HostError> {
         let mut results = Results::default();
-        let lane = |&method: &Method| Lane { method, runner: None };
-        let mut lanes: Vec<Lane<'d>> = self.plan.methods.iter().map(lane).collect();
+        let mut lanes: Vec<Lane<'d>> = self.plan.methods.iter().map(|&method| (method, None)).collect();
         for block in 0..=self.plan.last() / BLOCK {
+            let mut arrays = BTreeMap::new();
             for lane in &mut lanes {
-                self.block(lane, block, frames, &mut results)?;
+                self.block(lane, block, &mut arrays, &mut results)?;
             }
-            frames.clear();
         }
         Ok(results)
     }
 
-    /// One method over one block of frames.
+    /// One method over one block of frames, whose arrays all methods share.
     fn block(
         &self,
-        lane: &mut Lane<'d>,
+        (method, lane): &mut Lane<'d>,
         block: u32,
-        frames: &mut Frames<'_>,
+        arrays: &mut BTreeMap<u32, SceneArrays>,
         results: &mut Results,
     ) -> Result<(), HostError> {
+        let (plan, scene) = (self.plan, self.scene);
         let is_timed = self.blocks.contains(&block);
-        let mut times = Vec::new();
-        for frame in block * BLOCK..=self.plan.last().min(block * BLOCK + BLOCK - 1) {
-            let runner = match &mut lane.runner {
-                Some(runner) => runner,
-                none => {
-                    frames.prepare(frame, false)?;
-                    let recipe = lane.method.recipe();
-                    none.insert(recipe.runner(&frames.step(frame), self.target)?)
+        for frame in block * BLOCK..=plan.last().min(block * BLOCK + BLOCK - 1) {
+            let shown = plan.frames.iter().position(|&own| own == frame);
+            let idle = shown.is_none() && !is_timed;
+            if idle && frame > 0 && lane.as_ref().is_some_and(|runner| runner.may_skip()) {
+                continue;
+            }
+            let arrays = match arrays.entry(frame) {
+                std::collections::btree_map::Entry::Occupied(own) => own.into_mut(),
+                std::collections::btree_map::Entry::Vacant(none) => {
+                    none.insert(arrays_at(scene, frame, plan.width, plan.height)?)
                 }
             };
-            let is_shown = self.plan.frames.contains(&frame);
-            let idle = !is_shown && !is_timed;
-            if idle && (frame == 0 || runner.may_skip()) {
-                continue;
-            }
-            frames.prepare(frame, !idle)?;
-            let step = frames.step(frame);
-            // What begins at frame 0 is there already.
-            let update = if frame == 0 {
-                UpdateTimes::default()
-            } else {
-                runner.advance(&step)?
+            let step = Step::new(scene, frame, &arrays.lights);
+            // The first frame's structures are built already.
+            let update = match lane.as_mut() {
+                Some(runner) => runner.advance(&step)?,
+                None => UpdateTimes::default(),
             };
-            if idle {
-                continue;
+            if lane.is_none() {
+                *lane = Some(method.recipe().runner(&step, self.target)?);
             }
-            let (scene, method) = (step.scene.name(), lane.method.name());
-            self.progress.set_message(format!(
-                "{scene} frame {frame}: {method} on {}",
-                self.target.name()
-            ));
-            let arrays = frames.arrays(frame);
+            let Some(runner) = lane.as_mut() else { continue };
+            let (name, on) = (method.name(), self.target.name());
+            self.progress
+                .set_message(format!("{} frame {frame}: {name} on {on}", scene.name()));
+            let mut image = |seed| {
+                let params = render_params(plan.size(), plan.samples, seed, scene.data().background);
+                self.progress.inc(plan.work(plan.samples));
+                runner.image(&step, arrays, &params)
+            };
             if is_timed {
-                let image = runner.image(&step, arrays, &self.settings(frame, TIMING_SEED))?;
-                self.progress.inc(self.plan.work(self.plan.samples));
+                let image = ms(image(TIMING_SEED)?.time);
                 // The first frame of a block follows other methods' work, see `BLOCK`.
                 if frame > block * BLOCK {
-                    times.push(FrameTimes::new(&update, image.time));
+                    let [refit, rebuild, wait] = [update.refit, update.rebuild, update.wait].map(ms);
+                    let times = results.times.entry(*method).or_default();
+                    times.push([refit, rebuild, wait, image]);
                 }
             }
-            for seed in 0..if is_shown { self.seeds } else { 0 } {
-                let image = runner.image(&step, arrays, &self.settings(frame, seed))?;
-                self.progress.inc(self.plan.work(self.plan.samples));
-                self.keep((lane.method, frame, seed), image.value, results)?;
+            let Some(at) = shown else { continue };
+            for seed in 0..self.seeds {
+                let image = image(seed)?.value;
+                let mut words = DefaultHasher::new();
+                words.write(cast_slice(&image));
+                let film = Film::new(plan.width, plan.height, image)?;
+                let quality = self.references[at].judge.judge(&film)?.quality;
+                let own = (quality, words.finish());
+                results.images.insert((*method, frame, seed), own);
             }
         }
-        if is_timed {
-            results.times.entry(lane.method).or_default().extend(times);
-        }
         Ok(())
-    }
-
-    /// Measures an image.
-    fn keep(
-        &self,
-        (method, frame, seed): (Method, u32, u32),
-        image: Vec<[f32; 3]>,
-        results: &mut Results,
-    ) -> Result<(), HostError> {
-        let mut words = DefaultHasher::new();
-        words.write(cast_slice(&image));
-        let film = Film::new(self.plan.width, self.plan.height, image)?;
-        let at = self.plan.frames.iter().position(|&own| own == frame);
-        let quality = self.references[at.unwrap_or(0)].judge.quality(&film)?;
-        // For close-ups.
-        if frame == self.plan.last() && seed == 0 {
-            results.films.insert(method, film);
-        }
-        results
-            .images
-            .insert((method, frame, seed), (quality, words.finish()));
-        Ok(())
-    }
-
-    fn settings(&self, frame: u32, seed: u32) -> RenderSettings {
-        RenderSettings {
-            frame,
-            width: self.plan.width,
-            height: self.plan.height,
-            samples: self.plan.samples,
-            seed,
-        }
-    }
-}
-
-impl FrameTimes {
-    fn new(update: &UpdateTimes, image: Duration) -> Self {
-        Self {
-            refit_ms: ms(update.refit),
-            rebuild_ms: ms(update.rebuild),
-            wait_ms: ms(update.wait),
-            image_ms: ms(image),
-        }
-    }
-
-    /// The whole frame: what the frame's own thread does, one after the other.
-    pub fn frame_ms(&self) -> f64 {
-        self.refit_ms + self.wait_ms + self.image_ms
     }
 }

@@ -1,42 +1,38 @@
-//! `lightbvh compare`: the paper's comparison. Table 1 (errors), Figures 4 and 5 (errors over frames), Figure 6
-//! (close-ups) and Table 2 (times), for every method that there is.
+//! `lightbvh compare`: the paper's comparison. Table 1 (errors over frames) and Table 2 (times), for every method that
+//! there is.
 
-mod crops;
-mod frames;
-mod graphs;
 mod measure;
 mod plan;
-mod reference;
 mod report;
 mod summary;
 
-use std::path::Path;
-
 use indicatif::ProgressBar;
-use serde_json::{Value, json};
+use lightbvh::BuildParams;
+use serde_json::json;
 
+use super::measure::reference::Reference;
 use super::{Context, Outcome, devices, progress, table, target};
+use crate::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler};
 use crate::cli::table::news;
 use crate::error::HostError;
 use crate::method::Target;
 use crate::scene::Scene;
 use crate::vulkan::VulkanError;
+use crate::workload::{arrays_at, build, render_params};
 
-use frames::Frames;
-use measure::{Job, Results};
+use measure::Job;
 pub(super) use plan::Args;
 use plan::{BLOCK, Backends, Plan, timed_blocks};
-use reference::{Noise, references};
-use report::{Report, SceneReport};
+use report::{Noise, Report, SceneReport};
 use summary::summarize;
+
+/// Seeds from here on belong to references, so that these share no random numbers with the images measured against them.
+const FIRST_SEED: u32 = 1 << 31;
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let plan = args.plan();
-    let scenes = plan
-        .scenes
-        .iter()
-        .map(|name| args.reading.open(name))
-        .collect::<Result<Vec<_>, _>>()?;
+    let scenes = plan.scenes.iter().map(|name| args.reading.open(name));
+    let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
     for scene in &scenes {
         scene.require_lights()?;
         for warning in scene.warnings().iter().chain(&scene.unknown_lights()) {
@@ -48,42 +44,34 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         Backends::Vulkan | Backends::All => devices::open(context)?,
     };
     let cpu = (plan.backends != Backends::Vulkan).then_some(Target::Cpu);
-    let targets: Vec<Target<'_>> = cpu
-        .into_iter()
-        .chain(opened.iter().map(|o| Target::Device(&o.device)))
-        .collect();
+    let on_devices = opened.iter().map(|o| Target::Device(&o.device));
+    let targets: Vec<Target<'_>> = cpu.into_iter().chain(on_devices).collect();
     target::folder(&args.out)?;
-    let mut run = Run {
-        plan: &plan,
-        progress: progress::bar(
-            0,
-            "{bar:30} {percent:>3} % {elapsed} passed, {eta} left  {wide_msg}",
-            false,
-        ),
-        report: Report {
-            settings: settings(&plan),
-            notes: &report::NOTES,
-            scenes: Vec::new(),
-            rows: Vec::new(),
-            averages: Vec::new(),
-            crops: Vec::new(),
-            different: 0,
-        },
-    };
     if targets.is_empty() {
         return Err(VulkanError::NoDevice {
             notes: "--backend vulkan needs one".to_owned(),
         }
         .into());
     }
-    run.progress
-        .set_length(scenes.len() as u64 * all_work(&plan, &targets));
-    let stems = target::stems(plan.scenes.iter().map(String::as_str));
-    for (scene, stem) in scenes.iter().zip(stems) {
-        run.scene(scene, &stem, &targets, &args.out)?;
+    let mut report = Report {
+        settings: json!({
+            "scenes": plan.scenes, "frames": plan.frames, "samples": plan.samples, "seeds": plan.seeds,
+            "width": plan.width, "height": plan.height, "reference_samples": plan.reference_samples,
+            "timed_frames": plan.timed_frames, "timed_on_devices": plan.timed_on_devices, "methods": plan.methods,
+            "cpu_threads": rayon::current_num_threads(),
+        }),
+        notes: &report::NOTES,
+        scenes: Vec::new(),
+        rows: Vec::new(),
+        averages: Vec::new(),
+        different: 0,
+    };
+    let template = "{bar:30} {percent:>3} % {elapsed} passed, {eta} left  {wide_msg}";
+    let progress = progress::bar(scenes.len() as u64 * all_work(&plan, &targets), template, false);
+    for scene in &scenes {
+        compare(&plan, scene, &targets, &progress, &mut report)?;
     }
-    run.progress.finish_and_clear();
-    let report = run.report;
+    progress.finish_and_clear();
     drop(targets);
     devices::close(opened)?;
 
@@ -101,78 +89,70 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::good_if(report.different == 0))
 }
 
-struct Run<'p> {
-    plan: &'p Plan,
-    progress: ProgressBar,
-    report: Report,
+/// Compares all methods over a scene on all targets.
+fn compare(
+    plan: &Plan,
+    scene: &Scene,
+    targets: &[Target<'_>],
+    progress: &ProgressBar,
+    report: &mut Report,
+) -> Result<(), HostError> {
+    let references = references(plan, scene, progress)?;
+    let mut first = None;
+    for &target in targets {
+        let job = Job {
+            plan,
+            scene,
+            references: &references,
+            target,
+            seeds: seeds(plan, &target),
+            blocks: blocks(plan, &target),
+            progress,
+        };
+        let results = job.run()?;
+        let (rows, averages) = summarize(plan, scene.name(), target.name(), &results);
+        report.rows.extend(rows);
+        report.averages.extend(averages);
+        report.different += results.different_from(first.get_or_insert(results.clone()));
+    }
+    let noise = plan.frames.iter().zip(&references);
+    report.scenes.push(SceneReport {
+        scene: scene.name().to_owned(),
+        exposure: references[0].judge.exposure(),
+        references: noise
+            .map(|(&frame, reference)| Noise {
+                frame,
+                samples: plan.reference_samples,
+                mse: reference.noise,
+                linear_mse: reference.linear_noise,
+            })
+            .collect(),
+    });
+    Ok(())
 }
 
-impl Run<'_> {
-    fn scene(
-        &mut self,
-        scene: &Scene,
-        stem: &str,
-        targets: &[Target<'_>],
-        folder: &Path,
-    ) -> Result<(), HostError> {
-        let plan = self.plan;
-        let mut frames = Frames::new(scene, plan.size());
-        let references = references(&mut frames, plan, &self.progress)?;
-        let jobs: Vec<Job<'_, '_>> = targets
-            .iter()
-            .map(|&target| Job {
-                plan,
-                references: &references,
-                target,
-                seeds: seeds(plan, &target),
-                blocks: blocks(plan, &target),
-                progress: &self.progress,
-            })
-            .collect();
-        let all = jobs
-            .iter()
-            .map(|job| job.run(&mut frames))
-            .collect::<Result<Vec<Results>, _>>()?;
-
-        let mut figures = Vec::new();
-        for (target, results) in targets.iter().zip(&all) {
-            let (rows, averages) = summarize(plan, scene.name(), target.name(), results);
-            // All backends show the same images, so one gives the figures.
-            if figures.is_empty() {
-                figures = graphs::write(folder, plan, stem, &rows)?;
-            }
-            self.report.rows.extend(rows);
-            self.report.averages.extend(averages);
-            self.report.different += results.different_from(&all[0]);
-        }
-        let crops = format!("crops-{stem}.svg");
-        let (last, films) = (&references[references.len() - 1], &all[0].films);
-        self.report.crops.extend(crops::write(
-            &folder.join(&crops),
-            plan,
-            scene.name(),
-            &last.judge,
-            films,
-        )?);
-        figures.push(crops);
-        self.report.scenes.push(SceneReport {
-            scene: scene.name().to_owned(),
-            exposure: last.judge.exposure(),
-            references: plan
-                .frames
-                .iter()
-                .zip(&references)
-                .map(|(&frame, reference)| Noise {
-                    frame,
-                    samples: plan.reference_samples,
-                    mse: reference.noise,
-                    linear_mse: reference.linear_noise,
-                })
-                .collect(),
-            figures,
-        });
-        Ok(())
+/// The references of all measured frames, displayed at the exposure of the first.
+fn references(plan: &Plan, scene: &Scene, progress: &ProgressBar) -> Result<Vec<Reference>, HostError> {
+    let mut exposure = None;
+    let mut references = Vec::new();
+    for &frame in &plan.frames {
+        progress.set_message(format!("{} frame {frame}: reference", scene.name()));
+        let arrays = arrays_at(scene, frame, plan.width, plan.height)?;
+        let bvh: Bvh = build(&arrays.lights, Sampler::TwoLevel, &BuildParams::default());
+        let mut cpu: CpuBackend = CpuBackend::new(bvh);
+        let mut half = |half| {
+            let samples = plan.reference_samples / 2;
+            let background = scene.data().background;
+            let params = render_params(plan.size(), samples, FIRST_SEED + half, background);
+            cpu.render(&arrays, &params, Sampler::TwoLevel, Integrator::Direct)
+        };
+        let halves = [half(0)?.value, half(1)?.value];
+        progress.inc(plan.work(plan.reference_samples));
+        let reference = Reference::new(plan.size(), halves, exposure)?;
+        exposure = Some(reference.judge.exposure());
+        references.push(reference);
     }
+    Ok(references)
 }
 
 /// The work of a scene: its references, and every method's images on every backend.
@@ -201,12 +181,4 @@ fn blocks(plan: &Plan, target: &Target<'_>) -> Vec<u32> {
         Target::Device(_) => plan.timed_on_devices,
     };
     timed_blocks(plan.last(), timed)
-}
-
-fn settings(plan: &Plan) -> Value {
-    json!({
-        "scenes": plan.scenes, "frames": plan.frames, "samples": plan.samples, "seeds": plan.seeds,
-        "width": plan.width, "height": plan.height, "reference_samples": plan.reference_samples,
-        "timed_frames": plan.timed_frames, "timed_on_devices": plan.timed_on_devices, "methods": plan.methods, "cpu_threads": rayon::current_num_threads(),
-    })
 }

@@ -1,4 +1,4 @@
-//! What is compared, from the command line.
+//! The options of the comparison.
 
 use std::path::PathBuf;
 
@@ -45,7 +45,7 @@ pub(in crate::cli) struct Args {
     /// What renders; devices render one image of each frame [default: all, with --quick: cpu].
     #[arg(long, value_enum)]
     backend: Option<Backends>,
-    /// Folder for tables and figures; made if it is not there.
+    /// Folder for the tables; made if it is not there.
     #[arg(long, default_value = "compare", value_name = "DIR")]
     pub(super) out: PathBuf,
     /// Small images and few frames: a look within a minute. Other options still count.
@@ -63,7 +63,7 @@ pub(super) enum Backends {
     All,
 }
 
-/// What is compared.
+/// The comparison as the options give it.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     pub scenes: Vec<String>,
@@ -82,7 +82,7 @@ pub(super) struct Plan {
 }
 
 impl Args {
-    /// What is compared.
+    /// The comparison as the options give it.
     pub(super) fn plan(&self) -> Plan {
         let choose = |given: Option<u32>, usual: u32, quick: u32| {
             given.unwrap_or(if self.quick { quick } else { usual })

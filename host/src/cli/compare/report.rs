@@ -5,11 +5,9 @@ use std::fmt::Write;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::crops::Crop;
-use super::graphs::shown;
 use super::plan::Plan;
-use super::reference::Noise;
 use super::summary::{Average, Errors, Row};
+use crate::method::Method;
 
 /// Everything that came out.
 #[derive(Serialize)]
@@ -19,23 +17,30 @@ pub(super) struct Report {
     pub scenes: Vec<SceneReport>,
     pub rows: Vec<Row>,
     pub averages: Vec<Average>,
-    pub crops: Vec<Crop>,
     /// Images of devices with other words than the CPU's.
     pub different: u64,
 }
 
-/// What belongs to a scene as a whole.
+/// Figures of a scene as a whole.
 #[derive(Serialize)]
 pub(super) struct SceneReport {
     pub scene: String,
     pub exposure: f32,
     pub references: Vec<Noise>,
-    /// File names in the folder.
-    pub figures: Vec<String>,
 }
 
-/// What the tables say that numbers cannot.
-pub(super) const NOTES: [&str; 8] = [
+/// The noise of a reference.
+#[derive(Serialize)]
+pub(super) struct Noise {
+    pub frame: u32,
+    pub samples: u32,
+    /// Of the displayed bytes.
+    pub mse: f64,
+    pub linear_mse: f64,
+}
+
+/// Notes of the tables.
+pub(super) const NOTES: [&str; 7] = [
     "All methods trace the same number of shadow rays per pixel, through the same camera rays: what differs is the light that \
      each ray goes to.",
     "Methods with moments in their names choose lights by the default importance, over trees of 8 children to a node built \
@@ -49,7 +54,6 @@ pub(super) const NOTES: [&str; 8] = [
     "Refit and waiting and image times add up to the frame; a rebuild beside the frame counts only as far as the frame \
      waits for it. Image times of devices are the kernels' own where the device has a clock; transfers are left out.",
     "Rebuild times are of the CPU on every backend.",
-    "Close-ups are of the last frame with the first seed: the three regions where the methods' MSEs lie furthest apart.",
 ];
 
 /// A mean and half its confidence interval.
@@ -109,12 +113,9 @@ pub(super) fn markdown(plan: &Plan, report: &Report) -> String {
             ));
         }
         line("\n### Change of the MSE over the moving frames\n".to_owned());
-        line(changes(plan, report, scene));
+        line(changes(report, scene));
         line("### Table 2: milliseconds, averaged over the timed frames\n".to_owned());
         line(times(report, scene));
-        for file in &scene.figures {
-            line(format!("![{file}]({file})\n"));
-        }
     }
     line(format!(
         "Images of devices with other words than the CPU's: {}.",
@@ -167,9 +168,10 @@ fn errors(plan: &Plan, report: &Report, scene: &SceneReport, backend: &str) -> S
 }
 
 /// Of methods that can be told apart in percent; those without a tree are too far off, and in the JSON.
-fn changes(plan: &Plan, report: &Report, scene: &SceneReport) -> String {
+fn changes(report: &Report, scene: &SceneReport) -> String {
     let mut out = String::from("| backend | method | from | MSE |\n|---|---|---|---|\n");
-    let is_shown = |a: &&Average| a.scene == scene.scene && shown(plan).contains(&a.method);
+    let is_far = |method| matches!(method, Method::Uniform | Method::Power);
+    let is_shown = |a: &&Average| a.scene == scene.scene && !is_far(a.method);
     for average in report.averages.iter().filter(is_shown) {
         for change in &average.mse_change {
             out += &format!(

@@ -203,18 +203,16 @@ fn times(results: &Results, method: Method) -> Times {
     let Some(all) = results.times.get(&method) else {
         return Times::default();
     };
-    let estimate = |time: fn(&super::measure::FrameTimes) -> f64| {
-        let values: Vec<f64> = all.iter().map(time).collect();
-        Estimate::of(&values)
-    };
-    let frame = estimate(super::measure::FrameTimes::frame_ms);
-    let mean = |estimate: Option<Estimate>| estimate.map(|e| e.mean);
+    let mean = |at: usize| Some(all.iter().map(|times| times[at]).sum::<f64>() / all.len() as f64);
+    // The frame's own thread refits, waits and renders, one after the other.
+    let frame: Vec<f64> = all.iter().map(|times| times[0] + times[2] + times[3]).collect();
+    let frame = Estimate::of(&frame);
     Times {
-        refit_ms: mean(estimate(|t| t.refit_ms)),
-        rebuild_ms: mean(estimate(|t| t.rebuild_ms)),
-        wait_ms: mean(estimate(|t| t.wait_ms)),
-        image_ms: mean(estimate(|t| t.image_ms)),
-        frame_ms: mean(frame),
+        refit_ms: mean(0),
+        rebuild_ms: mean(1),
+        wait_ms: mean(2),
+        image_ms: mean(3),
+        frame_ms: frame.map(|e| e.mean),
         frame_ms_ci95: frame.and_then(|e| e.ci95),
         timed_frames: all.len(),
     }

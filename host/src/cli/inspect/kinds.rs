@@ -1,36 +1,93 @@
-//! A scene that no triangle lights: what its lights are, the tree over all of their kinds, and whether that tree serves.
+//! A scene that no triangle lights: its kinds of light, the tree over all of them, and whether that tree serves.
 
-use lightbvh::exact::hash;
 use lightbvh::importance::DefaultImportance;
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::node::{Holds, Lit, Node};
 use lightbvh::requirements::Declared;
 use lightbvh::{BuildParams, Lights, MomentNode, ShadingPoint};
-use lightbvh_kernels::bvh::{AnyNode, Kinds, WIDTH};
+use lightbvh_kernels::bvh::{AnyNode, WIDTH};
 use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
-use super::light_kinds::LightKinds;
-use super::motion::Motion;
-use super::options::Args;
-use super::report::line;
-use super::said::changes;
-use super::steps::{SAMPLES_IN_A_TURN, TURNS};
-use super::subject::time;
-use super::surfaces::Surfaces;
-use super::{MOST_PROBABILITIES, animations, declared};
-use crate::cli::measure::interval::Interval;
-use crate::cli::measure::times::in_turns;
+use super::{Args, changes, line};
 use crate::cli::measure::{NOT_MEASURED, kinds::irradiance_of, mean_of, points, variance};
 use crate::cli::{Context, Outcome, table};
 use crate::error::HostError;
 use crate::scene::{Instances, Scene};
 use crate::workload::lights_of;
 
-/// Without beams: for scenes none of whose lights has a cone.
-type Plain = Lit<MomentNode<WIDTH>, AnyLight>;
+/// Lights by their kind.
+pub(super) struct LightKinds {
+    /// How many of each, by [`AnyLight::kind`].
+    counts: [usize; 8],
+    /// How many send their light into a cone: spots and profiles of less than a right angle around their axis.
+    narrow: usize,
+}
 
-/// What was found of a tree.
+/// The kinds by their number: one, several, and the type.
+const NAMES: [[&str; 3]; 8] = [
+    ["triangle", "triangles", "EmissiveTriangle"],
+    ["point", "points", "PointLight"],
+    ["spot", "spots", "SpotLight"],
+    ["sphere", "spheres", "SphereLight"],
+    ["rectangle", "rectangles", "RectangleLight"],
+    ["disc", "discs", "DiscLight"],
+    ["box", "boxes", "BoxLight"],
+    ["profile", "profiles", "ProfileLight"],
+];
+
+impl LightKinds {
+    /// Of lights; those of kinds that are not known are not counted.
+    pub fn of(lights: &[AnyLight]) -> Self {
+        let (mut counts, mut narrow) = ([0; 8], 0);
+        for light in lights {
+            if let Some(count) = counts.get_mut(light.kind() as usize) {
+                *count += 1;
+            }
+            narrow += usize::from(light.has_flux() && light.beam().is_narrow());
+        }
+        Self { counts, narrow }
+    }
+
+    /// The type of the lights: the only kind that there is, or [`AnyLight`].
+    fn light_type(&self) -> &'static str {
+        let mut there = (0..8).filter(|&kind| self.counts[kind] > 0);
+        match (there.next(), there.next()) {
+            (Some(kind), None) => NAMES[kind][2],
+            _ => "AnyLight",
+        }
+    }
+
+    /// The type of a node `width` wide over all of them, as Rust has it. With cones
+    /// ([`SpotMomentNode`](lightbvh::node::SpotMomentNode)) where any light has one: without, points beside its cone choose it,
+    /// which costs variance and no bias.
+    pub fn node_type(&self, width: usize) -> String {
+        let layout = ["MomentNode", "SpotMomentNode"][usize::from(self.narrow > 0)];
+        match self.light_type() {
+            "EmissiveTriangle" => format!("{layout}<{width}>"),
+            light => format!("Lit<{layout}<{width}>, {light}>"),
+        }
+    }
+
+    /// How many there are of each, in words; empty where there is none.
+    fn said(&self) -> String {
+        let named = self.counts.iter().zip(NAMES).filter(|(count, _)| **count > 0);
+        let parts = named.map(|(count, names)| format!("{count} {}", names[usize::from(*count > 1)]));
+        parts.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The same, and how many have a cone.
+    pub fn cones(&self) -> String {
+        let (said, narrow) = (self.said(), self.narrow);
+        format!("{said}; {narrow} of them send their light into a cone of less than 90 degrees")
+    }
+
+    pub fn json(&self) -> Value {
+        json!({ "said": self.said(), "narrow": self.narrow, "light": self.light_type(), "node": self.node_type(WIDTH) })
+    }
+}
+
+/// Figures of a tree.
 #[derive(Serialize)]
 struct Checked {
     /// The invariant that does not hold, if any.
@@ -46,145 +103,97 @@ struct Checked {
     depth: u32,
     bytes_per_light: f64,
     memory_per_light: f64,
-    ns_per_sample: Interval,
 }
 
-impl Checked {
-    fn holds(&self) -> bool {
-        self.violation.is_none() && self.unreached == 0
-    }
-}
-
-/// The whole command for such a scene.
-pub(super) fn run(context: &Context, args: &Args, scene: &Scene) -> Result<Outcome, HostError> {
-    let parts = ["layout", "levels", "uniform share", "updates"];
-    if parts.iter().any(|part| args.asks_for(part)) {
-        return Err(HostError::Usage {
-            option: "--layout, --levels, --uniform or --updates",
-            needs: "a scene with emissive triangles; over lights of other kinds there is one tree to choose",
-        });
-    }
-    let motion = Motion::of::<Kinds>(scene)?;
-    let surfaces = Surfaces::of(scene);
-    let declared = declared(args, &motion);
-    // What is refitted is looked at after a refit.
-    let moved = args.frame + u32::from(declared.transforms);
-    let lights = lights_of::<AnyLight>(scene, moved)?;
-    let most = MOST_PROBABILITIES / lights.triangles().len().max(1);
-    let count = args.points.min((most as u32).max(1));
-    let points = points::on_surfaces(scene, moved, count);
+/// The rest of the command for such a scene, whose `report` and lines `about` it are begun.
+pub(super) fn run(
+    context: &Context,
+    args: &Args,
+    scene: &Scene,
+    (frames, declared): ([u32; 2], Declared),
+    (mut report, about): (Value, &str),
+) -> Result<Outcome, HostError> {
+    let lights = lights_of::<AnyLight>(scene, frames[1])?;
+    let count = lights.triangles().len();
+    let points = points::on_surfaces(scene, frames[1], args.points_for(count));
     let kinds = LightKinds::of(lights.triangles());
-    let checked = match (lights.triangles().len(), kinds.narrow) {
+    let checked = match (count, kinds.narrow) {
         // Suns and maps alone: there is nothing that a tree would choose among.
         (0, _) => None,
-        (_, 0) => Some(check::<Plain>(scene, [args.frame, moved], &lights, &points)?),
-        _ => Some(check::<AnyNode>(scene, [args.frame, moved], &lights, &points)?),
+        (_, 0) => Some(check::<Lit<MomentNode<WIDTH>, AnyLight>>(
+            scene, frames, &lights, &points,
+        )?),
+        _ => Some(check::<AnyNode>(scene, frames, &lights, &points)?),
     };
-    let holds = checked.as_ref().is_none_or(Checked::holds);
+    let holds = |own: &Checked| own.violation.is_none() && own.unreached == 0;
+    let holds = checked.as_ref().is_none_or(holds);
     let tree = format!("Bvh<{}, Defensive<Moments, 6>, {WIDTH}>", kinds.node_type(WIDTH));
     if context.json {
-        table::print_json(&json!({
-            "scene": scene.name(), "frame": args.frame, "checked_frame": moved, "lights": lights.triangles().len(),
-            "kinds": { "said": kinds.said(), "narrow": kinds.narrow, "light": kinds.light_type(), "node": kinds.node_type(WIDTH) },
-            "suns": scene.sun_count(), "environment": scene.data().environment.is_some(),
-            "motion": motion, "animations": animations(scene), "surfaces": surfaces, "tree": checked.as_ref().map(|_| tree), "checked": checked, "holds": holds,
-        }))?;
-    } else {
-        let about = About {
-            scene,
-            args,
-            declared,
-            motion: &motion,
-            surfaces,
-            kinds,
-        };
-        let mut text = about.required(lights.triangles().len());
-        if let Some(checked) = &checked {
-            text += &found(&tree, [args.frame, moved], checked);
-        }
-        table::print_text(&text)?;
+        report["lights"] = count.into();
+        report["kinds"] = kinds.json();
+        report["suns"] = scene.sun_count().into();
+        report["environment"] = scene.data().environment.is_some().into();
+        report["tree"] = checked.as_ref().map(|_| tree).into();
+        report["checked"] = json!(checked);
+        report["holds"] = holds.into();
+        table::print_json(&report)?;
+        return Ok(Outcome::good_if(holds));
     }
+    let mut text = format!(
+        "{} in frame {}, lit by {}\n\nwhat it requires\n",
+        scene.name(),
+        args.frame,
+        scene.other_lights()
+    );
+    text += &match count {
+        0 => line(
+            "lights of a tree",
+            "none; what lights the scene stands beside trees",
+        ),
+        _ => line("lights of a tree", &kinds.cones()),
+    };
+    if scene.sun_count() > 0 || scene.data().environment.is_some() {
+        text += &line(
+            "beside it",
+            "suns and environment maps (lightbvh::light::infinite)",
+        );
+    }
+    text += &line("changes", &table::yes(!changes(&declared).is_empty()));
+    text += &line("pmf of given lights", &table::yes(declared.pmf));
+    text += about;
+    if let Some(checked) = &checked {
+        text += &found(&tree, frames, checked);
+    }
+    table::print_text(&text)?;
     Ok(Outcome::good_if(holds))
 }
 
-/// What the text is about.
-struct About<'a> {
-    scene: &'a Scene,
-    args: &'a Args,
-    declared: Declared,
-    motion: &'a Motion,
-    surfaces: Surfaces,
-    kinds: LightKinds,
-}
-
-impl About<'_> {
-    /// What the scene requires.
-    fn required(&self, lights: usize) -> String {
-        let Self { scene, kinds, .. } = self;
-        let [gloss, masks] = self.surfaces.said();
-        let mut text = format!(
-            "{} in frame {}, lit by {}\n\nwhat it requires\n",
-            scene.name(),
-            self.args.frame,
-            scene.other_lights()
-        );
-        let of_tree = match lights {
-            0 => String::from("none; what lights the scene stands beside trees"),
-            _ => format!(
-                "{}; {} of them send their light into a cone of less than 90 degrees",
-                kinds.said(),
-                kinds.narrow
-            ),
-        };
-        text += &line("lights of a tree", &of_tree);
-        if scene.sun_count() > 0 || scene.data().environment.is_some() {
-            text += &line(
-                "beside it",
-                "suns and environment maps (lightbvh::light::infinite)",
-            );
-        }
-        let is_glossy = table::yes(self.surfaces.glossy > 0);
-        text += &line("changes", &table::yes(!changes(&self.declared).is_empty()));
-        text += &line("glossy receivers", &format!("{is_glossy}: {gloss}"));
-        text += &line("pmf of given lights", &table::yes(self.declared.pmf));
-        text += &line("masks", &masks);
-        text += &line("animation", &self.motion.said());
-        for note in self.motion.notes() {
-            text += &line("", &note);
-        }
-        text
-    }
-}
-
-/// What was found of the tree over the lights, which was built in one frame and looked at in another.
+/// The figures of the tree over the lights in words; it was built in one frame and looked at in another.
 fn found(tree: &str, [first, moved]: [u32; 2], checked: &Checked) -> String {
-    let mut text = format!("\na tree over its lights: {tree}, two levels\n");
     let refitted = match moved == first {
         true => String::new(),
         false => format!(" in frame {moved}, after a refit"),
     };
-    text += &match &checked.violation {
-        None => format!("every invariant holds{refitted}\n"),
+    let sound = match &checked.violation {
+        None => format!("every invariant holds{refitted}"),
         Some(violation) => {
-            format!("{violation}{refitted}: this is a fault of lightbvh; please report it\n")
+            format!("{violation}{refitted}: this is a fault of lightbvh; please report it")
         }
     };
-    let memory = format!(
-        "{} nodes, {} deep; {:.1} bytes per light that sampling reads, {:.1} in all arrays",
-        checked.nodes, checked.depth, checked.bytes_per_light, checked.memory_per_light
-    );
-    text += &match (checked.points, checked.variance) {
-        (0, _) => format!("there is no surface that is shown, so nothing was asked\n{memory}\n"),
-        (points, None) => {
-            format!("from {points} points on surfaces: {NOT_MEASURED}\n{memory}\n")
-        }
+    let asked = match (checked.points, checked.variance) {
+        (0, _) => "there is no surface that is shown, so nothing was asked".to_owned(),
+        (points, None) => format!("from {points} points on surfaces: {NOT_MEASURED}"),
         (points, Some(variance)) => format!(
-            "{} probabilities from {points} points on surfaces: {} lights that send light there are never chosen; variance of one sample {variance:.4}\n\
-                 {memory}, {:.0} ns per sample\n",
-            checked.probabilities, checked.unreached, checked.ns_per_sample.median
+            "{} probabilities from {points} points on surfaces: {} lights that send light there are never chosen; variance of one sample \
+             {variance:.4}",
+            checked.probabilities, checked.unreached
         ),
     };
-    text
+    format!(
+        "\na tree over its lights: {tree}, two levels\n{sound}\n{asked}\n{} nodes, {} deep; {:.1} bytes per light that sampling reads, \
+         {:.1} in all arrays\n",
+        checked.nodes, checked.depth, checked.bytes_per_light, checked.memory_per_light
+    )
 }
 
 /// Builds the tree in the first of the frames, moves it to the second, and asks it.
@@ -216,14 +225,6 @@ where
             (sent, pmf)
         })));
     }
-    let passes = SAMPLES_IN_A_TURN.div_ceil((points.len() as u32).max(1));
-    let samples = passes * (points.len() as u32).max(1);
-    let mut times = in_turns(1, TURNS, samples, |_, turn| {
-        Ok(time(points, hash(turn), passes, |point, number| {
-            bvh.sample(point, number)
-        }))
-    })?;
-    let ns_per_sample = Interval::of(times.remove(0));
     let per_light = |bytes: usize| bytes as f64 / lights.len().max(1) as f64;
     Ok(Checked {
         violation: bvh.validate().err().map(|violation| violation.to_string()),
@@ -235,38 +236,68 @@ where
         depth: bvh.depth(),
         bytes_per_light: per_light(bvh.bytes()),
         memory_per_light: per_light(bvh.memory()),
-        ns_per_sample,
     })
 }
 
 #[cfg(test)]
 mod tests {
+    use lightbvh::light::{PointLight, SpotLight};
+
     use super::*;
     use crate::cli::measure::tests::room;
 
-    fn checked(is_lit: bool) -> Checked {
-        let scene = room(is_lit, Some([0.2, 0.2, -1.0]));
-        let lights = lights_of::<AnyLight>(&scene, 0).expect("lights");
-        let points = points::on_surfaces(&scene, 0, 16);
-        check::<Plain>(&scene, [0; 2], &lights, &points).expect("a tree")
+    #[test]
+    fn points_without_light_have_no_figure() {
+        for is_lit in [false, true] {
+            let scene = room(is_lit, Some([0.2, 0.2, -1.0]));
+            let lights = lights_of::<AnyLight>(&scene, 0).expect("lights");
+            let points = points::on_surfaces(&scene, 0, 16);
+            let checked = check::<AnyNode>(&scene, [0; 2], &lights, &points).expect("a tree");
+            assert_eq!((checked.points, checked.variance.is_some()), (16, is_lit));
+            let text = found("Bvh", [0; 2], &checked);
+            assert_eq!(text.contains("nothing is measured"), !is_lit, "{text}");
+            assert_eq!(text.contains("never chosen"), is_lit, "{text}");
+        }
     }
 
     #[test]
-    fn what_is_not_measured_has_no_figure() {
-        let dark = checked(false);
-        assert_eq!((dark.points, dark.variance), (16, None));
-        assert!(json!(dark)["variance"].is_null());
-        let text = found("Bvh", [0; 2], &dark);
-        assert!(
-            text.contains("nothing is measured") && !text.contains("never chosen"),
-            "{text}"
-        );
-        let lit = checked(true);
-        assert!(lit.variance.is_some());
-        let text = found("Bvh", [0; 2], &lit);
-        assert!(
-            text.contains("never chosen") && !text.contains("nothing is measured"),
-            "{text}"
-        );
+    fn the_least_type_that_holds_all() {
+        let point = AnyLight::from(PointLight {
+            p: [0.0; 3],
+            intensity: [1.0; 3],
+            range: 0.0,
+            mesh: 0,
+        });
+        let spot = |cos_outer, intensity| {
+            AnyLight::from(SpotLight {
+                p: [0.0; 3],
+                intensity: [intensity; 3],
+                range: 0.0,
+                axis: [0.0, -1.0, 0.0],
+                cos_inner: 1.0,
+                cos_outer,
+                mesh: 0,
+            })
+        };
+        for (lights, node, said) in [
+            (&[point][..], "Lit<MomentNode<8>, PointLight>", "1 point"),
+            (&[spot(0.5, 1.0)], "Lit<SpotMomentNode<8>, SpotLight>", "1 spot"),
+            // A cone of a right angle and one without light need no cones.
+            (&[spot(0.0, 1.0)], "Lit<MomentNode<8>, SpotLight>", "1 spot"),
+            (
+                &[point, spot(0.5, 0.0)],
+                "Lit<MomentNode<8>, AnyLight>",
+                "1 point, 1 spot",
+            ),
+            (
+                &[spot(0.5, 1.0), spot(0.0, 1.0), point],
+                "Lit<SpotMomentNode<8>, AnyLight>",
+                "1 point, 2 spots",
+            ),
+            (&[], "Lit<MomentNode<8>, AnyLight>", ""),
+        ] {
+            let kinds = LightKinds::of(lights);
+            assert_eq!((kinds.node_type(8).as_str(), kinds.said().as_str()), (node, said));
+        }
     }
 }

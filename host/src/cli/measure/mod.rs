@@ -1,4 +1,4 @@
-//! What commands measure by: turns, medians with their intervals, points, the light that arrives at them, references.
+//! Measurements of all commands: turns, medians with their intervals, points, the light that arrives at them, references.
 
 pub(super) mod interval;
 pub(super) mod irradiance;

@@ -7,7 +7,7 @@ use crate::render::Film;
 /// An image of many samples.
 pub(in crate::cli) struct Reference {
     pub judge: Judge,
-    /// What its own noise adds to the squared error of every image that is measured against it, of displayed bytes: the variance
+    /// The squared error that its own noise adds to the squared error of every image that is measured against it, of displayed bytes: the variance
     /// of the mean of two halves is a quarter of their mean squared difference.
     pub noise: f64,
     /// The same of radiance.

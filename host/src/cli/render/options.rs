@@ -1,10 +1,9 @@
-//! What `lightbvh render` is told.
+//! Options of `lightbvh render`.
 
 use std::ffi::OsString;
 use std::ops::Range;
 use std::path::PathBuf;
 
-use lightbvh_kernels::shading::candidates::MAX_SCATTERED;
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use lightbvh_kernels::shading::pixel::MAX_CANDIDATES;
 
@@ -73,9 +72,6 @@ pub struct Args {
     /// Candidates of each light sample, 1 to 256 [default: 1; of two-level-moments-resampled, 8].
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_CANDIDATES)))]
     pub(super) candidates: Option<u32>,
-    /// Reflected rays, 0 to 16, whose lights join the candidates: for lights seen in glossy surfaces.
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=i64::from(MAX_SCATTERED)))]
-    pub(super) scattered: u32,
     /// Light reflected once, or along whole paths.
     #[arg(long, value_enum, default_value_t = IntegratorName::Direct)]
     pub(super) integrator: IntegratorName,
@@ -115,7 +111,7 @@ fn place(text: &str) -> Result<[f32; 3], String> {
     }
 }
 
-/// What light is followed.
+/// The light that is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum IntegratorName {
@@ -125,7 +121,7 @@ pub(super) enum IntegratorName {
     Path,
 }
 
-/// What the options say of the method; the other ones are those of its name.
+/// The method by its name, changed as the options say.
 pub(super) fn recipe(args: &Args) -> Result<Recipe, HostError> {
     let mut recipe = Recipe {
         budget: SampleBudget::CameraRays,
@@ -137,15 +133,6 @@ pub(super) fn recipe(args: &Args) -> Result<Recipe, HostError> {
     recipe.builder = args.heuristic.unwrap_or(recipe.builder);
     let usage = |option, needs| Err(HostError::Usage { option, needs });
     recipe.candidates = args.candidates.unwrap_or(recipe.candidates);
-    if args.scattered > 0 {
-        if args.integrator == IntegratorName::Path {
-            return usage(
-                "--scattered",
-                "--integrator direct: paths find such lights by themselves",
-            );
-        }
-        recipe.scattered = args.scattered;
-    }
     if args.integrator == IntegratorName::Path {
         if recipe.candidates > 1 {
             return usage(

@@ -1,7 +1,5 @@
 //! The frames of `lightbvh render`, one after the other.
 
-use lightbvh::EmissiveTriangle;
-use lightbvh::light::AnyLight;
 use serde_json::{Value, json};
 
 use super::options::Args;
@@ -14,9 +12,9 @@ use crate::method::{MethodLight, Recipe, Step, Target};
 use crate::render::Film;
 use crate::scene::{Scene, SceneLight};
 use crate::vulkan::Device;
-use crate::workload::{RenderSettings, arrays_lit_by};
+use crate::workload::{arrays_lit_by, render_params};
 
-/// What is to be rendered.
+/// A frame or a sequence to render.
 pub(super) struct Sequence<'a> {
     pub(super) args: &'a Args,
     pub(super) recipe: Recipe,
@@ -24,16 +22,8 @@ pub(super) struct Sequence<'a> {
 }
 
 impl Sequence<'_> {
-    /// Renders and writes all frames, by lights of the type that the scene needs; returns what the report says of each.
-    pub(super) fn render(&self, context: &Context, device: Option<&Device>) -> Result<Vec<Value>, HostError> {
-        if self.scene.has_kinds() {
-            self.render_by::<AnyLight>(context, device)
-        } else {
-            self.render_by::<EmissiveTriangle>(context, device)
-        }
-    }
-
-    fn render_by<L: MethodLight>(
+    /// Renders and writes all frames; returns what the report says of each.
+    pub(super) fn render<L: MethodLight>(
         &self,
         context: &Context,
         device: Option<&Device>,
@@ -46,7 +36,9 @@ impl Sequence<'_> {
         };
         let first = self.arrays::<L>(start)?;
         let target = device.map_or(Target::Cpu, Target::Device);
-        let mut runner = self.recipe.runner(&self.step(start, &first), target)?;
+        let mut runner = self
+            .recipe
+            .runner(&Step::new(self.scene, start, &first.lights), target)?;
         let mut exposure = args.exposure;
         let mut was_black = false;
         let mut reports = Vec::new();
@@ -56,20 +48,15 @@ impl Sequence<'_> {
                 Some(first) => first,
                 None => self.arrays(frame)?,
             };
-            let settings = RenderSettings {
-                frame,
-                width: args.width,
-                height: args.height,
-                samples: args.spp,
-                seed: args.seed,
-            };
-            let step = self.step(frame, &arrays);
+            let background = self.scene.data().background;
+            let params = render_params((args.width, args.height), args.spp, args.seed, background);
+            let step = Step::new(self.scene, frame, &arrays.lights);
             if frame > start {
                 runner.advance(&step)?;
             }
-            let image = runner.image(&step, &arrays, &settings)?;
+            let image = runner.image(&step, &arrays, &params)?;
             let film = Film::new(args.width, args.height, image.value)?;
-            // What the greatest exposure shows as black fixes none.
+            // A frame that is black at the greatest exposure fixes none.
             let is_black = match args.exposure {
                 Some(_) => film.is_black(),
                 None => !film.shows_anything(),
@@ -124,14 +111,6 @@ impl Sequence<'_> {
             None => "; --environment FILE.hdr lights it by a sky",
         };
         news!("{}: {of}{words}{advice}", self.scene.name());
-    }
-
-    fn step<'b, L>(&'b self, frame: u32, arrays: &'b SceneArrays<L>) -> Step<'b, L> {
-        Step {
-            scene: self.scene,
-            frame,
-            lights: &arrays.lights,
-        }
     }
 
     fn arrays<L: SceneLight>(&self, frame: u32) -> Result<SceneArrays<L>, HostError> {

@@ -1,4 +1,4 @@
-//! What of a scene is shown, and from where.
+//! The shown part of a scene, and the camera.
 
 use crate::error::HostError;
 use crate::scene::Scene;

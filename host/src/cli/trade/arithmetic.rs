@@ -56,7 +56,7 @@ pub(super) struct Arithmetic {
     unlike_their_light: usize,
 }
 
-/// What differs.
+/// Differences.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 struct Different {
     /// Samples of another light.
@@ -68,7 +68,7 @@ struct Different {
     greatest_error: f64,
 }
 
-/// What a processor gave.
+/// The answers of a processor.
 struct Words {
     sampled: Vec<SampledLight>,
     /// Of the lights that the CPU's exact operations choose.

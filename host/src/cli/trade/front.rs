@@ -1,6 +1,10 @@
-//! Which choices nothing else beats.
+//! Which choices nothing else beats, and what each step along them costs and buys, in words.
 
-use super::point::Point;
+use serde::Serialize;
+
+use super::image::Images;
+use super::structure::Structure;
+use super::subject::Config;
 use crate::cli::measure::interval::Interval;
 
 /// A ratio of errors below this is no difference, however sure, for a tree is good or bad luck for the lights of a scene: over
@@ -19,86 +23,115 @@ const LEAST_TIME: f64 = 1.1;
 const LEAST_UPDATE: f64 = 1.25;
 const LEAST_UPDATE_MS: f64 = 0.02;
 
-/// The default, and the points that are others than it, as far as no other beats them: another one beats a point if its update
-/// or its image of the same rays takes less time, or that image has less error, for sure, and it seems to have more of none.
-/// They are not added: an image has whatever size a user gives it. A point that differs from the default in none of them is
-/// none: noise would put it on either side.
-pub(super) fn front(points: &[Point]) -> Vec<bool> {
+/// A configuration in a scene.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Point {
+    pub scene: String,
+    /// The difference from the default, in words.
+    pub choice: String,
+    pub config: Config,
+    pub default: bool,
+    #[serde(flatten)]
+    pub structure: Structure,
+    #[serde(flatten)]
+    pub images: Images,
+    /// Whether it is on the front: nothing else takes less time for an update or an image of the same rays, or has less error
+    /// in it, at no greater cost of the others, and it differs from the default beyond the spread.
+    pub pareto: bool,
+}
+
+/// The costs of a choice: the time of its update, and image by image the times and errors by the same rays.
+struct Costs<'a>(f64, &'a [f64], &'a [f64]);
+
+/// Marks the default, and the points that are others than it, as far as no other beats them: another one beats a point if its
+/// update or its image of the same rays takes less time, or that image has less error, for sure, and it seems to have more of
+/// none. They are not added: an image has whatever size a user gives it. A point that differs from the default in none of them
+/// is none: noise would put it on either side. Returns sentences: the steps of the front from the fastest on, and the points as
+/// good as the default.
+pub(super) fn front(points: &mut [Point]) -> Vec<String> {
     let costs: Vec<Costs<'_>> = points.iter().map(Costs::of).collect();
     let default = points.iter().position(|point| point.default);
-    let is_the_default =
-        |at: usize| default.is_some_and(|default| at != default && costs[at].alike(&costs[default]));
-    (0..points.len())
-        .map(|at| !is_the_default(at) && !costs.iter().any(|other| other.beats(&costs[at])))
-        .collect()
-}
-
-/// Whether neither times nor error tell them apart.
-pub(super) fn alike(a: &Point, b: &Point) -> bool {
-    Costs::of(a).alike(&Costs::of(b))
-}
-
-/// What a choice costs.
-struct Costs<'a> {
-    update_ms: f64,
-    /// Image by image, by the same rays.
-    times: &'a [f64],
-    errors: &'a [f64],
-}
-
-/// Whether one has less of something than another.
-#[derive(Clone, Copy, PartialEq)]
-struct Less {
-    surely: bool,
-    seemingly: bool,
+    let like: Vec<usize> = match default {
+        Some(default) => (0..points.len())
+            .filter(|&at| at != default && costs[at].alike(&costs[default]))
+            .collect(),
+        None => Vec::new(),
+    };
+    let is_on = |at: &usize| !like.contains(at) && !costs.iter().any(|other| other.beats(&costs[*at]));
+    let mut front: Vec<usize> = (0..points.len()).filter(is_on).collect();
+    for &at in &front {
+        points[at].pareto = true;
+    }
+    let time = |point: &Point| point.images.frame_ratio.median;
+    front.sort_by(|&a, &b| time(&points[a]).total_cmp(&time(&points[b])));
+    let pairs = front.windows(2).map(|pair| (&points[pair[0]], &points[pair[1]]));
+    let mut sentences: Vec<String> = pairs
+        .map(|(a, b)| {
+            format!(
+                "from {} to {}: frame time {} (update {:.2} ms, before {:.2}); error {} by the same rays, {} at equal time",
+                a.choice,
+                b.choice,
+                change(time(a), time(b)),
+                b.structure.update_ms,
+                a.structure.update_ms,
+                change(a.images.error, b.images.error),
+                change(a.images.error_equal_time, b.images.error_equal_time),
+            )
+        })
+        .collect();
+    if !like.is_empty() {
+        let like: Vec<&str> = like.iter().map(|&at| points[at].choice.as_str()).collect();
+        sentences.push(format!("no different from the default here: {}", like.join("; ")));
+    }
+    sentences
 }
 
 impl<'a> Costs<'a> {
     fn of(point: &'a Point) -> Self {
-        Self {
-            update_ms: point.structure.update_ms,
-            times: &point.images.times,
-            errors: &point.images.errors,
-        }
+        Self(
+            point.structure.update_ms,
+            &point.images.times,
+            &point.images.errors,
+        )
     }
 
     fn beats(&self, other: &Self) -> bool {
-        self.less(other).iter().any(|less| less.surely) && !other.less(self).iter().any(|less| less.seemingly)
+        self.less(other).iter().any(|less| less.0) && !other.less(self).iter().any(|less| less.1)
     }
 
     fn alike(&self, other: &Self) -> bool {
-        let surely = |a: &Self, b: &Self| a.less(b).iter().any(|less| less.surely);
+        let surely = |a: &Self, b: &Self| a.less(b).iter().any(|less| less.0);
         !surely(self, other) && !surely(other, self)
     }
 
-    /// Of an update, of the time of an image, of its error. What interrupts an image adds to its
-    /// time: the least of the times says the same as the median of the ratios where there is a difference. Less error for sure
-    /// is what lies beyond the interval of the ratios.
-    fn less(&self, other: &Self) -> [Less; 3] {
-        let update = (self.update_ms * LEAST_UPDATE).max(self.update_ms + LEAST_UPDATE_MS) < other.update_ms;
-        let ratio = Interval::of_ratios(self.times, other.times);
+    /// Whether one surely, and whether it seemingly, has less than another: of an update, of the time of an image, of its error.
+    /// An interruption adds to the time of an image: the least of the times says the same as the median of the ratios where
+    /// there is a difference. Less error for sure lies beyond the interval of the ratios.
+    fn less(&self, other: &Self) -> [(bool, bool); 3] {
+        let update = (self.0 * LEAST_UPDATE).max(self.0 + LEAST_UPDATE_MS) < other.0;
+        let ratio = Interval::of_ratios(self.1, other.1);
         let median = ratio.median * LEAST_TIME < 1.0;
-        let least = least(self.times) * LEAST_TIME < least(other.times);
-        let error = Interval::of_ratios(self.errors, other.errors);
+        let of = |times: &[f64]| times.iter().copied().fold(f64::INFINITY, f64::min);
+        let least = of(self.1) * LEAST_TIME < of(other.1);
+        let error = Interval::of_ratios(self.2, other.2);
         [
-            Less {
-                surely: update,
-                seemingly: update,
-            },
-            Less {
-                surely: median && least && ratio.high < 1.0,
-                seemingly: median || least,
-            },
-            Less {
-                surely: error.high * LEAST_ERROR < 1.0,
-                seemingly: error.median * SEEMING_ERROR < 1.0,
-            },
+            (update, update),
+            (median && least && ratio.high < 1.0, median || least),
+            (error.high * LEAST_ERROR < 1.0, error.median * SEEMING_ERROR < 1.0),
         ]
     }
 }
 
-fn least(times: &[f64]) -> f64 {
-    times.iter().copied().fold(f64::INFINITY, f64::min)
+/// How a figure that is not negative changes.
+fn change(before: f64, after: f64) -> String {
+    let percent = |part: f64| format!("{:.0} %", 100.0 * part);
+    match after / before {
+        _ if before == after => "the same".to_owned(),
+        ratio if !ratio.is_finite() => "some, before none".to_owned(),
+        ratio if ratio < 1.0 => format!("{} less", percent(1.0 - ratio)),
+        ratio if ratio < 2.0 => format!("{} more", percent(ratio - 1.0)),
+        ratio => format!("{ratio:.1} times"),
+    }
 }
 
 #[cfg(test)]
@@ -107,29 +140,21 @@ mod tests {
 
     const SAME: [f64; 3] = [10.0, 12.0, 11.0];
 
-    fn costs<'a>(update_ms: f64, times: &'a [f64; 3], errors: &'a [f64; 3]) -> Costs<'a> {
-        Costs {
-            update_ms,
-            times,
-            errors,
-        }
-    }
-
     #[test]
     fn less_of_one_beats_where_there_is_no_more_of_another() {
-        let usual = costs(1.0, &SAME, &SAME);
+        let usual = Costs(1.0, &SAME, &SAME);
         for better in [
-            costs(0.5, &SAME, &SAME),
-            costs(1.0, &[8.0, 9.0, 8.5], &SAME),
-            costs(1.0, &SAME, &[7.0, 8.0, 7.5]),
+            Costs(0.5, &SAME, &SAME),
+            Costs(1.0, &[8.0, 9.0, 8.5], &SAME),
+            Costs(1.0, &SAME, &[7.0, 8.0, 7.5]),
         ] {
             assert!(better.beats(&usual) && !usual.beats(&better) && !usual.alike(&better));
         }
-        // What one has less of is paid with another.
+        // One has less of something and more of another.
         for other in [
-            costs(0.5, &SAME, &[11.0, 13.0, 12.0]),
-            costs(2.0, &SAME, &[7.0, 8.0, 7.5]),
-            costs(1.0, &[8.0, 9.0, 8.5], &[20.0, 21.0, 20.0]),
+            Costs(0.5, &SAME, &[11.0, 13.0, 12.0]),
+            Costs(2.0, &SAME, &[7.0, 8.0, 7.5]),
+            Costs(1.0, &[8.0, 9.0, 8.5], &[20.0, 21.0, 20.0]),
         ] {
             assert!(!other.beats(&usual) && !usual.beats(&other) && !usual.alike(&other));
         }
@@ -137,21 +162,33 @@ mod tests {
 
     #[test]
     fn noise_beats_nothing() {
-        let usual = costs(1.0, &SAME, &SAME);
-        let short = [0.05, 0.065].map(|update| costs(update, &SAME, &SAME));
-        assert!(short[0].alike(&short[1]));
+        let usual = Costs(1.0, &SAME, &SAME);
+        assert!(Costs(0.05, &SAME, &SAME).alike(&Costs(0.065, &SAME, &SAME)));
         // One interrupted image, one lucky image, an update a little faster, times that a busy machine scattered.
         for other in [
-            costs(1.0, &[6.0, 20.0, 8.0], &SAME),
-            costs(1.0, &[10.0, 50.0, 11.0], &SAME),
-            costs(1.0, &SAME, &[4.0, 12.1, 11.1]),
-            costs(0.85, &[9.5, 12.0, 10.5], &[10.1, 11.9, 11.0]),
+            Costs(1.0, &[6.0, 20.0, 8.0], &SAME),
+            Costs(1.0, &[10.0, 50.0, 11.0], &SAME),
+            Costs(1.0, &SAME, &[4.0, 12.1, 11.1]),
+            Costs(0.85, &[9.5, 12.0, 10.5], &[10.1, 11.9, 11.0]),
         ] {
             assert!(usual.alike(&other) && other.alike(&usual));
             assert!(!usual.beats(&other) && !other.beats(&usual));
         }
         // Less for sure, and seemingly more: it may be a trade.
-        let unsure = costs(0.1, &SAME, &[9.0, 20.0, 22.0]);
+        let unsure = Costs(0.1, &SAME, &[9.0, 20.0, 22.0]);
         assert!(!unsure.beats(&usual) && !unsure.alike(&usual));
+    }
+
+    #[test]
+    fn changes_are_said_in_words() {
+        for (before, after, said) in [
+            (2.0, 2.0, "the same"),
+            (0.0, 1.0, "some, before none"),
+            (4.0, 3.0, "25 % less"),
+            (4.0, 5.0, "25 % more"),
+            (2.0, 9.0, "4.5 times"),
+        ] {
+            assert_eq!(change(before, after), said);
+        }
     }
 }

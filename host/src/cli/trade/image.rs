@@ -6,14 +6,13 @@ mod tests;
 use lightbvh_kernels::render::RenderParams;
 use serde::Serialize;
 
-use super::subject::Subject;
-use crate::backend::SceneArrays;
+use crate::backend::Timed;
 use crate::cli::measure::times::ms;
 use crate::cli::measure::{interval::Interval, reference::Reference};
 use crate::error::HostError;
-use crate::metrics::{self, Estimate, Judge, Quality, mean_squared_error};
+use crate::metrics::{Estimate, Judge, Quality, mean, mean_squared_error};
 use crate::render::Film;
-use crate::workload::RenderSettings;
+use crate::workload::render_params;
 
 /// Seeds from here on belong to the reference.
 const REFERENCE_SEED: u32 = 1 << 31;
@@ -72,21 +71,6 @@ impl Budget {
         numbers.dedup();
         numbers
     }
-
-    pub fn film(&self, pixels: Vec<[f32; 3]>) -> Result<Film, HostError> {
-        Ok(Film::new(self.width, self.height, pixels)?)
-    }
-
-    pub fn params(&self, samples: u32, seed: u32, background: [f32; 3]) -> RenderParams {
-        let settings = RenderSettings {
-            frame: 0,
-            width: self.width,
-            height: self.height,
-            samples,
-            seed,
-        };
-        settings.params(background)
-    }
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -130,7 +114,7 @@ pub(super) struct Measured {
     judge: Option<Judge>,
 }
 
-/// What was measured of one configuration, image by image over all frames.
+/// The measurements of one configuration, image by image over all frames.
 #[derive(Default)]
 struct OfOne {
     times: Vec<f64>,
@@ -146,49 +130,46 @@ struct OfOne {
 }
 
 impl Measured {
-    /// Measures the images of a frame, whose `subjects` are in the state that it has, the default first.
+    /// Measures the images of a frame by configurations whose updates take `updates_ms`, the default first. `render` gets the
+    /// number of one.
     pub fn add(
         &mut self,
-        subjects: &mut [Box<dyn Subject>],
         updates_ms: &[f64],
-        arrays: &SceneArrays,
         background: [f32; 3],
         budget: &Budget,
+        render: impl Fn(usize, RenderParams) -> Timed<Vec<[f32; 3]>>,
     ) -> Result<(), HostError> {
-        let params = |samples, seed| budget.params(samples, seed, background);
-        // By the default.
-        let mut half = |half| {
-            let params = params(budget.reference / 2, REFERENCE_SEED + half);
-            subjects[0].render(arrays, params).map(|image| image.value)
-        };
-        let halves = [half(0)?, half(1)?];
-        let reference = Reference::new((budget.width, budget.height), halves, None)?;
-        let reference_mean = mean(reference.judge.reference().pixels());
-        self.of_each.resize_with(subjects.len(), OfOne::default);
+        let count = updates_ms.len();
+        let size = (budget.width, budget.height);
+        let image = |at, samples, seed| render(at, render_params(size, samples, seed, background));
+        let half = |half| image(0, budget.reference / 2, REFERENCE_SEED + half).value;
+        let reference = Reference::new(size, [half(0), half(1)], None)?;
+        let reference_mean = mean_of(reference.judge.reference().pixels());
+        self.of_each.resize_with(count, OfOne::default);
         let begin = self.of_each[0].times.len();
         for seed in 0..budget.seeds {
-            let mut least = vec![f64::INFINITY; subjects.len()];
-            // What interrupts one image does not interrupt the same one in the other turn.
-            for k in 0..subjects.len() {
-                let at = (k + 3 * seed as usize) % subjects.len();
-                least[at] = ms(subjects[at].render(arrays, params(budget.samples, seed))?.time);
+            let mut least = vec![f64::INFINITY; count];
+            // An interruption of one image does not interrupt the same one in the other turn.
+            for k in 0..count {
+                let at = (k + 3 * seed as usize) % count;
+                least[at] = ms(image(at, budget.samples, seed).time);
             }
-            for k in 0..subjects.len() {
-                let at = (k + seed as usize) % subjects.len();
-                let image = subjects[at].render(arrays, params(budget.samples, seed))?;
+            for k in 0..count {
+                let at = (k + seed as usize) % count;
+                let image = image(at, budget.samples, seed);
                 let (of, time) = (&mut self.of_each[at], least[at].min(ms(image.time)));
                 of.times.push(time);
                 of.frames.push(time + updates_ms[at]);
-                of.biases.push(mean(&image.value) / reference_mean - 1.0);
-                let film = budget.film(image.value)?;
-                of.errors.push(error_of(&reference, &film));
-                of.qualities.push(reference.judge.quality(&film)?);
+                of.biases.push(mean_of(&image.value) / reference_mean - 1.0);
+                let film = Film::new(size.0, size.1, image.value)?;
+                let quality = reference.judge.judge(&film)?.quality;
+                of.errors.push(quality.mse - reference.noise);
+                of.qualities.push(quality);
             }
         }
         let default = self.of_each[0].frames[begin..].to_vec();
-        for ((subject, of), &update) in subjects.iter_mut().zip(&mut self.of_each).zip(updates_ms) {
+        for (at, (of, &update)) in self.of_each.iter_mut().zip(updates_ms).enumerate() {
             let left: Vec<f64> = default.iter().map(|frame| frame - update).collect();
-            // An update that leaves no time at all has no image.
             let fits = (f64::from(budget.samples) * Interval::of_ratios(&left, &of.times[begin..]).median)
                 .max(LEAST_SAMPLES);
             let fewer = (fits.floor() as u32).max(1);
@@ -204,7 +185,7 @@ impl Measured {
             for seed in budget.seeds..budget.seeds + budget.seeds.div_ceil(2) {
                 let mut beside = [0.0; 2];
                 for (error, samples) in beside.iter_mut().zip([fewer, fewer + 1]) {
-                    let film = budget.film(subject.render(arrays, params(samples, seed))?.value)?;
+                    let film = Film::new(size.0, size.1, image(at, samples, seed).value)?;
                     *error = error_of(&reference, &film).max(1e-9);
                     if samples == nearest && of.shown.is_none() {
                         of.shown = Some((film, samples));
@@ -219,19 +200,19 @@ impl Measured {
         Ok(())
     }
 
-    /// What it comes to, one for each configuration, and who judged the last frame.
+    /// The results, one for each configuration, and the judge of the last frame.
     pub fn finish(self) -> (Vec<Images>, Judge) {
         let default = &self.of_each[0];
         let images = |of: &OfOne| Images {
             time_ratio: Interval::of_ratios(&of.times, &default.times),
             frame_ratio: Interval::of_ratios(&of.frames, &default.frames),
             image_ms: Interval::of(of.times.clone()).median,
-            error: metrics::mean(&of.errors),
+            error: mean(&of.errors),
             error_ratio: Interval::of_ratios(&of.errors, &default.errors),
-            error_equal_time: metrics::mean(&of.equal_time),
+            error_equal_time: mean(&of.equal_time),
             equal_time_ratio: Interval::of_ratios(&of.equal_time, &default.equal_time)
                 .as_unsure_as(Interval::of_ratios(&of.frames, &default.frames)),
-            samples_equal_time: metrics::mean(&of.fits),
+            samples_equal_time: mean(&of.fits),
             bias: Estimate::of(&of.biases).filter(|bias| bias.mean.is_finite()),
             quality: mean_quality(&of.qualities),
             shown: of
@@ -247,7 +228,7 @@ impl Measured {
 }
 
 fn mean_quality(of: &[Quality]) -> Quality {
-    let mean = |measure: fn(&Quality) -> f64| metrics::mean(&of.iter().map(measure).collect::<Vec<f64>>());
+    let mean = |measure: fn(&Quality) -> f64| mean(&of.iter().map(measure).collect::<Vec<f64>>());
     Quality {
         mse: mean(|q| q.mse),
         ssim: mean(|q| q.ssim),
@@ -264,7 +245,8 @@ fn error_of(reference: &Reference, image: &Film) -> f64 {
     mean_squared_error(bytes[0], bytes[1]) - reference.noise
 }
 
-fn mean(image: &[[f32; 3]]) -> f64 {
+/// Of all channels of all pixels.
+fn mean_of(image: &[[f32; 3]]) -> f64 {
     let sum: f64 = image.iter().flatten().map(|&c| f64::from(c)).sum();
     sum / (3.0 * image.len() as f64)
 }

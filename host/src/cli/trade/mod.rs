@@ -2,19 +2,13 @@
 //! images at equal samples and at equal time.
 
 mod arithmetic;
-mod built;
 mod choices;
 mod front;
 mod image;
-mod light;
 mod pick;
-mod point;
-mod prepare;
 pub(super) mod report;
-mod steps;
 mod structure;
 mod subject;
-mod update;
 mod variance;
 
 use std::path::PathBuf;
@@ -22,22 +16,21 @@ use std::time::Instant;
 
 use serde_json::json;
 
-use self::front::front;
+use self::choices::all;
+use self::front::{Point, front};
 use self::image::{Budget, Measured};
 use self::pick::{Goal, Pick};
-use self::point::Point;
-use self::prepare::{Prepared, prepare};
 use self::report::Report;
-use self::steps::steps;
-use self::structure::structures;
+use self::structure::{Arriving, structures};
 use self::subject::Axis;
-use self::update::{Frame, Updates};
+use super::measure::points;
 use super::reading::{Reading, positive};
 use super::{Context, Outcome, devices, table};
 use crate::cli::table::{news, say};
 use crate::error::HostError;
+use crate::method::Step;
 use crate::metrics::Judge;
-use crate::workload::lights_at;
+use crate::workload::{arrays_at, lights_at};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -115,11 +108,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .transpose()?;
     for name in named {
         let start = Instant::now();
-        let (points, judge) = scene_points(&name, args, &budget)?;
-        let pareto = front(&points);
-        let pareto = points.into_iter().zip(pareto);
-        let points: Vec<Point> = pareto.map(|(point, pareto)| Point { pareto, ..point }).collect();
-        let sentences = steps(&points).into_iter();
+        let (mut points, judge) = scene_points(&name, args, &budget)?;
+        let sentences = front(&mut points).into_iter();
         all_steps.extend(sentences.map(|sentence| format!("{name}: {sentence}")));
         if let Some(report) = &mut report {
             report.scene(&args.reading.open(&name)?, args.frame, &points, &judge)?;
@@ -188,51 +178,58 @@ fn picks(
     Ok(Outcome::Good)
 }
 
+/// Builds all configurations at the first frame, brings them to the last, measures images on the way, and trees at its end.
 fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>, Judge), HostError> {
+    let scene = &args.reading.open(name)?;
+    for warning in scene.warnings().iter().chain(&scene.unknown_lights()) {
+        news!("{name}: {warning}");
+    }
+    scene.require_lights()?;
+    let first = lights_at(scene, 0)?;
+    let mut subjects = all(&Step::new(scene, 0, &first), |axis| args.measures(axis))?;
+    let last = args.frame;
+    let frames = budget.measured_frames(last);
+    news!(
+        "{name}: {} choices follow its lights to frame {last}",
+        subjects.len()
+    );
     let mut measured = Measured::default();
-    let Prepared {
-        scene,
-        points,
-        subjects,
-        updates,
-        arrays,
-        ..
-    } = prepare(
-        args.reading.open(name)?,
-        &|axis| args.measures(axis),
-        budget,
-        &budget.measured_frames(args.frame),
-        &mut |subjects, updates, arrays, background| {
-            let updates_ms: Vec<f64> = updates.iter().map(Updates::mean_ms).collect();
-            measured.add(subjects, &updates_ms, arrays, background, budget)
-        },
-    )?;
+    for frame in 0..=last {
+        if frame > 0 {
+            let lights = lights_at(scene, frame)?;
+            for k in 0..subjects.len() {
+                let at = (k + frame as usize) % subjects.len();
+                subjects[at].advance(&Step::new(scene, frame, &lights))?;
+            }
+        }
+        if frames.contains(&frame) {
+            news!("{name}: frame {frame}, images by {} choices", subjects.len());
+            let arrays = arrays_at(scene, frame, budget.width, budget.height)?;
+            let updates: Vec<f64> = subjects.iter().map(|own| own.updates().mean_ms()).collect();
+            let background = scene.frame(frame).background;
+            measured.add(&updates, background, budget, |at, params| {
+                subjects[at].render(&arrays, params)
+            })?;
+        }
+    }
     news!("{name}: times and variances of samples");
-    let last = lights_at(&scene, args.frame)?;
-    let structures = structures(
-        &subjects,
-        &Frame::new(&scene, args.frame, &last),
-        &arrays.rays.surfaces(),
-        updates,
-        &points,
-        budget,
-    )?;
+    let lights = lights_at(scene, last)?;
+    let points = points::on_surfaces(scene, last, budget.points);
+    let arrays = arrays_at(scene, last, budget.width, budget.height)?;
+    let arriving = Arriving::new(&lights, &points, &arrays.rays.surfaces());
+    let structures = structures(&subjects, &Step::new(scene, last, &lights), &arriving, budget)?;
     let (images, judge) = measured.finish();
-    let both = structures.into_iter().zip(images);
-    let points = subjects
-        .iter()
-        .zip(both)
-        .map(|(subject, (structure, images))| Point {
-            scene: name.to_owned(),
-            choice: subject.config().to_string(),
-            config: subject.config(),
-            default: subject.config().axis == Axis::Default,
-            structure,
-            images,
-            pareto: false,
-        })
-        .collect();
-    Ok((points, judge))
+    let all = subjects.iter().zip(structures.into_iter().zip(images));
+    let points = all.map(|(subject, (structure, images))| Point {
+        scene: name.to_owned(),
+        choice: subject.config().to_string(),
+        config: subject.config(),
+        default: subject.config().axis == Axis::Default,
+        structure,
+        images,
+        pareto: false,
+    });
+    Ok((points.collect(), judge))
 }
 
 /// `WxH`, pixels.

@@ -1,24 +1,33 @@
-//! What a configuration is, and what it is asked for.
+//! A configuration: a light BVH that follows the animation, and an importance by which lights are chosen. Trees are of two
+//! types, the default's and the paper's: other importances choose from the same nodes.
 
 use std::fmt;
-use std::time::Duration;
+use std::hint::black_box;
+use std::marker::PhantomData;
+use std::time::{Duration, Instant};
 
-use lightbvh::{Lights, Random64, ShadingPoint};
+use lightbvh::exact::hash;
+use lightbvh::node::Node as _;
+use lightbvh::{ImportanceModel, Lights, Random64, SampledLight, ShadingPoint};
+use lightbvh_kernels::bvh::{Choice, Paper, Standard, TreeOf, TriangleChoice, WIDTH};
 use lightbvh_kernels::render::RenderParams;
+use lightbvh_kernels::shading::emitters::Emitters;
 use serde::Serialize;
 
-use super::update::{Frame, Spent, Update};
-use crate::backend::{Sampler, SceneArrays, Timed};
+use crate::backend::{BackendError, Bvh, Sampler, SceneArrays, Timed};
+use crate::cli::measure::interval::Interval;
+use crate::cli::measure::times::ms;
 use crate::error::HostError;
-use crate::method::Builder;
+use crate::method::{Builder, Step};
+use crate::render::render;
+use crate::scene::Instances;
+use crate::workload::{build, instance_of};
 
-/// What a user can choose.
+/// A user's choices.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Config {
-    /// What differs from the default.
+    /// The difference from the default.
     pub axis: Axis,
-    /// What becomes of samples: `direct`, each counts by itself.
-    pub integrator: &'static str,
     pub levels: Sampler,
     pub importance: &'static str,
     /// How nodes hold it, and their children.
@@ -30,13 +39,13 @@ pub(super) struct Config {
     pub candidates: u32,
 }
 
-/// What a configuration is there to show.
+/// The choice that a configuration shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Axis {
-    /// What `LightBvh::two_level` and `render` do unless told otherwise.
+    /// The default of `LightBvh::two_level` and `render`.
     Default,
-    /// What lights are chosen by.
+    /// The importance by which lights are chosen.
     Importance,
     /// How the tree is built.
     Builder,
@@ -50,17 +59,122 @@ pub(super) enum Axis {
     Arithmetic,
 }
 
+/// The update of a tree between two frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, strum::IntoStaticStr)]
+#[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
+pub(super) enum Update {
+    /// New bounds in the tree of the first frame.
+    Refit,
+    /// The same in trees of the frame before, whose top level a [`Rebuilder`](lightbvh::Rebuilder) builds in the background.
+    TopRebuild,
+    /// A new tree.
+    Rebuild,
+    /// A new tree in every eighth frame, new bounds in the others.
+    EveryEighth,
+}
+
+impl Update {
+    /// The usual one of a user of `levels`.
+    pub fn usual(levels: Sampler) -> Self {
+        match levels {
+            Sampler::TwoLevel => Self::TopRebuild,
+            _ => Self::Refit,
+        }
+    }
+}
+
+impl Config {
+    /// The default with something else on an axis.
+    pub fn new(axis: Axis) -> Self {
+        Self {
+            axis,
+            levels: Sampler::TwoLevel,
+            importance: "moments+1/64",
+            layout: <Standard as Choice<WIDTH>>::Node::NAME,
+            width: WIDTH,
+            builder: Builder::Ward,
+            update: Update::TopRebuild,
+            candidates: 1,
+        }
+    }
+
+    /// Over the default's nodes, by an importance of this name.
+    pub fn of<I>(self, importance: &'static str, first: &Step<'_>) -> Result<Box<dyn Subject>, HostError>
+    where
+        I: ImportanceModel<<Standard as Choice<WIDTH>>::Node, WIDTH> + Sync + 'static,
+    {
+        self.built::<Standard, I, WIDTH>(importance, first)
+    }
+
+    /// Over the paper's nodes, built by SAOH.
+    pub fn of_paper<I>(
+        self,
+        importance: &'static str,
+        first: &Step<'_>,
+    ) -> Result<Box<dyn Subject>, HostError>
+    where
+        I: ImportanceModel<<Paper as Choice<4>>::Node, 4> + Sync + 'static,
+    {
+        let builder = Builder::Saoh;
+        Self { builder, ..self }.built::<Paper, I, 4>(importance, first)
+    }
+
+    fn built<C, I, const W: usize>(
+        self,
+        importance: &'static str,
+        first: &Step<'_>,
+    ) -> Result<Box<dyn Subject>, HostError>
+    where
+        C: TriangleChoice<W> + 'static,
+        I: ImportanceModel<C::Node, W> + Sync + 'static,
+    {
+        let (layout, width) = (C::Node::NAME, W);
+        let config = Self {
+            importance,
+            layout,
+            width,
+            ..self
+        };
+        Ok(Box::new(Built {
+            tree: Followed::<C, W>::new(config, first)?,
+            importance: PhantomData::<I>,
+        }))
+    }
+}
+
+impl fmt::Display for Config {
+    /// The difference from the default.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (builder, levels) = (self.builder.name(), self.levels.name());
+        let update: &str = self.update.into();
+        let importance = self.importance;
+        match self.axis {
+            Axis::Default => write!(f, "default"),
+            Axis::Importance => write!(f, "{importance}, {} x {}, {builder}", self.layout, self.width),
+            Axis::Builder => write!(f, "built by {builder}"),
+            Axis::Levels => write!(f, "{levels}, {importance}"),
+            Axis::Update => write!(f, "{levels}, {update}"),
+            Axis::Arithmetic => write!(f, "native operations"),
+            Axis::Candidates => write!(f, "1 of {} candidates", self.candidates),
+        }
+    }
+}
+
 /// A configuration over the lights of a scene.
 pub(super) trait Subject {
     fn config(&self) -> Config;
 
     fn bytes(&self) -> usize;
 
-    /// Builds the tree of a frame, beside the one there is.
-    fn build(&self, frame: &Frame<'_>) -> Result<Duration, HostError>;
+    /// Times of the updates so far.
+    fn updates(&self) -> &Updates;
+
+    /// Builds the tree of a frame next to the one that there is.
+    fn build(&self, frame: &Step<'_>) -> Result<Duration, HostError>;
 
     /// Brings the tree to the next frame.
-    fn advance(&mut self, frame: &Frame<'_>) -> Result<Spent, HostError>;
+    fn advance(&mut self, frame: &Step<'_>) -> Result<(), HostError>;
 
     /// Samples each point once. Numbers begin with hash(`first`).
     fn sample(&self, points: &[ShadingPoint], first: u32) -> Duration;
@@ -71,29 +185,190 @@ pub(super) trait Subject {
     /// The probability of a light.
     fn pmf(&self, lights: &Lights, point: &ShadingPoint, light: u32) -> f32;
 
-    fn render(
-        &mut self,
-        arrays: &SceneArrays,
-        params: RenderParams,
-    ) -> Result<Timed<Vec<[f32; 3]>>, HostError>;
+    fn render(&self, arrays: &SceneArrays, params: RenderParams) -> Timed<Vec<[f32; 3]>>;
 }
 
-impl fmt::Display for Config {
-    /// What differs from the default.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let builder: &str = self.builder.name();
-        match self.axis {
-            Axis::Default => write!(f, "default"),
-            Axis::Importance => write!(
-                f,
-                "{}, {} x {}, {builder}",
-                self.importance, self.layout, self.width
-            ),
-            Axis::Builder => write!(f, "built by {builder}"),
-            Axis::Levels => write!(f, "{}, {}", self.levels.name(), self.importance),
-            Axis::Update => write!(f, "{}, {}", self.levels.name(), self.update.name()),
-            Axis::Arithmetic => write!(f, "native operations"),
-            Axis::Candidates => write!(f, "1 of {} candidates", self.candidates),
+/// A tree by importance `I`: the tree's own type is compiled once for all importances.
+struct Built<C: TriangleChoice<W>, I, const W: usize> {
+    tree: Followed<C, W>,
+    importance: PhantomData<I>,
+}
+
+impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W>, const W: usize> Built<C, I, W> {
+    /// Calls `take` with the candidates of a sample.
+    fn draw<T>(
+        &self,
+        tree: &TreeOf<'_, C, W>,
+        point: &ShadingPoint,
+        number: impl Into<Random64>,
+        take: impl FnOnce(&[SampledLight]) -> T,
+    ) -> T {
+        let (tree, number) = (tree.by::<I>(), number.into());
+        match self.tree.config.candidates {
+            1 => take(&[tree.sample(point, number)]),
+            2 => take(&tree.sample_many::<_, 2>(point, number)),
+            4 => take(&tree.sample_many::<_, 4>(point, number)),
+            8 => take(&tree.sample_many::<_, 8>(point, number)),
+            _ => take(&tree.sample_many::<_, 16>(point, number)),
         }
+    }
+}
+
+impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize> Subject for Built<C, I, W> {
+    fn config(&self) -> Config {
+        self.tree.config
+    }
+
+    fn bytes(&self) -> usize {
+        self.tree.bvh.bytes()
+    }
+
+    fn updates(&self) -> &Updates {
+        &self.tree.updates
+    }
+
+    fn build(&self, frame: &Step<'_>) -> Result<Duration, HostError> {
+        let built = Timed::of(|| Followed::<C, W>::new(self.tree.config, frame));
+        black_box(&built.value?);
+        Ok(built.time)
+    }
+
+    fn advance(&mut self, frame: &Step<'_>) -> Result<(), HostError> {
+        self.tree.advance(frame)
+    }
+
+    fn sample(&self, points: &[ShadingPoint], first: u32) -> Duration {
+        let tree = self.tree.bvh.tree();
+        let last = |found: &[SampledLight]| found[found.len() - 1].pmf;
+        let timed = Timed::of(|| {
+            let each = points.iter().zip(first..);
+            each.map(|(point, number)| self.draw(&tree, point, hash(number), last))
+                .sum::<f32>()
+        });
+        black_box(timed.value);
+        timed.time
+    }
+
+    fn candidates(&self, point: &ShadingPoint, number: Random64, found: &mut Vec<(u32, f32)>) {
+        found.clear();
+        self.draw(&self.tree.bvh.tree(), point, number, |sampled| {
+            found.extend(sampled.iter().map(|sampled| (sampled.light, sampled.pmf)));
+        });
+    }
+
+    fn pmf(&self, lights: &Lights, point: &ShadingPoint, light: u32) -> f32 {
+        let instance = instance_of(&self.tree.bvh, lights, light);
+        self.tree.bvh.tree().by::<I>().pmf(point, light, instance)
+    }
+
+    fn render(&self, arrays: &SceneArrays, params: RenderParams) -> Timed<Vec<[f32; 3]>> {
+        let tree = self.tree.bvh.tree();
+        let view = arrays.lit_by(Emitters {
+            triangles: self.tree.bvh.triangles(),
+            instances: tree.instances,
+        });
+        let params = RenderParams {
+            candidates: self.tree.config.candidates,
+            ..params
+        };
+        Timed::of(|| render(&view, &arrays.camera, &params, &tree.by::<I>()))
+    }
+}
+
+/// A tree that follows the animation.
+pub(super) struct Followed<C: TriangleChoice<W> = Standard, const W: usize = WIDTH> {
+    config: Config,
+    pub bvh: Bvh<C, W>,
+    /// Of two levels.
+    instances: Option<Instances>,
+    updates: Updates,
+}
+
+impl<C: TriangleChoice<W>, const W: usize> Followed<C, W> {
+    /// The tree of `first`.
+    pub fn new(config: Config, first: &Step<'_>) -> Result<Self, HostError> {
+        let params = config.builder.params();
+        let (bvh, instances) = if config.levels == Sampler::TwoLevel {
+            let (bvh, instances) =
+                Instances::new(first.scene, first.frame, params).map_err(|error| first.refused(error))?;
+            (bvh, Some(instances))
+        } else {
+            (build(first.lights, config.levels, &params), None)
+        };
+        Ok(Self {
+            config,
+            bvh,
+            instances,
+            updates: Updates::default(),
+        })
+    }
+
+    fn advance(&mut self, frame: &Step<'_>) -> Result<(), HostError> {
+        self.updates.frames += 1;
+        let start = Instant::now();
+        let rebuilds = match self.config.update {
+            Update::Refit | Update::TopRebuild => false,
+            Update::Rebuild => true,
+            Update::EveryEighth => frame.frame.is_multiple_of(8),
+        };
+        if rebuilds {
+            let Self { bvh, instances, .. } = Self::new(self.config, frame)?;
+            (self.bvh, self.instances) = (bvh, instances);
+            self.updates.rebuild.push(ms(start.elapsed()));
+            return Ok(());
+        }
+        if self.config.update == Update::TopRebuild {
+            self.bvh.rebuild();
+            self.updates.beside.push(ms(start.elapsed()));
+        }
+        // Where nodes of the scene stand is the animation's business, not the tree's.
+        let edits = self.instances.as_mut().map(|i| i.edits(frame.scene, frame.frame));
+        let start = Instant::now();
+        match edits {
+            Some(edits) => {
+                self.bvh.apply(edits).map_err(|error| frame.refused(error))?;
+                self.bvh.refit();
+            }
+            None => self.bvh.follow(frame.lights).map_err(BackendError::from)?,
+        }
+        self.updates.refit.push(ms(start.elapsed()));
+        Ok(())
+    }
+}
+
+/// Times of the updates of one configuration over the animation, ms.
+#[derive(Default)]
+pub(super) struct Updates {
+    /// Edits and new bounds.
+    refit: Vec<f64>,
+    /// New trees, for which frames wait.
+    rebuild: Vec<f64>,
+    /// New top levels, for which no frame waits.
+    beside: Vec<f64>,
+    frames: usize,
+}
+
+impl Updates {
+    /// The median of the refits.
+    pub fn refit_ms(&self) -> f64 {
+        median_or_zero(&self.refit)
+    }
+
+    /// The time that frames wait for: the mean over them, of medians by what was done, so that an interrupted one does not count.
+    pub fn mean_ms(&self) -> f64 {
+        let of = |times: &[f64]| median_or_zero(times) * times.len() as f64;
+        (of(&self.refit) + of(&self.rebuild)) / self.frames.max(1) as f64
+    }
+
+    /// The median of what is built in the background.
+    pub fn beside_ms(&self) -> f64 {
+        median_or_zero(&self.beside)
+    }
+}
+
+fn median_or_zero(times: &[f64]) -> f64 {
+    match times {
+        [] => 0.0,
+        _ => Interval::of(times.to_vec()).median,
     }
 }

@@ -2,24 +2,22 @@
 
 use std::time::Instant;
 
-use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::json;
 
 use super::Args;
 use super::choices::all;
-use super::light::sent;
-use super::structure::{Variances, variances};
+use super::structure::{Arriving, Variances};
 use super::subject::{Axis, Config};
-use super::update::Frame;
 use crate::cli::measure::{NOT_MEASURED, points};
 use crate::cli::table::{self, news};
 use crate::cli::{Context, Outcome};
 use crate::error::HostError;
+use crate::method::Step;
 use crate::scene::Scene;
 use crate::workload::{arrays_at, lights_at};
 
-/// What differs from one another in the probabilities of lights, of trees as they are built.
+/// Axes that differ in the probabilities of lights, of trees as they are built.
 const AXES: [Axis; 5] = [
     Axis::Importance,
     Axis::Builder,
@@ -70,18 +68,14 @@ fn of_scene(
     let lights = lights_at(scene, frame)?;
     let points = points::on_surfaces(scene, frame, count);
     let arrays = arrays_at(scene, frame, 16, 9)?;
-    let surfaces = arrays.rays.surfaces();
-    let sent: Vec<_> = points
-        .par_iter()
-        .map(|point| sent(lights.triangles(), &surfaces, point))
-        .collect();
-    let built = Frame::new(scene, frame, &lights);
+    let arriving = Arriving::new(&lights, &points, &arrays.rays.surfaces());
+    let built = Step::new(scene, frame, &lights);
     let subjects = all(&built, |axis| AXES.contains(&axis) && is_wanted(axis))?;
     let rows = subjects.iter().map(|subject| Row {
         scene: scene.name().to_owned(),
         choice: subject.config().to_string(),
         config: subject.config(),
-        variances: variances(&**subject, &lights, &points, &sent),
+        variances: arriving.variances(&**subject),
     });
     Ok(rows.collect())
 }

@@ -7,19 +7,18 @@ use indicatif::ProgressBar;
 use lightbvh::exact::hash;
 use lightbvh_kernels::query::Query;
 
-use super::side::Side;
-use super::tally::{Kind, Tallies};
+use super::tally::{Kind, Side, Tallies};
 use crate::backend::{Sampler, SceneArrays};
 use crate::error::HostError;
 use crate::method::{Importance, Method, MethodLight, Recipe, Runner, Step, Target};
 use crate::scene::{Scene, SceneLight};
 use crate::words::Record;
-use crate::workload::{RenderSettings, arrays_lit_by, queries};
+use crate::workload::{arrays_lit_by, queries, render_params};
 
 /// Images are small: an animation has thousands of them, and SwiftShader takes a millisecond for a pixel of some.
 const SIZE: (u32, u32) = (16, 9);
 
-/// What is compared in each frame.
+/// The work of each frame.
 pub(super) struct Plan {
     pub frames: Range<u32>,
     /// Lights sampled and pmfs evaluated per frame and method.
@@ -47,11 +46,7 @@ pub(super) fn compare<L: MethodLight>(
     let mut lanes = Vec::new();
     for frame in plan.frames.clone() {
         let arrays = arrays_lit_by::<L>(scene, frame, SIZE.0, SIZE.1)?;
-        let step = Step {
-            scene,
-            frame,
-            lights: &arrays.lights,
-        };
+        let step = Step::new(scene, frame, &arrays.lights);
         let asked = queries(&arrays, hash(plan.seed.wrapping_add(frame)), 0, plan.queries);
         if lanes.is_empty() {
             lanes = start(plan, &step, &arrays, targets)?;
@@ -133,16 +128,11 @@ impl<L: MethodLight> Lane<'_, L> {
             side.compare_queries(tallies, &what, asked.to_vec(), lights)?;
         }
 
-        let settings = RenderSettings {
-            frame: step.frame,
-            width: SIZE.0,
-            height: SIZE.1,
-            samples: 1,
-            seed: seed.wrapping_add(step.frame),
-        };
-        let expected = self.cpu.image(step, arrays, &settings)?.value;
+        let background = step.scene.data().background;
+        let params = render_params(SIZE, 1, seed.wrapping_add(step.frame), background);
+        let expected = self.cpu.image(step, arrays, &params)?.value;
         for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
-            let found = device.image(step, arrays, &settings)?.value;
+            let found = device.image(step, arrays, &params)?.value;
             tally.take_pixels(&what("render"), &expected, &found)?;
         }
         Ok(())
@@ -155,6 +145,3 @@ fn nodes<L: MethodLight>(runner: &mut dyn Runner<L>) -> Result<(Record, Vec<u32>
     let (record, words) = (backend.node_record(), backend.nodes()?);
     Ok((record, runner.words_in_use(words)))
 }
-
-#[cfg(test)]
-mod tests;

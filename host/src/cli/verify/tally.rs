@@ -2,15 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use bytemuck::cast_slice;
+use bytemuck::{NoUninit, cast_slice};
+use lightbvh::INVALID;
+use lightbvh::exact::hash;
+use lightbvh_kernels::query::Query;
 use serde::Serialize;
 
-use super::subject::Tree;
-use crate::backend::PIXEL_RECORD;
+use super::structures::Tree;
+use crate::backend::{Backend, BackendError, PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD};
 use crate::error::HostError;
+use crate::scene::SceneLight;
 use crate::words::{Record, compare_words};
 
-/// What words are of.
+/// The kind of words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
@@ -35,7 +39,7 @@ pub(in crate::cli) struct Words {
     pub different: u64,
 }
 
-/// What was compared with one device. Nodes, samples, pmfs and pixels are counted as such, the others in words.
+/// Counts of one device. Nodes, samples, pmfs and pixels are counted as such, the others in words.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub(in crate::cli) struct Tally {
     pub compared: u64,
@@ -50,7 +54,7 @@ pub(in crate::cli) struct Tally {
     pub first_difference: Option<String>,
 }
 
-/// What was compared with each device, and of the CPU's words those that it computes twice.
+/// Counts of each device, and of words that the CPU computes twice.
 #[derive(Default)]
 pub(super) struct Tallies {
     pub devices: Vec<Tally>,
@@ -97,5 +101,193 @@ impl Tally {
     ) -> Result<(), HostError> {
         let (cpu, device) = (cast_slice(cpu), cast_slice(device));
         self.take(Kind::Pixels, what, &PIXEL_RECORD, cpu, device)
+    }
+}
+
+/// One backend on the CPU and on each device.
+pub(super) struct Side<'a, L: SceneLight> {
+    pub cpu: &'a mut dyn Backend<L>,
+    pub devices: Vec<&'a mut dyn Backend<L>>,
+}
+
+impl<L: SceneLight> Side<'_, L> {
+    /// Compares what `work` gives on each device with what it gives on the CPU, which is returned.
+    pub fn compare<T: NoUninit>(
+        &mut self,
+        tallies: &mut Tallies,
+        kind: Kind,
+        what: &str,
+        record: &Record,
+        work: impl Fn(&mut dyn Backend<L>) -> Result<Vec<T>, BackendError>,
+    ) -> Result<Vec<T>, HostError> {
+        let expected = work(self.cpu)?;
+        for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
+            let found = work(&mut **device)?;
+            tally.take(kind, what, record, cast_slice(&expected), cast_slice(&found))?;
+        }
+        Ok(expected)
+    }
+
+    /// Sample, then pmf: of the light sampled for every query but each eighth, which asks for some of the `lights` in the
+    /// world, of one level or two. What the CPU evaluates again must be what it sampled.
+    pub fn compare_queries(
+        &mut self,
+        tallies: &mut Tallies,
+        what: &dyn Fn(&str) -> String,
+        mut asked: Vec<Query>,
+        (lights, single): (&[L], bool),
+    ) -> Result<(), HostError> {
+        let sampled = self.compare(
+            tallies,
+            Kind::Samples,
+            &what("sample"),
+            &SAMPLED_RECORD,
+            |backend| Ok(backend.sample(&asked)?.value),
+        )?;
+        for (i, (query, sampled)) in asked.iter_mut().zip(&sampled).enumerate() {
+            query.words = if i % 8 == 7 && !lights.is_empty() {
+                let light = hash(i as u32) % lights.len() as u32;
+                let mesh = lights[light as usize].mesh();
+                [light, if single { INVALID } else { mesh }]
+            } else {
+                [sampled.light, sampled.instance]
+            };
+        }
+        let pmfs = self.compare(tallies, Kind::Pmfs, &what("pmf"), &PMF_RECORD, |backend| {
+            Ok(backend.pmf(&asked)?.value)
+        })?;
+        let again: (Vec<u32>, Vec<u32>) = asked
+            .iter()
+            .zip(sampled.iter().zip(&pmfs))
+            .filter(|(query, (sampled, _))| query.words[0] == sampled.light)
+            .map(|(_, (sampled, pmf))| (sampled.pmf.to_bits(), pmf.to_bits()))
+            .unzip();
+        let what = what("sample against pmf");
+        tallies
+            .cpu
+            .take(Kind::Pmfs, &what, &PMF_RECORD, &again.0, &again.1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use lightbvh::{BuildParams, Heuristic, SampledLight};
+    use lightbvh_kernels::bvh::Paper;
+    use lightbvh_kernels::render::RenderParams;
+
+    use super::*;
+    use crate::backend::{Bvh, CpuBackend, Integrator, Sampler, SceneArrays, Timed};
+    use crate::scene::Scene;
+    use crate::workload::{arrays_at, build, queries, render_params};
+
+    /// The CPU in the place of a device, with one bit of the middle word of what is `wrong` turned.
+    struct Corrupt {
+        inner: CpuBackend<Paper, 4>,
+        wrong: Option<Kind>,
+    }
+
+    impl Corrupt {
+        fn turned<T: bytemuck::Pod>(&self, kind: Kind, mut timed: Timed<Vec<T>>) -> Timed<Vec<T>> {
+            if self.wrong == Some(kind) {
+                let words: &mut [u32] = bytemuck::cast_slice_mut(&mut timed.value);
+                words[words.len() / 2] ^= 1;
+            }
+            timed
+        }
+    }
+
+    impl Backend for Corrupt {
+        fn node_record(&self) -> Record {
+            self.inner.node_record()
+        }
+
+        fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
+            let nodes = self.inner.nodes()?;
+            Ok(self.turned(Kind::Nodes, Timed::of(|| nodes)).value)
+        }
+
+        fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError> {
+            let sampled = self.inner.sample(queries)?;
+            Ok(self.turned(Kind::Samples, sampled))
+        }
+
+        fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, BackendError> {
+            let pmfs = self.inner.pmf(queries)?;
+            Ok(self.turned(Kind::Pmfs, pmfs))
+        }
+
+        fn render(
+            &mut self,
+            scene: &SceneArrays,
+            params: &RenderParams,
+            sampler: Sampler,
+            integrator: Integrator,
+        ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
+            let image = self.inner.render(scene, params, sampler, integrator)?;
+            Ok(self.turned(Kind::Pixels, image))
+        }
+    }
+
+    #[test]
+    fn a_wrong_bit_of_anything_is_found_and_named() {
+        let scene = Scene::open("street").expect("built in");
+        let arrays = arrays_at(&scene, 0, 16, 9).expect("a frame");
+        let params = BuildParams::paper(Heuristic::Saoh);
+        let bvh: Bvh<Paper, 4> = build(&arrays.lights, Sampler::SingleLevel, &params);
+        for (wrong, said) in [
+            (None, ""),
+            (Some(Kind::Nodes), "street nodes: node "),
+            (Some(Kind::Samples), "street sample: sampled light 32, light: "),
+            (Some(Kind::Pmfs), "street pmf: pmf 32, pmf: "),
+            (Some(Kind::Pixels), "street render: pixel 72, radiance[0]: "),
+        ] {
+            let mut cpu: CpuBackend<Paper, 4> = CpuBackend::new(bvh.clone());
+            let mut device = Corrupt {
+                inner: CpuBackend::new(bvh.clone()),
+                wrong,
+            };
+            let mut tallies = Tallies {
+                devices: vec![Tally::default()],
+                ..Tallies::default()
+            };
+            let mut side = Side {
+                cpu: &mut cpu,
+                devices: vec![&mut device],
+            };
+            let (what, record) = (|kernel: &str| format!("street {kernel}"), side.cpu.node_record());
+            side.compare(&mut tallies, Kind::Nodes, &what("nodes"), &record, |backend| {
+                backend.nodes()
+            })
+            .expect("nodes");
+            let lights = (arrays.lights.triangles(), true);
+            side.compare_queries(&mut tallies, &what, queries(&arrays, 1, 0, 64), lights)
+                .expect("answers");
+            let params = render_params((16, 9), 1, 1, [0.0; 3]);
+            side.compare(
+                &mut tallies,
+                Kind::Pixels,
+                &what("render"),
+                &PIXEL_RECORD,
+                |backend| {
+                    let image = backend.render(&arrays, &params, Sampler::SingleLevel, Integrator::Direct)?;
+                    Ok(image.value)
+                },
+            )
+            .expect("images");
+            assert_eq!(tallies.cpu.different, 0);
+            let tally = &tallies.devices[0];
+            let words: u64 = tally.words.values().map(|words| words.compared).sum();
+            assert_eq!((words, tally.pixels), (tally.compared, 16 * 9));
+            assert_eq!(tally.different, u64::from(wrong.is_some()), "{wrong:?}");
+            if let Some(kind) = wrong {
+                assert_eq!(tally.words[&kind].different, 1);
+                let first = tally.first_difference.as_ref().expect("a difference");
+                assert!(first.starts_with(said), "{first}");
+                assert!(
+                    first.contains("expected 0x") && first.contains("got 0x"),
+                    "{first}"
+                );
+            }
+        }
     }
 }

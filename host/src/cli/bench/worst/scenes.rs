@@ -1,4 +1,4 @@
-//! Scenes in which walks over bounds go astray: most of the flux is where it cannot arrive.
+//! Scenes that are hard for walks over bounds: most of the flux is where it cannot arrive.
 
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::node::kind;
@@ -36,8 +36,6 @@ pub(super) fn scenes() -> Vec<Scene> {
     let mut all = vec![
         scene("wall below the horizon", wall(), |r| facing_wall(r, -0.001)),
         scene("wall across the horizon", wall(), |r| facing_wall(r, 0.5)),
-        scene("tilted signs", signs(), beside_signs),
-        scene("nested shells facing outward", shells(), inside_shells),
         scene("one bright among a million dim", one_bright(), anywhere),
         scene("lights on a line, 2^i apart", exponential(), anywhere),
     ];
@@ -80,65 +78,6 @@ fn facing_wall(r: u32, height: f32) -> ShadingPoint {
     ShadingPoint {
         p: [0.5 + 20.0 * draw(r, 0), top, 51.2 * draw(r, 1)],
         n: [0.0, 1.0, 0.0],
-    }
-}
-
-/// 128 signs of 2048 lamps, turned in every direction.
-fn signs() -> Vec<EmissiveTriangle> {
-    let mut lamps = Vec::new();
-    for sign in 0..128u32 {
-        let center: [f32; 3] = std::array::from_fn(|k| 60.0 * draw(sign, k as u32));
-        let angle = std::f32::consts::TAU * draw(sign, 7);
-        let (along, up) = (
-            [angle.cos(), 0.0, angle.sin()],
-            [0.2 * angle.sin(), 0.98, -0.2 * angle.cos()],
-        );
-        let bright = if sign % 8 == 0 { 1000.0 } else { 1.0 };
-        for i in 0..2048u32 {
-            let (u, v) = ((i % 64) as f32 * 0.05, (i / 64) as f32 * 0.05);
-            let p = std::array::from_fn(|k| center[k] + along[k] * u + up[k] * v);
-            lamps.push(lamp(p, along.map(|x| x * 0.02), up.map(|x| x * 0.02), bright));
-        }
-    }
-    lamps
-}
-
-fn beside_signs(r: u32) -> ShadingPoint {
-    let angle = std::f32::consts::TAU * draw(r, 4);
-    ShadingPoint {
-        p: std::array::from_fn(|k| 62.0 * draw(r, k as u32)),
-        n: [angle.cos(), 0.0, angle.sin()],
-    }
-}
-
-/// Eight spheres within each other, 200,000 lamps, all facing away from the centre.
-fn shells() -> Vec<EmissiveTriangle> {
-    (0..200_000u32)
-        .map(|i| {
-            let (shell, at) = (1.0 + (i % 8) as f32, i / 8);
-            let (z, angle) = (2.0 * draw(at, 0) - 1.0, std::f32::consts::TAU * draw(at, 1));
-            let ring = (1.0 - z * z).max(0.0).sqrt();
-            let n = [ring * angle.cos(), ring * angle.sin(), z];
-            let a = [-angle.sin(), angle.cos(), 0.0];
-            let b = [
-                n[1] * a[2] - n[2] * a[1],
-                n[2] * a[0] - n[0] * a[2],
-                n[0] * a[1] - n[1] * a[0],
-            ];
-            lamp(
-                n.map(|x| x * shell),
-                a.map(|x| x * 0.01),
-                b.map(|x| x * 0.01),
-                1.0,
-            )
-        })
-        .collect()
-}
-
-fn inside_shells(r: u32) -> ShadingPoint {
-    ShadingPoint {
-        p: std::array::from_fn(|k| 4.0 * draw(r, k as u32) - 2.0),
-        n: [0.0, 0.0, 1.0],
     }
 }
 

@@ -3,16 +3,9 @@
 use std::time::Duration;
 
 use super::*;
-use crate::backend::{Sampler, Timed};
-use crate::cli::trade::subject::{Axis, Config};
-use crate::cli::trade::update::{Frame, Spent, Update};
-use crate::method::Builder;
-use crate::workload::arrays_at;
-use lightbvh::{Lights, Random64, ShadingPoint};
 
 /// Half of the pixels too bright and half too dark, by a step that falls as the root of the rays.
 struct Known {
-    axis: Axis,
     /// Time of a ray of all pixels, ms.
     ray_ms: f64,
     /// Of one ray, as radiance.
@@ -21,54 +14,18 @@ struct Known {
     bias: f32,
 }
 
-impl Subject for Known {
-    fn config(&self) -> Config {
-        Config {
-            axis: self.axis,
-            integrator: "direct",
-            levels: Sampler::TwoLevel,
-            importance: "",
-            layout: "",
-            width: 8,
-            builder: Builder::Ward,
-            update: Update::Refit,
-            candidates: 1,
-        }
-    }
-
-    fn bytes(&self) -> usize {
-        0
-    }
-
-    fn build(&self, _: &Frame<'_>) -> Result<Duration, HostError> {
-        Ok(Duration::ZERO)
-    }
-
-    fn advance(&mut self, _: &Frame<'_>) -> Result<Spent, HostError> {
-        Ok(Spent::default())
-    }
-
-    fn sample(&self, _: &[ShadingPoint], _: u32) -> Duration {
-        Duration::ZERO
-    }
-
-    fn candidates(&self, _: &ShadingPoint, _: Random64, _: &mut Vec<(u32, f32)>) {}
-
-    fn pmf(&self, _: &Lights, _: &ShadingPoint, _: u32) -> f32 {
-        1.0
-    }
-
-    fn render(&mut self, _: &SceneArrays, params: RenderParams) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
+impl Known {
+    fn render(&self, params: RenderParams) -> Timed<Vec<[f32; 3]>> {
         let rays = params.samples;
         let off = match params.seed {
             REFERENCE_SEED.. => 0.0,
             _ => self.step / (rays as f32).sqrt(),
         };
         let value = |k: u32| 1.0 + if k.is_multiple_of(2) { off } else { -off } + self.bias;
-        Ok(Timed {
+        Timed {
             value: (0..params.width * params.height).map(|k| [value(k); 3]).collect(),
             time: Duration::from_secs_f64(1e-3 * self.ray_ms * f64::from(rays)),
-        })
+        }
     }
 }
 
@@ -85,23 +42,14 @@ const BUDGET: Budget = Budget {
 };
 
 fn measured(others: Vec<(Known, f64)>, update_ms: f64) -> Vec<Images> {
-    let scene = crate::scene::Scene::open("street").expect("a scene");
-    let arrays = arrays_at(&scene, 0, 16, 16).expect("a frame");
-    let default = Known {
-        axis: Axis::Default,
-        ray_ms: 1.0,
-        step: STEP,
-        bias: 0.0,
-    };
-    let mut subjects: Vec<Box<dyn Subject>> = vec![Box::new(default)];
-    let mut updates = vec![update_ms];
-    for (known, update) in others {
-        subjects.push(Box::new(known));
-        updates.push(update);
-    }
+    let all: Vec<(Known, f64)> = [(known(1.0, STEP), update_ms)]
+        .into_iter()
+        .chain(others)
+        .collect();
+    let updates: Vec<f64> = all.iter().map(|(_, update)| *update).collect();
     let mut measured = Measured::default();
     measured
-        .add(&mut subjects, &updates, &arrays, [0.0; 3], &BUDGET)
+        .add(&updates, [0.0; 3], &BUDGET, |at, params| all[at].0.render(params))
         .expect("images");
     measured.finish().0
 }
@@ -111,7 +59,6 @@ const STEP: f32 = 0.2;
 
 fn known(ray_ms: f64, step: f32) -> Known {
     Known {
-        axis: Axis::Builder,
         ray_ms,
         step,
         bias: 0.0,

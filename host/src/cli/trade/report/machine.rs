@@ -1,7 +1,6 @@
 //! Where, when and by what a report was made.
 
 use std::env::consts::{ARCH, OS};
-use std::path::Path;
 use std::time::SystemTime;
 
 use serde::Serialize;
@@ -29,53 +28,15 @@ impl Made {
             let line = text.lines().find(|line| line.starts_with("model name"))?;
             Some(line.split_once(':')?.1.trim().to_owned())
         });
+        let args: Vec<String> = std::env::args().skip(1).collect();
         Self {
             machine: format!("{}, {OS}", processor.unwrap_or_else(|| ARCH.to_owned())),
             threads: rayon::current_num_threads(),
-            command: command(std::env::args()),
+            // By the program's name alone, wherever it lies.
+            command: format!("lightbvh {}", args.join(" ")),
             version: env!("CARGO_PKG_VERSION"),
             optimised: !cfg!(debug_assertions),
             date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         }
-    }
-}
-
-/// The command line, by the program's name alone: where it lies is nobody's business.
-pub(in crate::cli) fn command(mut args: impl Iterator<Item = String>) -> String {
-    let program = args.next().unwrap_or_default();
-    let program = Path::new(&program).file_stem().unwrap_or_default();
-    let plain = |c: char| c.is_alphanumeric() || "-_./:=,+@%".contains(c);
-    let quoted = |arg: String| match !arg.is_empty() && arg.chars().all(plain) {
-        true => arg,
-        false => format!("'{}'", arg.replace('\'', "'\\''")),
-    };
-    let mut line = program.to_string_lossy().into_owned();
-    for arg in args {
-        line = format!("{line} {}", quoted(arg));
-    }
-    line
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_command_can_be_given_to_a_shell_again() {
-        let args = ["/some/where/lightbvh", "trade", "--scene", "my scene's.glb"];
-        let line = command(args.into_iter().map(String::from));
-        assert_eq!(line, r"lightbvh trade --scene 'my scene'\''s.glb'");
-        let args = ["lightbvh", "a&b.gltf", "a$b", "a\nb", "", "C:/x=1,2"];
-        let line = command(args.into_iter().map(String::from));
-        assert_eq!(line, "lightbvh 'a&b.gltf' 'a$b' 'a\nb' '' C:/x=1,2");
-    }
-
-    #[test]
-    fn a_date_is_a_date() {
-        let date = Made::now().date;
-        assert!(
-            date.len() == 20 && date.ends_with('Z') && date.starts_with("20"),
-            "{date}"
-        );
     }
 }

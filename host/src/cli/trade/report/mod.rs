@@ -1,4 +1,4 @@
-//! What was measured as one page, `trade.html`, which needs no network and no other file, and as JSON.
+//! The measurements as one page, `trade.html`, which needs no network and no other file, and as JSON.
 
 pub(in crate::cli) mod machine;
 mod page;
@@ -13,19 +13,18 @@ use serde::Serialize;
 use serde_json::Value;
 
 use self::machine::Made;
-use self::pictures::{Pictures, pictures};
+use self::pictures::{Pictures, pictures, png_url};
 use self::tree::{Drawn, drawn};
-use super::point::Point;
-use super::update::{Followed, Frame, Update};
-use crate::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler};
+use super::front::Point;
+use super::subject::{Axis, Config, Followed};
+use crate::backend::{Backend, CpuBackend, Integrator, Sampler};
 use crate::cli::target;
 use crate::error::HostError;
-use crate::method::Builder;
+use crate::method::Step;
 use crate::metrics::Judge;
-use crate::plot::png_url;
 use crate::render::Film;
 use crate::scene::Scene;
-use crate::workload::{RenderSettings, arrays_at, lights_at};
+use crate::workload::{arrays_at, lights_at, render_params};
 
 /// Rows of the picture that a tree is drawn over, and its shadow rays of a pixel.
 const ROWS: u32 = 300;
@@ -38,7 +37,7 @@ pub(super) struct Report {
     scene_count: usize,
 }
 
-/// What a page shows of a scene beside its points.
+/// The parts of a page about a scene, next to its points.
 #[derive(Debug, Serialize)]
 struct SceneShown {
     name: String,
@@ -67,23 +66,14 @@ impl Report {
         judge: &Judge,
     ) -> Result<(), HostError> {
         let lights = lights_at(scene, frame)?;
-        let of = Frame::new(scene, frame, &lights);
-        let levels = Sampler::TwoLevel;
-        let params = Builder::Ward.params();
-        let (bvh, _): (Bvh, _) = Followed::build(&of, levels, Update::usual(levels), params)?;
+        let step = Step::new(scene, frame, &lights);
+        let tree: Followed = Followed::new(Config::new(Axis::Default), &step)?;
         let (width, height) = judge.size();
         let columns = (ROWS * width / height).clamp(1, 4 * ROWS);
         let arrays = arrays_at(scene, frame, columns, ROWS)?;
-        let mut backend = CpuBackend::<Standard, 8>::new(bvh);
-        let settings = RenderSettings {
-            frame,
-            width: columns,
-            height: ROWS,
-            samples: RAYS,
-            seed: 0,
-        };
-        let params = settings.params(scene.frame(frame).background);
-        let image = backend.render(&arrays, &params, levels, Integrator::Direct)?;
+        let mut backend = CpuBackend::<Standard, 8>::new(tree.bvh);
+        let params = render_params((columns, ROWS), RAYS, 0, scene.frame(frame).background);
+        let image = backend.render(&arrays, &params, Sampler::TwoLevel, Integrator::Direct)?;
         let film = Film::new(columns, ROWS, image.value)?;
         let shown = film.shown(judge.exposure());
         let picture = png_url(&shown, (columns, ROWS), ExtendedColorType::Rgb8)?;

@@ -1,12 +1,16 @@
 //! Images and error maps as data URLs, within what a page may weigh.
 
-use image::ExtendedColorType;
+use std::io::Cursor;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use image::{ExtendedColorType, ImageFormat};
 use serde::Serialize;
 
-use crate::cli::trade::point::Point;
+use crate::cli::trade::front::Point;
 use crate::error::HostError;
 use crate::metrics::{Judge, relative_squared_error};
-use crate::plot::png_url;
+use crate::render::FilmError;
 
 /// Characters of all pictures of a page.
 const MOST: usize = 11 << 20;
@@ -68,9 +72,9 @@ fn picture(point: &Point, judge: &Judge) -> Result<Picture, HostError> {
     let (film, rays) = &point.images.shown;
     let size = judge.size();
     let judged = judge.judge(film)?;
-    let quality = judge.quality(film)?;
+    let quality = judged.quality;
     let flip: Vec<u8> = judged
-        .flip()
+        .flip
         .iter()
         .map(|&flip| (flip * 255.0).round() as u8)
         .collect();
@@ -84,7 +88,7 @@ fn picture(point: &Point, judge: &Judge) -> Result<Picture, HostError> {
         })
         .collect();
     Ok(Picture {
-        image: png_url(judged.shown(), size, ExtendedColorType::Rgb8)?,
+        image: png_url(&judged.shown, size, ExtendedColorType::Rgb8)?,
         flip: png_url(&flip, size, ExtendedColorType::L8)?,
         relative: png_url(&relative, size, ExtendedColorType::L8)?,
         mean_flip: quality.flip,
@@ -92,4 +96,23 @@ fn picture(point: &Point, judge: &Judge) -> Result<Picture, HostError> {
         mse: quality.mse,
         rays: *rays,
     })
+}
+
+/// `data:image/png;base64,…` of 8-bit pixels by rows.
+pub(super) fn png_url(
+    bytes: &[u8],
+    (width, height): (u32, u32),
+    color: ExtendedColorType,
+) -> Result<String, FilmError> {
+    let mut file = Cursor::new(Vec::new());
+    image::write_buffer_with_format(&mut file, bytes, width, height, color, ImageFormat::Png).map_err(
+        |source| FilmError::Encode {
+            path: "a picture of the report".into(),
+            source,
+        },
+    )?;
+    Ok(format!(
+        "data:image/png;base64,{}",
+        STANDARD.encode(file.get_ref())
+    ))
 }

@@ -141,7 +141,7 @@ fn cut<'a>(sets: impl Iterator<Item = &'a Set>, camera: &Camera, size: (u32, u32
 }
 
 impl Set {
-    /// What a node says of a child, carried from the space of its mesh to the world.
+    /// A node's summary of a child, carried from the space of its mesh to the world.
     fn new(moments: &LightMoments, instance: Option<&Instance>, kind: u32) -> Self {
         let wide = |v: Vec3| v.as_dvec3();
         let [across, along] = [moments.across, moments.along].map(|d| f64::from(d).powi(2));
