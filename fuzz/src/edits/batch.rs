@@ -7,7 +7,7 @@ use lightbvh::bvh::Added;
 use lightbvh::exact::hash;
 use lightbvh::{Bvh, Edit, EmissiveTriangle, InstanceId, LightNode, MeshId, Transform};
 
-use super::model::{Mesh, Model, Placed, within};
+use super::model::{Mesh, Model, Placed, reach, within};
 use super::placing::{factor, transform};
 use crate::input::{self, Coordinates};
 

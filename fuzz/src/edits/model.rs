@@ -18,6 +18,8 @@ pub struct Model {
 pub struct Mesh {
     pub id: MeshId,
     pub triangles: Vec<EmissiveTriangle>,
+    /// The greatest coordinate since all triangles were set.
+    pub reach: f64,
 }
 
 /// A mesh in the world.
@@ -37,6 +39,11 @@ impl Model {
     pub fn triangles(&self, id: MeshId) -> &[EmissiveTriangle] {
         let mesh = self.meshes.iter().find(|mesh| mesh.id == id);
         &mesh.expect("an instance's mesh stays").triangles
+    }
+
+    pub fn reach(&self, id: MeshId) -> f64 {
+        let mesh = self.meshes.iter().find(|mesh| mesh.id == id);
+        mesh.expect("an instance's mesh stays").reach
     }
 
     /// The scene's lights against the exact maps in `f64`.
@@ -127,21 +134,25 @@ fn check_radiance(local: [f32; 3], factor: f32, found: [f32; 3]) {
     }
 }
 
-/// Whether a mesh under a map stays in the domain; `None` where rounding decides.
-pub fn within(map: &Transform, triangles: &[EmissiveTriangle]) -> Option<bool> {
+/// The greatest magnitude of a coordinate.
+pub fn reach(triangles: &[EmissiveTriangle]) -> f64 {
+    let coordinates = triangles.iter().flat_map(|triangle| triangle.p).flatten();
+    coordinates.fold(0.0, |most: f64, x| most.max(f64::from(x.abs())))
+}
+
+/// Whether a mesh of this reach stays in the domain under a map; `None` where rounding decides.
+pub fn within(map: &Transform, reach: f64) -> Option<bool> {
     let entries = map.columns.iter().flatten().chain(&map.translation);
     if !entries.clone().all(|x| f64::from(x.abs()) <= MOST) {
         return Some(false);
     }
-    let coordinates = triangles.iter().flat_map(|triangle| triangle.p).flatten();
-    let greatest = coordinates.fold(0.0, |most: f64, x| most.max(f64::from(x.abs())));
     let farthest = (0..3).map(|row| {
         let across: f64 = map
             .columns
             .iter()
             .map(|column| f64::from(column[row].abs()))
             .sum();
-        across * greatest + f64::from(map.translation[row].abs())
+        across * reach + f64::from(map.translation[row].abs())
     });
     let farthest = farthest.fold(0.0, f64::max);
     let unclear = (farthest / MOST - 1.0).abs() < 1e-9;

@@ -33,5 +33,5 @@ fn reservoirs() {
         digest.words(&[found.sample]);
         digest.words(&[found.weight]);
     }
-    digest.is(0, "reservoirs");
+    digest.is(0x5f81_6004_9037_7131, "reservoirs");
 }

@@ -150,32 +150,32 @@ fn bvh<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: [u64; 3
 #[test]
 fn compact_nodes() {
     bvh::<CompactNode<2>, Eq4, 2>([
-        0x79a6_4706_f585_23ee,
-        0x33b6_a01a_7474_7995,
-        0x31c1_2176_9d47_5685,
+        0xce82_79c8_65fd_d34e,
+        0xb585_be73_77dc_e224,
+        0x4290_44f4_43e1_6785,
     ]);
     bvh::<CompactNode<4>, Eq4, 4>([
-        0xd497_4e96_4c33_a9a1,
-        0x54d8_2a9e_0c3e_e8bc,
-        0x43f8_17ae_7a37_cac4,
+        0xfe71_2e53_054b_a220,
+        0x2510_7ed8_9dea_2b9a,
+        0x047f_da30_841f_a83c,
     ]);
     bvh::<CompactNode<16>, Defensive<Eq4, 5>, 16>([
-        0x6103_7819_62eb_88f2,
-        0x3207_34a5_e642_ecd5,
-        0x9130_5eed_cca2_1bc8,
+        0x75a2_47a9_abe3_57c5,
+        0x1e27_afaf_c3f2_023d,
+        0x03ff_c6f9_7f8e_4208,
     ]);
 }
 
 #[test]
 fn moment_nodes() {
     bvh::<MomentNode<4>, Moments, 4>([
-        0x2c90_0d50_7cd9_cb0d,
-        0x8dcd_c8ab_d519_ec49,
-        0x838e_4b8a_e372_6f6f,
+        0x94a8_8884_c370_f913,
+        0xefb4_0cd1_9908_00ca,
+        0x5388_bf28_61c7_8623,
     ]);
     bvh::<MomentNode<8>, Defensive<Moments, 6>, 8>([
-        0x3ef4_f3ef_4199_2ff8,
-        0xde88_c8e1_37b3_a7c2,
-        0x81d2_f384_5e36_045b,
+        0x2abd_eab1_54b4_feb9,
+        0x2d2a_6b94_442d_c247,
+        0xb2ef_8f26_74a6_eaab,
     ]);
 }

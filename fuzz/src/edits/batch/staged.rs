@@ -21,7 +21,7 @@ impl Staged {
     pub fn add_instance(&mut self, mesh: MeshId, transform: Transform, radiance: f32) -> (Edit, Verdict) {
         let lives = self.lives(mesh);
         let inside = if lives {
-            within(&transform, self.model.triangles(mesh))
+            within(&transform, self.model.reach(mesh))
         } else {
             None
         };
@@ -41,7 +41,7 @@ impl Staged {
 
     pub fn move_to(&mut self, instance: InstanceId, transform: Transform) -> (Edit, Verdict) {
         let mesh = self.placed(instance).map(|placed| placed.mesh);
-        let inside = mesh.and_then(|mesh| within(&transform, self.model.triangles(mesh)));
+        let inside = mesh.and_then(|mesh| within(&transform, self.model.reach(mesh)));
         let verdict = first_wrong(&[(Some(mesh.is_some()), "UnknownInstance"), (inside, "Transform")]);
         if let Some(placed) = self.placed(instance) {
             placed.transform = transform;
@@ -70,9 +70,11 @@ impl Staged {
             (Some(same), "Count"),
             (sound, "Light"),
         ];
-        self.push_places(id, &all, &mut conditions);
+        let reach = reach(&all);
+        self.push_places(id, reach, &mut conditions);
         if let Some(mesh) = self.model.meshes.iter_mut().find(|mesh| mesh.id == id) {
             mesh.triangles = all;
+            mesh.reach = reach;
         }
         (
             Edit::SetTriangles { mesh: id, triangles },
@@ -97,8 +99,11 @@ impl Staged {
         ];
         if let Some(mesh) = old.filter(|_| inside && sound == Some(true)) {
             mesh.triangles[first as usize..end].copy_from_slice(&some);
-            let all = mesh.triangles.clone();
-            self.push_places(id, &all, &mut conditions);
+            let is_whole = some.len() == mesh.triangles.len();
+            let before = if is_whole { 0.0 } else { mesh.reach };
+            mesh.reach = reach(&some).max(before);
+            let reach = mesh.reach;
+            self.push_places(id, reach, &mut conditions);
         }
         let edit = Edit::SetTriangleRange {
             mesh: id,
@@ -109,12 +114,7 @@ impl Staged {
     }
 
     /// All places of a mesh must have room for it, those of this very batch too.
-    fn push_places(
-        &self,
-        id: MeshId,
-        all: &[EmissiveTriangle],
-        conditions: &mut Vec<(Option<bool>, &'static str)>,
-    ) {
+    fn push_places(&self, id: MeshId, reach: f64, conditions: &mut Vec<(Option<bool>, &'static str)>) {
         let placed = self
             .model
             .instances
@@ -122,7 +122,7 @@ impl Staged {
             .map(|placed| (placed.mesh, placed.transform));
         let added = self.added.iter().map(|&(mesh, transform, _)| (mesh, transform));
         for (_, transform) in placed.chain(added).filter(|&(mesh, _)| mesh == id) {
-            conditions.push((within(&transform, all), "Transform"));
+            conditions.push((within(&transform, reach), "Transform"));
         }
     }
 
@@ -158,7 +158,8 @@ impl Staged {
         for (&id, triangles) in updated.meshes.iter().zip(self.meshes) {
             let new = model.meshes.iter().all(|mesh| mesh.id != id) && !model.gone_meshes.contains(&id);
             assert!(new, "an id never means another one");
-            model.meshes.push(Mesh { id, triangles });
+            let reach = reach(&triangles);
+            model.meshes.push(Mesh { id, triangles, reach });
         }
         for (&id, (mesh, transform, radiance)) in updated.instances.iter().zip(self.added) {
             let new =
