@@ -59,9 +59,9 @@ fn trade_measures_each_choice() {
     );
     assert_eq!(written, report);
     let points = report["points"].as_array().expect("points");
-    assert_eq!(points.len(), 3);
+    assert_eq!(points.len(), 2);
     let defaults: Vec<bool> = points.iter().map(|point| point["default"] == true).collect();
-    assert_eq!(defaults, [true, false, false]);
+    assert_eq!(defaults, [true, false]);
     assert!(points.iter().any(|point| point["pareto"] == true));
     for point in points {
         for figure in [
