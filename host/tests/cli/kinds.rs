@@ -120,10 +120,10 @@ fn glass_alone_is_rendered() {
     };
     let veil =
         json!({ "alphaMode": "BLEND", "pbrMetallicRoughness": { "baseColorFactor": [1, 0.2, 0.2, 0.12] } });
-    for (name, material, is_noted) in [
-        ("clear", glass(json!([1, 1, 1, 1])), true),
-        ("tinted", glass(json!([1, 0.2, 0.2, 1])), false),
-        ("veil", veil, false),
+    for (name, material) in [
+        ("clear", glass(json!([1, 1, 1, 1]))),
+        ("tinted", glass(json!([1, 0.2, 0.2, 1]))),
+        ("veil", veil),
     ] {
         let path = points(&folder, name, material);
         let image = folder.file(&format!("{name}.png"));
@@ -131,10 +131,5 @@ fn glass_alone_is_rendered() {
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.success(), "{name}: {said}");
         assert!(std::path::Path::new(&image).exists(), "{name}");
-        assert_eq!(
-            said.contains("note: 2 triangles are clear glass, which shows nothing by itself"),
-            is_noted,
-            "{name}: {said}"
-        );
     }
 }
