@@ -78,7 +78,7 @@ fn one_of_eight(bvh: &LightBvh, all: &[EmissiveTriangle], receiver: &GlossyPoint
         let random = hash(hash(number).wrapping_add(k));
         stream.candidate(sample, target(sent), sampled.pmf, random);
     }
-    let chosen = stream.finish(stream.count as f32);
+    let chosen = stream.finish();
     // Trace the one shadow ray here, to this point of this light.
     contribution(&all[chosen.sample.light as usize], receiver) * f64::from(chosen.weight)
 }

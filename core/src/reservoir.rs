@@ -78,11 +78,9 @@ pub struct Resampling {
     pub sample: LightSample,
     /// The receiver's target at y.
     pub target: f32,
-    /// The number of candidates before y.
-    pub source: u32,
     /// The sum of all weights.
     pub weight_sum: f32,
-    /// M, the number of candidates.
+    /// M, the number of candidates, at most 2^24.
     pub count: u32,
 }
 
@@ -91,19 +89,18 @@ impl Resampling {
     pub const EMPTY: Self = Self {
         sample: LightSample::NONE,
         target: 0.0,
-        source: 0,
         weight_sum: 0.0,
         count: 0,
     };
 
     /// Takes a candidate that was drawn with probability `pmf`, which is 0 where none was drawn (Algorithm 3): weight
-    /// p̂ / p. `target` is p̂ as [`target`] gives it. It replaces y with probability weight over the sum so far; `random` is 32
-    /// random bits.
+    /// p̂ / p. `target` is p̂ as [`target`] gives it. It replaces y with probability weight over the sum so far, and true is returned
+    /// where it does; `random` is 32 random bits.
     ///
     /// The random number is an odd multiple of 2^-24 in (0, 1): never zero, so a sample of weight zero is never taken,
     /// and centred, so that each probability is right to 2^-24 on either side.
     #[inline]
-    pub fn candidate(&mut self, sample: LightSample, target: f32, pmf: f32, random: u32) {
+    pub fn candidate(&mut self, sample: LightSample, target: f32, pmf: f32, random: u32) -> bool {
         let drawn = pmf > 0.0;
         let weight = if drawn {
             div(target, max(pmf, MIN_PMF))
@@ -115,21 +112,21 @@ impl Resampling {
         let take = u * self.weight_sum < weight;
         self.sample = if take { sample } else { self.sample };
         self.target = if take { target } else { self.target };
-        self.source = if take { self.count } else { self.source };
         self.count = self.count.wrapping_add(1);
+        take
     }
 
-    /// W = sum / (p̂ · `whole`), zero where any of them is. `whole` is [`count`](Self::count) where every candidate counts alike, at
-    /// most 2^60.
+    /// W = sum / (p̂ M), zero where any of them is.
     #[inline]
     #[must_use]
-    pub fn finish(&self, whole: f32) -> Reservoir {
-        let found = self.target > 0.0 && self.weight_sum > 0.0 && whole > 0.0;
+    pub fn finish(&self) -> Reservoir {
+        let found = self.target > 0.0 && self.weight_sum > 0.0 && self.count > 0;
         let mut weight = 0.0;
         if found {
             // 2^80 / 2^-40 at most.
             let sum = div(self.weight_sum, self.target);
-            weight = flush(min(sum * div(1.0, whole), MAX_WEIGHT), MIN_WEIGHT);
+            let share = div(1.0, self.count as f32);
+            weight = flush(min(sum * share, MAX_WEIGHT), MIN_WEIGHT);
         }
         Reservoir {
             sample: self.sample,
@@ -195,13 +192,16 @@ mod tests {
             for step in 0..steps {
                 let random = ((u64::from(step) << 32).div_ceil(u64::from(steps)) + 512) as u32;
                 let mut stream = Resampling::EMPTY;
+                let mut taken = 0;
                 for (light, random) in lights.into_iter().zip([0, random]) {
-                    stream.candidate(sample(light), targets[light as usize], 0.25, random);
+                    if stream.candidate(sample(light), targets[light as usize], 0.25, random) {
+                        taken = light;
+                    }
                 }
                 assert_eq!(stream.count, 2);
-                let found = stream.finish(2.0);
+                let found = stream.finish();
                 if found.weight > 0.0 {
-                    assert_eq!(found.sample.light, lights[stream.source as usize]);
+                    assert_eq!(found.sample.light, taken);
                     mean += f[found.sample.light as usize] * f64::from(found.weight);
                 }
                 combinations += 1.0;
@@ -224,8 +224,8 @@ mod tests {
                     stream.candidate(sample(2), t1, pmf, random);
                     let sum = stream.weight_sum;
                     assert!((sum == 0.0 || sum.is_normal()) && sum <= MAX_WEIGHT_SUM);
-                    for whole in [0.0, 1.0, 2.0, pow2(60)] {
-                        let weight = stream.finish(whole).weight;
+                    for count in [0, 1, 2, 1 << 24] {
+                        let weight = Resampling { count, ..stream }.finish().weight;
                         assert!(weight == 0.0 || (MIN_WEIGHT..=MAX_WEIGHT).contains(&weight));
                     }
                 }

@@ -26,7 +26,6 @@ pub const fn render_params(
         first: 0,
         all: 0,
         candidates: 1,
-        scattered: 0,
         part: 0,
         parts: 1,
         seed,

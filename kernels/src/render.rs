@@ -12,20 +12,21 @@ use spirv_std::spirv;
 use crate::bvh::{AnyNode, AnyTree, Node, PaperNode, PaperTree, StandardTree};
 use crate::invocation;
 use crate::shading::camera::Camera;
+use crate::shading::direct::{Samples, reflected};
 use crate::shading::emitter::Emitter;
 use crate::shading::grid::{TINY, div, flush_vector};
 use crate::shading::material::Material;
 use crate::shading::numbers::Part;
 use crate::shading::path::path_radiance;
 use crate::shading::pick::{Chosen, PickLight, Power, Uniform};
-use crate::shading::pixel::{Samples, Scene, reflected, see};
+use crate::shading::pixel::{Scene, see};
 use crate::shading::ray::Ray;
 use crate::shading::skin::{Corner, NoSkin, SkinView};
 use crate::shading::sky::{NoSky, SkyView};
 use crate::shading::trace::{RayNode, TriangleBlock};
 use lightbvh::TreeWords;
 
-/// What all pixels of an image have in common besides the scene; push constants, 56 bytes.
+/// What all pixels of an image have in common besides the scene; push constants, 52 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RenderParams {
@@ -40,12 +41,9 @@ pub struct RenderParams {
     pub first: u32,
     /// Samples of a pixel that are spread evenly among each other; 0 counts as `samples`.
     pub all: u32,
-    /// Candidates of each light sample, at most [`MAX_CANDIDATES`](crate::shading::pixel::MAX_CANDIDATES); 0 and 1 for a
+    /// Candidates of each light sample, at most [`MAX_CANDIDATES`](crate::shading::direct::MAX_CANDIDATES); 0 counts as 1, which is a
     /// light as picked. Paths take no candidates.
     pub candidates: u32,
-    /// Directions that the surface reflects into whose lights join the candidates of each light sample, at most
-    /// [`MAX_SCATTERED`](crate::shading::candidates::MAX_SCATTERED). Paths take none.
-    pub scattered: u32,
     /// Chooses the random numbers of the lights. Images that differ in nothing else show the same surfaces.
     pub seed: u32,
     /// Which of `parts` this image is, whose mean has the samples of all: their numbers lie between each other's. Paths have none.
@@ -59,7 +57,7 @@ pub struct RenderParams {
     pub background: [f32; 3],
 }
 
-const _: () = assert!(size_of::<RenderParams>() == 56);
+const _: () = assert!(size_of::<RenderParams>() == 52);
 
 /// The ray of pixel `index`, numbered by rows from the upper left, what it sees where it meets nothing, and the seed of the random
 /// numbers of its lights.
@@ -95,7 +93,6 @@ pub fn render_pixel<L: Emitter, P: PickLight>(
             params.all
         },
         candidates: params.candidates,
-        scattered: params.scattered,
         part: Part {
             index: params.part,
             of: params.parts,

@@ -16,7 +16,6 @@ const PARAMS: RenderParams = RenderParams {
     first: 0,
     all: 0,
     candidates: 3,
-    scattered: 0,
     part: 0,
     parts: 1,
     seed: 11,

@@ -69,7 +69,6 @@ fn looking(random: &mut Random, size: f32) -> (Camera, RenderParams) {
         first: random.below(3),
         all: random.below(9),
         candidates: 1 + 3 * random.below(2),
-        scattered: random.below(3),
         part: random.below(5),
         parts: random.below(7),
         seed: random.bits(),

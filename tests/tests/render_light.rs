@@ -64,7 +64,6 @@ fn lights_are_seen_from_their_front_only_and_nothing_gives_the_background() {
         first: 0,
         all: 0,
         candidates: 1,
-        scattered: 0,
         part: 0,
         parts: 1,
         seed: 1,

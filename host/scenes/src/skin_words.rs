@@ -4,9 +4,7 @@ use std::sync::Arc;
 
 use bytemuck::cast_slice;
 use lightbvh_kernels::shading::picture::PictureWords;
-use lightbvh_kernels::shading::skin::{
-    Corner, HAS_GLASS, HAS_VEILS, HEADER_WORDS, PaintWords, SRGB_WORDS, SkinView,
-};
+use lightbvh_kernels::shading::skin::{Corner, HAS_GLASS, HEADER_WORDS, PaintWords, SRGB_WORDS, SkinView};
 use lightbvh_kernels::shading::trace::NONE;
 
 use super::model::SceneData;
@@ -73,11 +71,9 @@ pub(super) fn words(data: &SceneData) -> Vec<u32> {
             };
             paint_words(paint, &mut put)
         });
-        words[1] |= match paint.flags {
-            flags if flags & PaintWords::CLEAR != 0 => HAS_GLASS | HAS_VEILS,
-            flags if flags & (PaintWords::CUT | PaintWords::BLENDED) != 0 => HAS_VEILS,
-            _ => 0,
-        };
+        if paint.flags & PaintWords::CLEAR != 0 {
+            words[1] |= HAS_GLASS;
+        }
         paints.push(paint);
     }
     for profile in &data.profiles {

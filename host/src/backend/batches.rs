@@ -8,8 +8,7 @@ use std::time::Duration;
 
 use lightbvh::exact::hash;
 use lightbvh_kernels::render::RenderParams;
-use lightbvh_kernels::shading::candidates::MAX_SCATTERED;
-use lightbvh_kernels::shading::pixel::MAX_CANDIDATES;
+use lightbvh_kernels::shading::direct::MAX_CANDIDATES;
 
 use super::Timed;
 
@@ -20,15 +19,6 @@ const MAX_CANDIDATES_PER_INVOCATION: u32 = 64;
 /// Most surfaces that the paths of a pixel meet in one invocation, but always one path: each surface costs two rays, a
 /// sampled light and a pmf.
 const MAX_SURFACES_PER_INVOCATION: u32 = 16;
-
-/// A direction that joins the candidates takes a ray to the nearest surface, as long as so many of them.
-const CANDIDATES_PER_DIRECTION: u32 = 8;
-
-/// Candidates of a sample and of its directions, all counted as candidates.
-pub(super) fn all_candidates(candidates: u32, scattered: u32) -> u32 {
-    let directions = scattered.min(MAX_SCATTERED) * CANDIDATES_PER_DIRECTION;
-    candidates.clamp(1, MAX_CANDIDATES) + directions
-}
 
 /// The light that is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,9 +36,8 @@ impl Integrator {
     /// Most light samples of `candidates` each, or paths, of a pixel in one invocation.
     pub fn samples_per_invocation(self, candidates: u32) -> u32 {
         match self {
-            Self::Direct => {
-                (MAX_CANDIDATES_PER_INVOCATION / candidates.max(1)).clamp(1, MAX_SAMPLES_PER_INVOCATION)
-            }
+            Self::Direct => (MAX_CANDIDATES_PER_INVOCATION / candidates.clamp(1, MAX_CANDIDATES))
+                .clamp(1, MAX_SAMPLES_PER_INVOCATION),
             Self::Path { bounces } => (MAX_SURFACES_PER_INVOCATION / bounces.saturating_add(1)).max(1),
         }
     }
@@ -62,7 +51,7 @@ pub(super) fn in_batches<E>(
     integrator: Integrator,
     mut image: impl FnMut(&RenderParams) -> Result<Timed<Vec<[f32; 3]>>, E>,
 ) -> Result<Timed<Vec<[f32; 3]>>, E> {
-    let most = integrator.samples_per_invocation(all_candidates(params.candidates, params.scattered));
+    let most = integrator.samples_per_invocation(params.candidates);
     if params.samples <= most {
         return image(params);
     }
@@ -118,7 +107,6 @@ mod tests {
             first: 0,
             all: 0,
             candidates: 1,
-            scattered: 0,
             part: 0,
             parts: 1,
             seed: 5,

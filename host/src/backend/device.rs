@@ -10,9 +10,10 @@ use lightbvh_kernels::WORKGROUP;
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
 use lightbvh_kernels::query::{Query, QueryPush};
 use lightbvh_kernels::render::{RenderParams, RenderPush};
+use lightbvh_kernels::shading::direct::MAX_CANDIDATES;
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
-use super::batches::{all_candidates, in_batches};
+use super::batches::in_batches;
 use super::device_arrays::{HeldScene, choosing, device_time};
 use super::follow::DeviceTree;
 use super::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, node_record};
@@ -151,7 +152,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         let device = self.device;
         let tree = self.tree.push;
-        let candidates = all_candidates(params.candidates, params.scattered);
+        let candidates = params.candidates.clamp(1, MAX_CANDIDATES);
         let most = integrator.samples_per_invocation(candidates);
         let samples = params.samples.clamp(1, most) as usize;
         let (pass, bounces, per_pass) = match integrator {

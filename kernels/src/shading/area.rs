@@ -65,12 +65,20 @@ pub struct Connection {
     pub contribution: Vec3,
     /// The end of the shadow ray: just before the light, metres.
     pub target: Vec3,
-    /// The point on the light, metres.
-    pub on: Vec3,
     /// Density over solid angle of finding the direction to this point of the light this way, 1/sr.
     pub density: f32,
     /// Density over solid angle of finding it by [`Material::sample`], 1/sr.
     pub scattering_density: f32,
+}
+
+impl Connection {
+    /// No light.
+    pub const NONE: Self = Self {
+        contribution: Vec3::ZERO,
+        target: Vec3::ZERO,
+        density: 0.0,
+        scattering_density: 0.0,
+    };
 }
 
 /// Squared distance of a point from a light along `d`, and what of the light faces the point: twice its area times the
@@ -158,7 +166,6 @@ pub fn connect(
     Connection {
         contribution,
         target: y + shift,
-        on: y,
         density: density(squared, emitting, pmf),
         scattering_density,
     }

@@ -2,7 +2,7 @@
 //! triangles pays for no other.
 
 use glam::Vec3;
-use lightbvh::exact::{abs, clamp, flush, max, min, rsqrt};
+use lightbvh::exact::{abs, flush, max, min, rsqrt};
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::vector::{dot, length_squared};
 use lightbvh::{EmissiveTriangle, LightPoint, ShadingPoint};
@@ -10,11 +10,8 @@ use lightbvh::{EmissiveTriangle, LightPoint, ShadingPoint};
 use super::area::{
     Connection, MAX_DENSITY, NEAREST_SQUARED, OFFSET, connect, largest_component, light_density, reflected,
 };
-use super::grid::{
-    STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, div, flush_vector, snap_point, sqrt,
-};
+use super::grid::{STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, div, flush_vector, sqrt};
 use super::material::Material;
-use super::ray::Ray;
 use super::skin::{NoSkin, Skin, SkinView};
 use super::sky::{NoSky, Sky, SkyView};
 
@@ -56,9 +53,6 @@ pub trait Emitter: Light {
 
     /// Where on what is painted on it the point lies that `uv` chooses, for a receiver at `from`.
     fn painted_at(&self, from: Vec3, uv: [f32; 2]) -> [f32; 2];
-
-    /// The numbers that choose the point which the ray meets. Of lights that [are met](Self::is_met).
-    fn coordinates(&self, ray: &Ray) -> [f32; 2];
 }
 
 impl Emitter for EmissiveTriangle {
@@ -109,17 +103,6 @@ impl Emitter for EmissiveTriangle {
     #[inline]
     fn painted_at(&self, _: Vec3, uv: [f32; 2]) -> [f32; 2] {
         folded(uv)
-    }
-
-    #[inline]
-    fn coordinates(&self, ray: &Ray) -> [f32; 2] {
-        // As the ray BVH has them.
-        let p0 = snap_point(self.vertex(0));
-        let e1 = snap_point(self.vertex(1)) - p0;
-        let e2 = snap_point(self.vertex(2)) - p0;
-        let [a, b] = ray.barycentric(p0, e1, e2);
-        let a = clamp(a, 0.0, 1.0);
-        [a, clamp(b, 0.0, 1.0 - a)]
     }
 }
 
@@ -193,20 +176,6 @@ impl Emitter for AnyLight {
             at = direction_of(*self, from);
         }
         at
-    }
-
-    #[inline]
-    fn coordinates(&self, ray: &Ray) -> [f32; 2] {
-        let corner = |uv| snap_point(place(&self.point_for(Vec3::ZERO, uv)));
-        let p0 = corner([0.0, 0.0]);
-        let [a, b] = ray.barycentric(p0, corner([1.0, 0.0]) - p0, corner([0.0, 1.0]) - p0);
-        let a = clamp(a, 0.0, 1.0);
-        let most = if self.kind() == Self::TRIANGLE {
-            1.0 - a
-        } else {
-            1.0
-        };
-        [a, clamp(b, 0.0, most)]
     }
 }
 
@@ -316,7 +285,6 @@ pub fn connect_point(
     Connection {
         contribution,
         target: y + own * towards,
-        on: y,
         density: density(squared, facing, at.density, pmf),
         scattering_density,
     }

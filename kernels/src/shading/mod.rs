@@ -13,9 +13,9 @@
 //! | [`skin`], [`picture`], [`tangent`] | textures: colours, glow, what is cut out, what light goes through, bent normals |
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
 //! | [`picks`] | the lights of a pixel's samples |
-//! | [`candidates`], [`target`] | one light out of several, by what they would contribute |
 //! | [`numbers`] | the numbers that lights and points on them are drawn by |
-//! | [`pixel`] | all of it together, for one pixel |
+//! | [`pixel`] | what a ray sees |
+//! | [`direct`] | the light that a surface reflects once |
 //! | [`lobe`], [`mis`] | directions with a known density; weights of two ways to find a light |
 //! | [`path`] | light along whole paths |
 //!
@@ -25,7 +25,7 @@
 
 pub mod area;
 pub mod camera;
-pub mod candidates;
+pub mod direct;
 pub mod emitter;
 pub mod emitters;
 pub mod grid;
@@ -42,5 +42,4 @@ pub mod ray;
 pub mod skin;
 pub mod sky;
 pub mod tangent;
-pub mod target;
 pub mod trace;

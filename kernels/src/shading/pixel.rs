@@ -1,28 +1,18 @@
-//! One pixel: what the camera sees, lit by sampled lights.
+//! What a ray sees of a scene.
 
 use glam::Vec3;
-use lightbvh::exact::{hash, min};
-use lightbvh::reservoir::{MAX_WEIGHT, Reservoir};
 use lightbvh::vector::{cross, dot, length_squared};
 use lightbvh::{EmissiveTriangle, Instance, ShadingPoint};
 
 use super::area::offset_distance;
-use super::candidates::{Candidates, resampled};
 use super::emitter::Emitter;
 use super::emitters::Emitters;
 use super::grid::{TINY, TINY_AREA, div, flush_vector, sqrt};
 use super::material::Material;
-use super::numbers::{Numbers, Part};
-use super::pick::PickLight;
-use super::picks::Picks;
 use super::ray::Ray;
-use super::skin::{GLASS, SHADOW, Skin, Spot, Through};
-use super::sky::{Sky, sky_sample};
-use super::target::{as_painted, lit, weighted};
+use super::skin::{GLASS, Skin, Spot, Through};
+use super::sky::Sky;
 use super::trace::{LANES, NONE, RayNode, Surfaces, TriangleBlock, seen_hit, through, vertex};
-
-/// Most candidates of a sample.
-pub const MAX_CANDIDATES: u32 = 1 << 8;
 
 /// Everything that light meets.
 #[derive(Clone, Copy)]
@@ -209,163 +199,6 @@ fn emitted<L: Emitter>(scene: &Scene<'_, L>, light: u32, instance: u32, front: b
         radiance = own.emitted(front);
     }
     radiance
-}
-
-/// The light samples of a pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Samples {
-    /// How many, each with one point on a light and one shadow ray.
-    pub count: u32,
-    /// Number of the first of them among `all`.
-    pub first: u32,
-    /// How many are spread evenly among each other, of which these are `count`.
-    pub all: u32,
-    /// Lights that each is one of, at most [`MAX_CANDIDATES`]; 0 and 1 for a light as picked.
-    pub candidates: u32,
-    /// Directions that the surface reflects into, each with a ray, whose lights join the candidates of each sample; at most
-    /// [`MAX_SCATTERED`](super::candidates::MAX_SCATTERED).
-    pub scattered: u32,
-    /// Which of the pixel's samples these are.
-    pub part: Part,
-}
-
-impl Samples {
-    /// `count` lights as picked.
-    #[must_use]
-    pub const fn of(count: u32) -> Self {
-        Self {
-            count,
-            first: 0,
-            all: count,
-            candidates: 1,
-            scattered: 0,
-            part: Part::WHOLE,
-        }
-    }
-}
-
-/// Estimates the light that `seen` reflects to its viewer: the mean of `samples`, of lights chosen by `picker`. With more than one
-/// candidate each is one out of so many ([`resampled`]). `seed` chooses the random numbers.
-#[inline]
-#[must_use]
-pub fn reflected<L: Emitter, P: PickLight>(
-    scene: &Scene<'_, L>,
-    seen: &Seen,
-    picker: &P,
-    samples: Samples,
-    seed: u32,
-) -> Vec3 {
-    let sum = if samples.candidates > 1 || samples.scattered > 0 {
-        one_of_many(scene, seen, picker, samples, seed)
-    } else {
-        one_by_one(scene, seen, picker, samples, seed)
-    };
-    let count = if samples.count == 0 { 1 } else { samples.count };
-    let mean = flush_vector(sum * div(1.0, count as i32 as f32), TINY);
-    if <L::Skin<'_> as Skin>::IS_PAINTED {
-        flush_vector(mean * seen.tint, TINY)
-    } else {
-        mean
-    }
-}
-
-/// The numbers of `samples` of so many lights each.
-#[inline]
-fn numbers(seed: u32, samples: Samples, lights: u32) -> Numbers {
-    Numbers::of_part(seed, samples.part, samples.all.wrapping_mul(lights))
-}
-
-/// The sum of samples that are lights as picked.
-#[inline]
-fn one_by_one<L: Emitter, P: PickLight>(
-    scene: &Scene<'_, L>,
-    seen: &Seen,
-    picker: &P,
-    samples: Samples,
-    seed: u32,
-) -> Vec3 {
-    let n = seen.point.normal();
-    let mut sum = Vec3::ZERO;
-    if length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32 {
-        let material = scene.material(seen);
-        let mut picks = Picks::new(
-            numbers(seed, samples, 1),
-            samples.first,
-            samples.count,
-            samples.all,
-        );
-        for sample in 0..samples.count {
-            let picked = picks.next(picker, &seen.point, sample);
-            if picked.pmf > 0.0 {
-                let light = scene.emitters.light(picked.light, picked.instance);
-                let uv = picks.uv(sample);
-                let light = scene.glowing(light, picked.light, seen.point.position(), uv);
-                let connection = light.connect(&seen.point, seen.wo, &material, picked.pmf, uv);
-                if connection.contribution.x + connection.contribution.y + connection.contribution.z > 0.0 {
-                    let origin = seen.point.position();
-                    let ray = Ray::new(origin, connection.target - origin, 1.0);
-                    let open = through::<SHADOW, _>(&scene.surfaces, &ray, picked.light);
-                    if open.is_open() {
-                        sum += open.of(connection.contribution);
-                    }
-                }
-            }
-            let number = samples.part.number(samples.first.wrapping_add(sample));
-            sum += sky_sample(scene, &seen.point, seen.wo, &material, seed, number);
-        }
-    }
-    sum
-}
-
-/// The sum of samples that are each one of several candidates.
-#[inline]
-fn one_of_many<L: Emitter, P: PickLight>(
-    scene: &Scene<'_, L>,
-    seen: &Seen,
-    picker: &P,
-    samples: Samples,
-    seed: u32,
-) -> Vec3 {
-    let most = if samples.candidates < MAX_CANDIDATES {
-        samples.candidates
-    } else {
-        MAX_CANDIDATES
-    };
-    let count = if most == 0 { 1 } else { most };
-    let mut sum = Vec3::ZERO;
-    if length_squared(seen.point.normal()) > 0.0 && seen.material < scene.materials.len() as u32 {
-        let material = scene.material(seen);
-        let of_all = |samples: u32| samples.wrapping_mul(count);
-        let mut picks = Picks::new(
-            numbers(seed, samples, count),
-            of_all(samples.first),
-            of_all(samples.count),
-            of_all(samples.all),
-        );
-        for sample in 0..samples.count {
-            let which = Candidates {
-                first: sample.wrapping_mul(count),
-                count,
-                scattered: samples.scattered,
-            };
-            let number = samples.part.number(samples.first.wrapping_add(sample));
-            let random = hash(seed.wrapping_add(Numbers::USED).wrapping_add(number));
-            let chosen = resampled(scene, picker, seen, &mut picks, which, random);
-            let Reservoir { sample, weight } = chosen.reservoir;
-            if weight > 0.0 {
-                let arriving = lit(scene, seen, &sample);
-                let factor = chosen.arrives(scene, seen, &arriving);
-                if factor > 0.0 {
-                    let contribution = as_painted(scene, seen, &material, &sample, &arriving);
-                    sum += weighted(contribution, min(weight * factor, MAX_WEIGHT));
-                }
-            }
-            if <L::Sky<'_> as Sky>::IS_SAMPLED {
-                sum += sky_sample(scene, &seen.point, seen.wo, &material, seed, number);
-            }
-        }
-    }
-    sum
 }
 
 #[inline]

@@ -97,12 +97,6 @@ pub trait Skin: Copy + Send + Sync {
         false
     }
 
-    /// Whether any surface lets a part of the light through, so that [`SHADOW`] rays may bring less than all.
-    #[inline(always)]
-    fn has_veils(&self) -> bool {
-        false
-    }
-
     /// How material `index` reflects at a spot.
     #[inline(always)]
     fn material(&self, materials: &[Material], index: u32, _spot: &Spot) -> Material {
@@ -164,14 +158,12 @@ pub struct SkinView<'a> {
     pub words: &'a [u32],
 }
 
-/// Words of the header: how many materials are painted, then [`HAS_GLASS`] and [`HAS_VEILS`]; the rest is zero.
+/// Words of the header: how many materials are painted, then [`HAS_GLASS`]; the rest is zero.
 pub const HEADER_WORDS: u32 = 8;
 /// Of linear numbers by their sRGB bytes.
 pub const SRGB_WORDS: u32 = 256;
 /// Bit of the header's second word: some material is [clear](PaintWords::CLEAR).
 pub const HAS_GLASS: u32 = 1;
-/// Bit of the same: some material is clear, cut or blended.
-pub const HAS_VEILS: u32 = 2;
 
 /// What is painted on a material.
 #[repr(C)]
@@ -372,11 +364,6 @@ impl Skin for SkinView<'_> {
     #[inline]
     fn has_glass(&self) -> bool {
         word(self.words, 1) & HAS_GLASS != 0
-    }
-
-    #[inline]
-    fn has_veils(&self) -> bool {
-        word(self.words, 1) & HAS_VEILS != 0
     }
 
     #[inline]

@@ -24,17 +24,12 @@ fn same_on(device: &Device, scene: &Scene) {
         };
         let mut cpu = CpuBackend::<Kinds, WIDTH>::new(bvh.clone());
         let mut other = DeviceBackend::<Kinds, WIDTH>::new(device, &bvh).expect("a backend");
-        let candidates = [(1, 0), (6, 0), (4, 2)];
-        let direct = candidates.map(|(candidates, scattered)| (Integrator::Direct, candidates, scattered));
-        let paths = [1, 4].map(|bounces| (Integrator::Path { bounces }, 1, 0));
-        for (integrator, candidates, scattered) in direct.into_iter().chain(paths) {
-            let params = RenderParams {
-                candidates,
-                scattered,
-                ..params
-            };
+        let direct = [1, 6].map(|candidates| (Integrator::Direct, candidates));
+        let paths = [1, 4].map(|bounces| (Integrator::Path { bounces }, 1));
+        for (integrator, candidates) in direct.into_iter().chain(paths) {
+            let params = RenderParams { candidates, ..params };
             let what = format!(
-                "{} by {}, {integrator:?}, {candidates} {scattered}",
+                "{} by {}, {integrator:?}, {candidates}",
                 device.name(),
                 sampler.name()
             );

@@ -29,7 +29,7 @@ fn reservoirs() {
             };
             stream.candidate(sample, target(luminance), pmf, random.bits());
         }
-        let found = stream.finish(stream.count as f32);
+        let found = stream.finish();
         digest.words(&[found.sample]);
         digest.words(&[found.weight]);
     }

@@ -143,23 +143,19 @@ fn images(scene: &Scene) -> Vec<(String, [f64; 3], [f64; 3])> {
             _ => build(&arrays.lights, sampler, &BuildParams::default()),
         };
         let mut cpu = CpuBackend::<Kinds, WIDTH>::new(bvh);
-        for (integrator, candidates, scattered) in [
-            (Integrator::Direct, 1, 0),
-            (Integrator::Direct, 4, 2),
-            (Integrator::Path { bounces: 1 }, 1, 0),
+        for (integrator, candidates) in [
+            (Integrator::Direct, 1),
+            (Integrator::Direct, 4),
+            (Integrator::Path { bounces: 1 }, 1),
         ] {
-            let params = lightbvh_kernels::render::RenderParams {
-                candidates,
-                scattered,
-                ..base
-            };
+            let params = lightbvh_kernels::render::RenderParams { candidates, ..base };
             let image = cpu
                 .render(&arrays, &params, sampler, integrator)
                 .expect("an image");
             // Of each channel alone.
             let of = |k: usize| mean(&image.value.iter().map(|p| [p[k]; 3]).collect::<Vec<_>>());
             let (means, errors) = ([0, 1, 2].map(|k| of(k).0), [0, 1, 2].map(|k| of(k).1));
-            let what = format!("{} {integrator:?} {candidates} {scattered}", sampler.name());
+            let what = format!("{} {integrator:?} {candidates}", sampler.name());
             found.push((what, means, errors));
         }
     }

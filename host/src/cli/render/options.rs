@@ -4,8 +4,8 @@ use std::ffi::OsString;
 use std::ops::Range;
 use std::path::PathBuf;
 
+use lightbvh_kernels::shading::direct::MAX_CANDIDATES;
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
-use lightbvh_kernels::shading::pixel::MAX_CANDIDATES;
 
 use super::view::{CameraName, Up, camera};
 use crate::backend::Integrator;

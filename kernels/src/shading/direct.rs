@@ -1,0 +1,148 @@
+//! The light that a surface reflects once, by samples that are each one light out of several candidates, in proportion to what each would
+//! contribute if nothing were between: resampled importance sampling (J. Talbot, D. Cline, P. Egbert, "Importance Resampling for
+//! Global Illumination", 2005). The target is the luminance of that contribution (B. Bitterli et al., "Spatiotemporal reservoir
+//! resampling", 2020, section 3).
+
+use glam::Vec3;
+use lightbvh::exact::{flush, hash, min, pow2};
+use lightbvh::reservoir::{LightSample, Resampling, target};
+use lightbvh::vector::length_squared;
+
+use super::area::{Connection, luminance};
+use super::emitter::Emitter;
+use super::grid::{TINY, div, flush_vector};
+use super::numbers::{Numbers, Part};
+use super::pick::PickLight;
+use super::picks::Picks;
+use super::pixel::{Scene, Seen};
+use super::ray::Ray;
+use super::skin::{SHADOW, Skin, Through};
+use super::sky::sky_sample;
+use super::trace::through;
+
+/// Most candidates of a sample.
+pub const MAX_CANDIDATES: u32 = 1 << 8;
+
+/// Contributions count as at most this, W/(m² sr), so that their product with any weight is finite.
+const MAX_CONTRIBUTION: f32 = pow2(60);
+
+/// The light samples of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Samples {
+    /// How many, each with one point on a light and one shadow ray.
+    pub count: u32,
+    /// Number of the first of them among `all`.
+    pub first: u32,
+    /// How many are spread evenly among each other, of which these are `count`.
+    pub all: u32,
+    /// Lights that each is one of, at most [`MAX_CANDIDATES`]; 0 counts as 1, which is a light as picked.
+    pub candidates: u32,
+    /// Which of the pixel's samples these are.
+    pub part: Part,
+}
+
+impl Samples {
+    /// `count` lights as picked.
+    #[must_use]
+    pub const fn of(count: u32) -> Self {
+        Self {
+            count,
+            first: 0,
+            all: count,
+            candidates: 1,
+            part: Part::WHOLE,
+        }
+    }
+}
+
+/// Estimates the light that `seen` reflects to its viewer: the mean of `samples`, of lights chosen by `picker`. `seed` chooses the random
+/// numbers.
+///
+/// The candidates of a sample follow each other in the order of lights, so its ray goes where its part of the lights is, and together
+/// the rays go everywhere. Each candidate's own distribution is that of a single pick, and the expectation of a sum does not ask how its
+/// terms depend on each other, so the weight is that of independent candidates.
+#[inline]
+#[must_use]
+pub fn reflected<L: Emitter, P: PickLight>(
+    scene: &Scene<'_, L>,
+    seen: &Seen,
+    picker: &P,
+    samples: Samples,
+    seed: u32,
+) -> Vec3 {
+    let most = if samples.candidates < MAX_CANDIDATES {
+        samples.candidates
+    } else {
+        MAX_CANDIDATES
+    };
+    let count = if most == 0 { 1 } else { most };
+    let mut sum = Vec3::ZERO;
+    if length_squared(seen.point.normal()) > 0.0 && seen.material < scene.materials.len() as u32 {
+        let material = scene.material(seen);
+        let origin = seen.point.position();
+        let of_all = |samples: u32| samples.wrapping_mul(count);
+        let mut picks = Picks::new(
+            Numbers::of_part(seed, samples.part, of_all(samples.all)),
+            of_all(samples.first),
+            of_all(samples.count),
+            of_all(samples.all),
+        );
+        for sample in 0..samples.count {
+            let number = samples.part.number(samples.first.wrapping_add(sample));
+            let random = hash(seed.wrapping_add(Numbers::USED).wrapping_add(number));
+            let mut stream = Resampling::EMPTY;
+            let mut contribution = Vec3::ZERO;
+            let mut end = Vec3::ZERO;
+            for candidate in 0..count {
+                let k = sample.wrapping_mul(count).wrapping_add(candidate);
+                let picked = picks.next(picker, &seen.point, k);
+                let uv = picks.uv(k);
+                let mut own = Connection::NONE;
+                if picked.pmf > 0.0 {
+                    let light = scene.emitters.light(picked.light, picked.instance);
+                    let light = scene.glowing(light, picked.light, origin, uv);
+                    own = light.connect(&seen.point, seen.wo, &material, 1.0, uv);
+                }
+                let c = own.contribution;
+                let sampled = LightSample {
+                    light: picked.light,
+                    instance: picked.instance,
+                    uv,
+                };
+                let random = hash(random.wrapping_add(candidate));
+                let target = target(luminance([c.x, c.y, c.z]));
+                if stream.candidate(sampled, target, picked.pmf, random) {
+                    contribution = c;
+                    end = own.target;
+                }
+            }
+            let chosen = stream.finish();
+            if chosen.weight > 0.0 {
+                let ray = Ray::new(origin, end - origin, 1.0);
+                let open = through::<SHADOW, _>(&scene.surfaces, &ray, chosen.sample.light);
+                if open.is_open() {
+                    sum += open.of(weighted(contribution, chosen.weight));
+                }
+            }
+            sum += sky_sample(scene, &seen.point, seen.wo, &material, seed, number);
+        }
+    }
+    let count = if samples.count == 0 { 1 } else { samples.count };
+    let mean = flush_vector(sum * div(1.0, count as i32 as f32), TINY);
+    if <L::Skin<'_> as Skin>::IS_PAINTED {
+        flush_vector(mean * seen.tint, TINY)
+    } else {
+        mean
+    }
+}
+
+/// A contribution times a reservoir's weight, by components.
+#[inline]
+fn weighted(contribution: Vec3, weight: f32) -> Vec3 {
+    let times = |c: f32| flush(min(c, MAX_CONTRIBUTION) * weight, TINY);
+    Vec3::new(
+        times(contribution.x),
+        times(contribution.y),
+        times(contribution.z),
+    )
+}
