@@ -125,7 +125,7 @@ impl Resampling {
         if found {
             // 2^80 / 2^-40 at most.
             let sum = div(self.weight_sum, self.target);
-            let share = div(1.0, self.count as f32);
+            let share = div(1.0, self.count as i32 as f32);
             weight = flush(min(sum * share, MAX_WEIGHT), MIN_WEIGHT);
         }
         Reservoir {
