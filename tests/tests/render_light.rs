@@ -51,7 +51,7 @@ fn no_light_comes_from_behind_below_or_nowhere() {
     ] {
         let connection = connect(&point, Vec3::Y, &matte(1.0), &light, pmf, uv);
         assert_eq!(connection.contribution.to_array().map(f32::to_bits), [0; 3]);
-        assert!(connection.target.is_finite());
+        assert!(connection.direction.is_finite());
     }
 }
 

@@ -56,18 +56,20 @@ pub(super) fn largest_component(v: Vec3) -> f32 {
     max(max(abs(v.x), abs(v.y)), abs(v.z))
 }
 
-/// A point on a light and what it would contribute if nothing were between.
+/// Light from one direction, and what it would contribute if nothing were between.
 #[derive(Clone, Copy, Debug)]
 pub struct Connection {
     /// The light that the receiver reflects to its viewer, divided by the probability of the light and the density of
     /// the point: an estimate of the direct light of all lights, W/(m² sr). Zero where the light faces away, or is
     /// behind the surface.
     pub contribution: Vec3,
-    /// The end of the shadow ray: just before the light, metres.
-    pub target: Vec3,
-    /// Density over solid angle of finding the direction to this point of the light this way, 1/sr.
+    /// Direction of the shadow ray: to just before the light, metres; for light from without end, of unit length.
+    pub direction: Vec3,
+    /// Length of the shadow ray in multiples of its direction.
+    pub reach: f32,
+    /// Density over solid angle of finding the direction this way, 1/sr; 0 of a sun.
     pub density: f32,
-    /// Density over solid angle of finding it by [`Material::sample`], 1/sr.
+    /// Density over solid angle of finding it by [`Material::sample`], 1/sr; 0 of what no such direction finds.
     pub scattering_density: f32,
 }
 
@@ -75,10 +77,18 @@ impl Connection {
     /// No light.
     pub const NONE: Self = Self {
         contribution: Vec3::ZERO,
-        target: Vec3::ZERO,
+        direction: Vec3::ZERO,
+        reach: 0.0,
         density: 0.0,
         scattering_density: 0.0,
     };
+
+    /// Whether anything would arrive if nothing were between.
+    #[inline]
+    #[must_use]
+    pub fn is_lit(&self) -> bool {
+        self.contribution.x + self.contribution.y + self.contribution.z > 0.0
+    }
 }
 
 /// Squared distance of a point from a light along `d`, and what of the light faces the point: twice its area times the
@@ -165,7 +175,8 @@ pub fn connect(
     };
     Connection {
         contribution,
-        target: y + shift,
+        direction: (y + shift) - point.position(),
+        reach: 1.0,
         density: density(squared, emitting, pmf),
         scattering_density,
     }

@@ -14,11 +14,10 @@ use super::grid::{TINY, div, flush_vector};
 use super::numbers::{Numbers, Part};
 use super::pick::PickLight;
 use super::picks::Picks;
-use super::pixel::{Scene, Seen};
-use super::ray::Ray;
-use super::skin::{SHADOW, Skin, Through};
-use super::sky::sky_sample;
-use super::trace::through;
+use super::pixel::{Scene, Seen, arriving};
+use super::skin::Skin;
+use super::sky::{Sky, sky_sample};
+use super::trace::NONE;
 
 /// Most candidates of a sample.
 pub const MAX_CANDIDATES: u32 = 1 << 8;
@@ -76,10 +75,10 @@ pub fn reflected<L: Emitter, P: PickLight>(
         MAX_CANDIDATES
     };
     let count = if most == 0 { 1 } else { most };
+    let sources = if <L::Sky<'_> as Sky>::IS_SAMPLED { 2 } else { 1 };
     let mut sum = Vec3::ZERO;
     if length_squared(seen.point.normal()) > 0.0 && seen.material < scene.materials.len() as u32 {
         let material = scene.material(seen);
-        let origin = seen.point.position();
         let of_all = |samples: u32| samples.wrapping_mul(count);
         let mut picks = Picks::new(
             Numbers::of_part(seed, samples.part, of_all(samples.all)),
@@ -90,41 +89,44 @@ pub fn reflected<L: Emitter, P: PickLight>(
         for sample in 0..samples.count {
             let number = samples.part.number(samples.first.wrapping_add(sample));
             let random = hash(seed.wrapping_add(Numbers::USED).wrapping_add(number));
-            let mut stream = Resampling::EMPTY;
-            let mut contribution = Vec3::ZERO;
-            let mut end = Vec3::ZERO;
-            for candidate in 0..count {
-                let k = sample.wrapping_mul(count).wrapping_add(candidate);
-                let picked = picks.next(picker, &seen.point, k);
-                let uv = picks.uv(k);
-                let mut own = Connection::NONE;
-                if picked.pmf > 0.0 {
-                    let light = scene.emitters.light(picked.light, picked.instance);
-                    let light = scene.glowing(light, picked.light, origin, uv);
-                    own = light.connect(&seen.point, seen.wo, &material, 1.0, uv);
+            // A light, and where there is a sky its sample besides.
+            for source in 0..sources {
+                let mut found = Connection::NONE;
+                let mut found_light = NONE;
+                if source == 0 {
+                    let mut stream = Resampling::EMPTY;
+                    for candidate in 0..count {
+                        let k = sample.wrapping_mul(count).wrapping_add(candidate);
+                        let picked = picks.next(picker, &seen.point, k);
+                        let uv = picks.uv(k);
+                        let mut own = Connection::NONE;
+                        if picked.pmf > 0.0 {
+                            let light = scene.emitters.light(picked.light, picked.instance);
+                            let light = scene.glowing(light, picked.light, seen.point.position(), uv);
+                            own = light.connect(&seen.point, seen.wo, &material, 1.0, uv);
+                        }
+                        let c = own.contribution;
+                        let target = target(luminance([c.x, c.y, c.z]));
+                        let sampled = LightSample {
+                            light: picked.light,
+                            instance: picked.instance,
+                            uv,
+                        };
+                        let random = hash(random.wrapping_add(candidate));
+                        if stream.candidate(sampled, target, picked.pmf, random) {
+                            found = own;
+                        }
+                    }
+                    let chosen = stream.finish();
+                    found_light = chosen.sample.light;
+                    found.contribution = weighted(found.contribution, chosen.weight);
+                } else {
+                    found = sky_sample(&scene.sky, &seen.point, seen.wo, &material, seed, number);
                 }
-                let c = own.contribution;
-                let sampled = LightSample {
-                    light: picked.light,
-                    instance: picked.instance,
-                    uv,
-                };
-                let random = hash(random.wrapping_add(candidate));
-                let target = target(luminance([c.x, c.y, c.z]));
-                if stream.candidate(sampled, target, picked.pmf, random) {
-                    contribution = c;
-                    end = own.target;
+                if found.is_lit() {
+                    sum += arriving(scene, &seen.point, &found, found_light);
                 }
             }
-            let chosen = stream.finish();
-            if chosen.weight > 0.0 {
-                let ray = Ray::new(origin, end - origin, 1.0);
-                let open = through::<SHADOW, _>(&scene.surfaces, &ray, chosen.sample.light);
-                if open.is_open() {
-                    sum += open.of(weighted(contribution, chosen.weight));
-                }
-            }
-            sum += sky_sample(scene, &seen.point, seen.wo, &material, seed, number);
         }
     }
     let count = if samples.count == 0 { 1 } else { samples.count };

@@ -284,7 +284,8 @@ pub fn connect_point(
     let towards = if dot(own, d) > 0.0 { -offset } else { offset };
     Connection {
         contribution,
-        target: y + own * towards,
+        direction: (y + own * towards) - point.position(),
+        reach: 1.0,
         density: density(squared, facing, at.density, pmf),
         scattering_density,
     }

@@ -6,15 +6,16 @@ use lightbvh::exact::{floor_u32, flush, hash, max, min, unit_f32};
 use lightbvh::vector::{dot, length_squared};
 use lightbvh::{Random64, ShadingPoint};
 
+use super::area::Connection;
 use super::emitter::Emitter;
 use super::grid::{STEP, TINY, bounded_product, div, flush_vector};
 use super::mis::power_heuristic;
 use super::pick::PickLight;
-use super::pixel::{Scene, encounter};
+use super::pixel::{Scene, arriving, encounter};
 use super::ray::{FAR, Ray};
-use super::skin::{SHADOW, Skin, Through};
-use super::sky::{Sky, is_lit, unhidden};
-use super::trace::{NONE, through};
+use super::skin::Skin;
+use super::sky::Sky;
+use super::trace::NONE;
 
 /// Most surfaces that a path may be reflected by.
 pub const MAX_BOUNCES: u32 = 64;
@@ -50,6 +51,7 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
     } else {
         MAX_BOUNCES
     };
+    let sources = if <L::Sky<'_> as Sky>::IS_SAMPLED { 2 } else { 1 };
     let mut ray = *ray;
     let mut radiance = Vec3::ZERO;
     let mut throughput = Vec3::ONE;
@@ -88,33 +90,28 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
         alive = bounce < bounces && length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32;
         if alive {
             let material = scene.material(&seen);
-            let picked = picker.pick(
-                &seen.point,
-                Random64::from(hash(random.wrapping_add(RANDOM_LIGHT))),
-            );
-            if picked.pmf > 0.0 {
-                let light = scene.emitters.light(picked.light, picked.instance);
-                let uv = [draw(random, RANDOM_LIGHT + 1), draw(random, RANDOM_LIGHT + 2)];
-                let light = scene.glowing(light, picked.light, seen.point.position(), uv);
-                let connection = light.connect(&seen.point, seen.wo, &material, picked.pmf, uv);
-                if connection.contribution.x + connection.contribution.y + connection.contribution.z > 0.0 {
-                    let origin = seen.point.position();
-                    let shadow = Ray::new(origin, connection.target - origin, 1.0);
-                    let open = through::<SHADOW, _>(&scene.surfaces, &shadow, picked.light);
-                    if open.is_open() {
-                        let weight = power_heuristic(connection.density, connection.scattering_density);
-                        radiance += bounded(throughput, open.of(connection.contribution) * weight);
+            // A light, and where there is a sky its sample besides.
+            for source in 0..sources {
+                let mut found = Connection::NONE;
+                let mut found_light = NONE;
+                if source == 0 {
+                    let number = Random64::from(hash(random.wrapping_add(RANDOM_LIGHT)));
+                    let picked = picker.pick(&seen.point, number);
+                    if picked.pmf > 0.0 {
+                        found_light = picked.light;
+                        let light = scene.emitters.light(picked.light, picked.instance);
+                        let uv = [draw(random, RANDOM_LIGHT + 1), draw(random, RANDOM_LIGHT + 2)];
+                        let light = scene.glowing(light, picked.light, seen.point.position(), uv);
+                        found = light.connect(&seen.point, seen.wo, &material, picked.pmf, uv);
                     }
+                } else {
+                    let uv = [draw(random, RANDOM_SKY + 1), draw(random, RANDOM_SKY + 2)];
+                    let number = hash(random.wrapping_add(RANDOM_SKY));
+                    found = scene.sky.connect(&seen.point, seen.wo, &material, number, uv);
                 }
-            }
-
-            if <L::Sky<'_> as Sky>::IS_SAMPLED {
-                let uv = [draw(random, RANDOM_SKY + 1), draw(random, RANDOM_SKY + 2)];
-                let number = hash(random.wrapping_add(RANDOM_SKY));
-                let arriving = scene.sky.connect(&seen.point, seen.wo, &material, number, uv);
-                if is_lit(&arriving) {
-                    let left = unhidden(scene, &seen.point, arriving.direction, arriving.contribution);
-                    let weight = power_heuristic(arriving.density, arriving.scattering_density);
+                if found.is_lit() {
+                    let left = arriving(scene, &seen.point, &found, found_light);
+                    let weight = power_heuristic(found.density, found.scattering_density);
                     radiance += bounded(throughput, left * weight);
                 }
             }

@@ -4,13 +4,13 @@ use glam::Vec3;
 use lightbvh::vector::{cross, dot, length_squared};
 use lightbvh::{EmissiveTriangle, Instance, ShadingPoint};
 
-use super::area::offset_distance;
+use super::area::{Connection, offset_distance};
 use super::emitter::Emitter;
 use super::emitters::Emitters;
 use super::grid::{TINY, TINY_AREA, div, flush_vector, sqrt};
 use super::material::Material;
 use super::ray::Ray;
-use super::skin::{GLASS, Skin, Spot, Through};
+use super::skin::{GLASS, SHADOW, Skin, Spot, Through};
 use super::sky::Sky;
 use super::trace::{LANES, NONE, RayNode, Surfaces, TriangleBlock, seen_hit, through, vertex};
 
@@ -73,6 +73,24 @@ impl<'a, L: Emitter> Scene<'a, L> {
         }
         glowing
     }
+}
+
+/// What of `connection` arrives at `point`: nothing where anything but `light` lies between that lets none through.
+#[inline]
+#[must_use]
+pub fn arriving<L: Emitter>(
+    scene: &Scene<'_, L>,
+    point: &ShadingPoint,
+    connection: &Connection,
+    light: u32,
+) -> Vec3 {
+    let ray = Ray::new(point.position(), connection.direction, connection.reach);
+    let open = through::<SHADOW, _>(&scene.surfaces, &ray, light);
+    let mut left = Vec3::ZERO;
+    if open.is_open() {
+        left = open.of(connection.contribution);
+    }
+    left
 }
 
 /// What a camera ray sees.

@@ -6,32 +6,15 @@ use lightbvh::light::infinite::{DistantLight, EnvironmentMap, Split};
 use lightbvh::vector::dot;
 use lightbvh::{Random64, ShadingPoint};
 
-use super::area::{luminance, reflected};
-use super::emitter::Emitter;
+use super::area::{Connection, luminance, reflected};
 use super::grid::{STEP, bounded_quotient, flush_vector};
 use super::material::Material;
-use super::pixel::Scene;
-use super::ray::{FAR, Ray};
-use super::skin::{SHADOW, Through};
-use super::trace::{NONE, through};
+use super::ray::FAR;
 
 /// Most sources: the environment, and suns.
 const SOURCES: usize = 8;
 /// Most suns of a scene.
 pub const MAX_SUNS: usize = SOURCES - 1;
-
-/// What of the light from without end a point is lit by.
-#[derive(Clone, Copy, Debug)]
-pub struct Arriving {
-    /// Unit direction towards it.
-    pub direction: Vec3,
-    /// The light that the point reflects to its viewer, divided by the density of the direction, or for a sun by its probability, W/(m² sr).
-    pub contribution: Vec3,
-    /// Density over solid angle of finding the direction this way, 1/sr; 0 of a sun.
-    pub density: f32,
-    /// Density over solid angle of finding it by [`Material::sample`], 1/sr; 0 of a sun, which no such direction finds.
-    pub scattering_density: f32,
-}
 
 /// What is beyond all surfaces.
 pub trait Sky: Copy + Send + Sync {
@@ -53,13 +36,8 @@ pub trait Sky: Copy + Send + Sync {
         _material: &Material,
         _random: u32,
         _uv: [f32; 2],
-    ) -> Arriving {
-        Arriving {
-            direction: Vec3::ZERO,
-            contribution: Vec3::ZERO,
-            density: 0.0,
-            scattering_density: 0.0,
-        }
+    ) -> Connection {
+        Connection::NONE
     }
 
     /// The density over solid angle with which [`connect`](Self::connect) finds a direction at `point`, 1/sr; 0 where there is no map.
@@ -148,7 +126,7 @@ impl Sky for SkyView<'_> {
         material: &Material,
         random: u32,
         uv: [f32; 2],
-    ) -> Arriving {
+    ) -> Connection {
         let share = self.split(point).choose(Random64::from(random));
         let mut direction = Vec3::ZERO;
         let mut radiance = [0.0; 3];
@@ -169,11 +147,11 @@ impl Sky for SkyView<'_> {
         }
         let n = flush_vector(point.normal(), STEP);
         let receiving = dot(n, direction);
-        let mut arriving = Arriving {
+        let mut arriving = Connection {
             direction,
-            contribution: Vec3::ZERO,
+            reach: FAR,
             density: if is_map { divisor } else { 0.0 },
-            scattering_density: 0.0,
+            ..Connection::NONE
         };
         if receiving > STEP && divisor > 0.0 {
             let scattering = material.scatter(n, direction, wo);
@@ -201,51 +179,19 @@ const R3: [u32; 3] = [0xd1b5_4a33, 0xabc9_8389, 0x8cb9_2ba7];
 /// Tells its numbers from those of lights.
 const SKY: u32 = 0x5bd1_e995;
 
-/// What a point reflects of the light from without end, by sample `number` of those that `seed` chooses: one shadow ray.
+/// Sample `number`, of those that `seed` chooses, of the light from without end that a point reflects.
 #[inline]
 #[must_use]
-pub fn sky_sample<L: Emitter>(
-    scene: &Scene<'_, L>,
+pub fn sky_sample<S: Sky>(
+    sky: &S,
     point: &ShadingPoint,
     wo: Vec3,
     material: &Material,
     seed: u32,
     number: u32,
-) -> Vec3 {
-    let mut reflected = Vec3::ZERO;
-    if <L::Sky<'_> as Sky>::IS_SAMPLED {
-        let seed = hash(seed ^ SKY);
-        let at = |k: u32, step: u32| hash(seed.wrapping_add(k)).wrapping_add(number.wrapping_mul(step));
-        let uv = [unit_f32(at(1, R3[1])), unit_f32(at(2, R3[2]))];
-        let arriving = scene.sky.connect(point, wo, material, at(0, R3[0]), uv);
-        if is_lit(&arriving) {
-            reflected = unhidden(scene, point, arriving.direction, arriving.contribution);
-        }
-    }
-    reflected
-}
-
-/// Whether anything would arrive if nothing were between.
-#[inline]
-#[must_use]
-pub fn is_lit(arriving: &Arriving) -> bool {
-    arriving.contribution.x + arriving.contribution.y + arriving.contribution.z > 0.0
-}
-
-/// What of `light` comes from a direction: nothing where anything lies there that lets none through.
-#[inline]
-#[must_use]
-pub fn unhidden<L: Emitter>(
-    scene: &Scene<'_, L>,
-    point: &ShadingPoint,
-    direction: Vec3,
-    light: Vec3,
-) -> Vec3 {
-    let ray = Ray::new(point.position(), direction, FAR);
-    let open = through::<SHADOW, _>(&scene.surfaces, &ray, NONE);
-    let mut left = Vec3::ZERO;
-    if open.is_open() {
-        left = open.of(light);
-    }
-    left
+) -> Connection {
+    let seed = hash(seed ^ SKY);
+    let at = |k: u32, step: u32| hash(seed.wrapping_add(k)).wrapping_add(number.wrapping_mul(step));
+    let uv = [unit_f32(at(1, R3[1])), unit_f32(at(2, R3[2]))];
+    sky.connect(point, wo, material, at(0, R3[0]), uv)
 }

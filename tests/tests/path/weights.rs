@@ -60,7 +60,7 @@ fn both_ways_tell_the_same_densities() {
         let uv = [random.unit(), random.unit()];
         let connection = connect(&point, wo, &material, &lamp, pmf, uv);
         if connection.contribution.x > 0.0 {
-            let d = connection.target - point.position();
+            let d = connection.direction;
             let ray = Ray::new(point.position(), d.normalize(), FAR);
             let other = encounter(&world.scene(), &ray, Vec3::ZERO);
             // At the rim of the triangle rounding may carry the ray past it.
