@@ -133,6 +133,8 @@ pub struct RenderPush {
     pub params: RenderParams,
     /// Most reflections of a path, for `render_paths` alone, at most [`MAX_BOUNCES`](crate::shading::path::MAX_BOUNCES).
     pub bounces: u32,
+    /// How lights are chosen: a number of [`by`](crate::shading::pick::by).
+    pub by: u32,
     /// First pixel of this dispatch; `results` begins with it.
     pub first: u32,
     /// Number of pixels of this dispatch.
@@ -142,8 +144,7 @@ pub struct RenderPush {
 }
 
 /// A pass over the pixels of a scene with one type of light and tree, in a module of its own: both in one are more than SwiftShader
-/// compiles. The specialisation constant 0 says how lights are chosen:
-/// [`by`](crate::shading::pick::by). The lists are bindings that only some scenes have, and the results'.
+/// compiles. The lists are bindings that only some scenes have, and the results'.
 macro_rules! render_pass {
     (
         $pass:ident = $name:tt, $is_paths:literal, $tree:ident, $light:ty, $node:ty,
@@ -153,7 +154,6 @@ macro_rules! render_pass {
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
             #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(spec_constant(id = 0))] by: u32,
             #[spirv(push_constant)] push: &RenderPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
@@ -172,7 +172,7 @@ macro_rules! render_pass {
                 let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
                 let tree: $tree<'_> = push.tree.tree(nodes, instances, trails);
                 let picker = Chosen {
-                    by,
+                    by: push.by,
                     tree,
                     power: Power { thresholds },
                     uniform: Uniform {

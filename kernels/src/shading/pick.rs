@@ -161,7 +161,7 @@ impl PickLight for Power<'_> {
     }
 }
 
-/// How [`Chosen`] chooses lights: the values of the kernels' specialisation constant 0.
+/// How [`Chosen`] chooses lights.
 pub mod by {
     /// [`Uniform`](super::Uniform).
     pub const UNIFORM: u32 = 0;
@@ -171,7 +171,7 @@ pub mod by {
     pub const TREE: u32 = 2;
 }
 
-/// One of all ways to choose lights, by a number that a device's compiler knows: it leaves the others out.
+/// One of all ways to choose lights, by a number.
 #[derive(Clone, Copy)]
 pub struct Chosen<'a, T> {
     /// Which: a number of [`by`].
