@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use super::analytic::AnalyticLight;
 use super::error::SceneError;
 use super::model::{
-    Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
+    Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, SceneData,
 };
+use super::scene::Scene;
 use super::shapes::{Shape, on_circle, rotation};
 use super::track::Track;
 use super::transform::{Transform, unit_or};

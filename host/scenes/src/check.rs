@@ -11,11 +11,9 @@ use super::clips::named;
 use super::deform::is_skinned;
 use super::error::{SceneError, malformed};
 use super::flush::flush_tiny;
-use super::frame::emits;
-use super::model::{
-    Animation, Channel, Counts, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
-};
+use super::model::{Channel, Interpolation, Material, Mesh, Node, Primitive, Property, SceneData, emits};
 use super::paint::{MAX_SIDE, Opacity, Paint, Picture};
+use super::scene::{Counts, Scene};
 use super::transform::Transform;
 
 /// Most triangles of a frame, over all instances: 2^26, some 3 GiB of records, well inside 32-bit indices.
@@ -75,21 +73,6 @@ impl Scene {
         let counts = check.count(&data)?;
         check.places(&data)?;
         Ok(Self::from_checked(data, counts))
-    }
-
-    /// Shows these animations and no others, where they are sound; else all stays as it was.
-    pub(super) fn show(&mut self, animations: Vec<Animation>) -> Result<(), SceneError> {
-        let old = std::mem::replace(&mut self.data.animations, animations);
-        let check = Check {
-            scene: &self.data.name,
-        };
-        let found = check
-            .animations(&self.data)
-            .and_then(|()| check.places(&self.data));
-        if found.is_err() {
-            self.data.animations = old;
-        }
-        found
     }
 }
 

@@ -4,7 +4,7 @@
 use std::collections::HashSet;
 use std::mem::{Discriminant, discriminant};
 
-use super::model::{Animation, Property, Scene, SceneData};
+use super::model::{Animation, Property, SceneData};
 
 /// Most names that a message has.
 const NAMED: usize = 8;
@@ -88,26 +88,6 @@ impl SceneData {
             _ => ("animations", "move what others do, and are left out"),
         };
         Some(format!("{is} {} {are}: {ADVICE}", names_of(&self.clips)))
-    }
-}
-
-impl Scene {
-    /// Shows one after the other each animation that is left out, alone, the first `most` of them, and calls `with` for its
-    /// place among them and the scene then. Returns what is wrong with those that [`Scene::new`] would refuse, which are
-    /// passed.
-    pub fn each_clip(&self, most: usize, mut with: impl FnMut(usize, &Self)) -> Vec<String> {
-        let mut scene = self.clone();
-        let mut broken = Vec::new();
-        for (index, clip) in self.data().clips.iter().take(most).enumerate() {
-            match scene.show(vec![clip.clone()]) {
-                Ok(()) => with(index, &scene),
-                Err(error) => broken.push(format!(
-                    "animation {} is left out, as it cannot be shown: {error}",
-                    named(clip.place, &clip.name)
-                )),
-            }
-        }
-        broken
     }
 }
 

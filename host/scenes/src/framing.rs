@@ -10,11 +10,10 @@ use lightbvh::light::{AnyLight, Light};
 use lightbvh_kernels::shading::ray::{FAR, Ray};
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle, any_hit, closest_hit};
 
-use super::camera::looking;
+use super::camera::{View, looking};
 use super::frame::Frame;
+use super::ray_bvh::RayBvh;
 use super::scene_light::SceneLight;
-use super::transform::unit_or;
-use crate::{RayBvh, View};
 
 /// Points, each with two sides, and the lights, and parts of the sky, that each asks.
 const POINTS: usize = 192;
@@ -40,18 +39,25 @@ struct Point {
     weight: f64,
 }
 
-/// The view of a frame.
+/// The view of a frame: of its glass if there is nothing else to look at.
 pub(super) fn view(frame: &Frame) -> View {
-    let triangles = frame.triangles.iter().chain(&frame.clear);
-    let vertices = || triangles.clone().flat_map(|own| own.p).map(wide);
+    let all = frame.triangles.iter().chain(&frame.clear);
+    let vertices = || all.clone().flat_map(|own| own.p).map(wide);
     let low = vertices().reduce(DVec3::min).unwrap_or_default();
     let high = vertices().reduce(DVec3::max).unwrap_or_default();
-    let mut best = (0.0, around(low, high, DVec3::new(0.35, 0.3, 1.0), 2.37));
-    let Ok(rays) = RayBvh::build(&frame.triangles) else {
+    let mut best = (
+        0.0,
+        around(low, high, DVec3::new(0.35, 0.3, 1.0).normalize(), 2.37),
+    );
+    let surfaces = match frame.triangles.is_empty() {
+        true => &frame.clear,
+        false => &frame.triangles,
+    };
+    let Ok(rays) = RayBvh::build(surfaces) else {
         return best.1;
     };
     let size = low.distance(high);
-    let points = points(frame, &rays, size);
+    let points = points(frame, surfaces, &rays, size);
     let mean: DVec3 = points.iter().map(|own| own.weight * own.p).sum();
     let square = |own: &Point| own.weight * (own.p - mean) * (own.p - mean);
     let most = 2.0 * points.iter().map(square).sum::<DVec3>().map(f64::sqrt);
@@ -76,29 +82,26 @@ pub(super) fn view(frame: &Frame) -> View {
 
 /// A camera that looks at the middle of a box, from the direction `towards`, `distance` half diagonals away; at 2.37 of them the
 /// sphere around the box touches the image's upper and lower edge.
-fn around(min: DVec3, max: DVec3, towards: DVec3, distance: f64) -> View {
-    let centre = [0, 1, 2].map(|i| 0.5 * (min[i] + max[i]));
-    let half = [0, 1, 2].map(|i| 0.5 * (max[i] - min[i]));
-    let radius = half.iter().map(|h| h * h).sum::<f64>().sqrt().max(1e-3);
-    let forward = unit_or((-towards).into(), [0.0, 0.0, -1.0]);
-    let eye = [0, 1, 2].map(|i| centre[i] - forward[i] * distance * radius);
-    looking(eye, forward, [0.0, 1.0, 0.0], YFOV)
+fn around(low: DVec3, high: DVec3, towards: DVec3, distance: f64) -> View {
+    let radius = (0.5 * low.distance(high)).max(1e-3);
+    let eye = 0.5 * (low + high) + distance * radius * towards;
+    looking(eye.into(), (-towards).into(), [0.0, 1.0, 0.0], YFOV)
 }
 
 /// What there is to see: of each point the front and the back. All weights together are one.
-fn points(frame: &Frame, rays: &RayBvh, size: f64) -> Vec<Point> {
+fn points(frame: &Frame, surfaces: &[SurfaceTriangle], rays: &RayBvh, size: f64) -> Vec<Point> {
     let lights: Vec<AnyLight> = frame.lights();
     let flux: Vec<f64> = lights.iter().map(SceneLight::flux).collect();
     let chosen = spread(&flux, 8 * LIGHTS);
     let each = flux.iter().sum::<f64>() / LIGHTS as f64;
     let suns = suns(frame);
     let root = |own: &SurfaceTriangle| libm::cbrt(DVec3::from(crate::vector::normal(own.p)).length());
-    let roots: Vec<f64> = frame.triangles.iter().map(root).collect();
-    let surfaces = spread(&roots, POINTS.min(8 * roots.len()));
-    let root = roots.iter().sum::<f64>() / surfaces.len() as f64;
+    let roots: Vec<f64> = surfaces.iter().map(root).collect();
+    let chosen_surfaces = spread(&roots, POINTS.min(8 * roots.len()));
+    let root = roots.iter().sum::<f64>() / chosen_surfaces.len() as f64;
     let mut all = Vec::new();
-    for (k, &index) in surfaces.iter().enumerate() {
-        let own = &frame.triangles[index];
+    for (k, &index) in chosen_surfaces.iter().enumerate() {
+        let own = &surfaces[index];
         let [a, b, c] = own.p.map(wide);
         let [u, v] = sequence(k).map(f64::from);
         let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
@@ -128,7 +131,7 @@ fn points(frame: &Frame, rays: &RayBvh, size: f64) -> Vec<Point> {
         }
     }
     let sum = |all: &[Point]| all.iter().map(|own| own.weight).sum::<f64>();
-    let dark = DARK * sum(&all).max(1e-30) / surfaces.len() as f64;
+    let dark = DARK * sum(&all).max(1e-30) / chosen_surfaces.len() as f64;
     all.iter_mut().step_by(2).for_each(|front| front.weight += dark);
     let sum = sum(&all);
     all.iter_mut().for_each(|own| own.weight /= sum);

@@ -10,12 +10,12 @@ use serde_json::{Value, json};
 
 use self::material::{Textures, is_product, strength};
 use super::analytic::{AnalyticKind, AnalyticLight};
-use super::deform::{Influence, Skin};
 use super::error::{SceneError, malformed};
 use super::gltf_in::{BACKGROUND_EXTRA, IES, RADIANCE_ATTRIBUTE};
-use super::model::{Animation, Interpolation, Material, Primitive, Property, Scene};
+use super::model::{Animation, Influence, Interpolation, Material, Primitive, Property, Skin};
 use super::paint::Picture;
 use super::profile::Profile;
+use super::scene::Scene;
 use super::transform::Transform;
 
 /// glTF's numbers for component types.

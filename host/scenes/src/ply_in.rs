@@ -6,8 +6,9 @@
 
 use super::error::{SceneError, malformed};
 use super::files::{Limits, Load, without_mark};
-use super::model::{Material, Mesh, Node, Primitive, Scene, SceneData};
+use super::model::{Material, Mesh, Node, Primitive, SceneData};
 use super::polygon::Cutter;
+use super::scene::Scene;
 
 /// Longest header.
 const MAX_HEADER: usize = 1 << 20;

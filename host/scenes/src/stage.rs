@@ -6,7 +6,8 @@
 use super::analytic::{AnalyticKind, AnalyticLight};
 use super::builder::{STILL, SceneBuilder};
 use super::error::SceneError;
-use super::model::{Material, Scene};
+use super::model::Material;
+use super::scene::Scene;
 use super::shapes::{Shape, on_circle, rotation};
 
 const ALONG_X: [f64; 3] = [1.0, 0.0, 0.0];

@@ -4,9 +4,8 @@ use glam::Mat4;
 use gltf::json;
 use gltf::json::mesh::Semantic;
 
-use super::super::deform::{Influence, Skin};
 use super::super::error::SceneError;
-use super::super::model::SceneData;
+use super::super::model::{Influence, SceneData, Skin};
 use super::attributes::Attributes;
 use super::{DAMAGED, Document};
 

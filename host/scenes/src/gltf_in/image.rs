@@ -20,14 +20,14 @@ pub(super) struct Pictures {
     /// Means by picture, and whether its channels are colours.
     pub means: HashMap<(usize, bool), [f32; 4]>,
     /// Those that the scene keeps: their numbers in the file.
-    kept: Vec<usize>,
+    kept: Vec<u32>,
     /// What is known of those that glow.
     pub glows: Glows,
 }
 
 impl Pictures {
     /// Keeps a picture; returns its number in the scene.
-    pub(super) fn keep(&mut self, index: usize) -> u32 {
+    pub(super) fn keep(&mut self, index: u32) -> u32 {
         let known = self.kept.iter().position(|&kept| kept == index);
         let number = known.unwrap_or_else(|| {
             self.kept.push(index);
@@ -38,7 +38,10 @@ impl Pictures {
 
     /// What is kept, by number in the scene.
     pub(super) fn into_kept(mut self) -> Vec<Picture> {
-        let pixels = self.kept.iter().filter_map(|index| self.decoded.remove(index)?);
+        let pixels = self
+            .kept
+            .iter()
+            .filter_map(|index| self.decoded.remove(&(*index as usize))?);
         pixels.map(pictures::kept).collect()
     }
 }

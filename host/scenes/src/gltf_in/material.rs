@@ -187,7 +187,10 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
     // Nothing glows, whatever the texture shows.
     let is_named = glow.is_some();
     let glow = of(glow.filter(|_| paint.radiance != [0.0; 3]))?;
-    let own_glow = glow.as_ref().map(|own| (Rc::new(own.glow(document)), own.set));
+    let own_glow = match &glow {
+        Some(own) => Some((Rc::new(own.glow(document)?), own.set)),
+        None => None,
+    };
     if is_named && own_glow.is_none() && !is_unlit {
         // What is known to glow somewhere is not taken to glow everywhere; unlit surfaces have a colour in any case.
         (out.radiance, paint.radiance) = ([0.0; 3], [0.0; 3]);

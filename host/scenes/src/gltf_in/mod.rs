@@ -52,8 +52,9 @@ use gltf::json;
 
 use super::error::{SceneError, malformed};
 use super::files::{Limits, Load};
-use super::model::{Scene, SceneData};
+use super::model::SceneData;
 use super::notes::Notes;
+use super::scene::Scene;
 
 /// Attribute of vertices, without the underscore: radiance of the triangle that the vertex belongs to. Written by
 /// [`super::glb_out`] for emission that differs from triangle to triangle; glTF leaves names with `_` to applications.

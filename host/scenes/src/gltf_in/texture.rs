@@ -22,15 +22,11 @@ pub(super) struct Named<'a> {
     pub others: Option<&'a Map<String, Value>>,
 }
 
-/// A texture with its picture, and where it lies.
+/// A texture with its pixels, and which set of coordinates it lies by.
 pub(super) struct Placed {
-    /// The picture's number in the file.
-    picture: usize,
+    /// With the number of its picture in the file.
+    texture: Texture,
     pixels: Rc<RgbaImage>,
-    wrap: [Wrap; 2],
-    is_nearest: bool,
-    transform: [[f32; 2]; 3],
-    /// Which set of coordinates.
     pub set: u32,
 }
 
@@ -38,18 +34,15 @@ impl Placed {
     /// As the renderer shows it; the scene keeps its picture.
     pub(super) fn shown(&self, document: &Document<'_>, is_color: bool) -> Texture {
         Texture {
-            picture: document.pictures.borrow_mut().keep(self.picture),
+            picture: document.pictures.borrow_mut().keep(self.texture.picture),
             is_color,
-            is_nearest: self.is_nearest,
-            wrap: self.wrap,
-            transform: self.transform,
+            ..self.texture
         }
     }
 
-    pub(super) fn glow(&self, document: &Document<'_>) -> Glow {
-        let picture = (self.picture, Rc::clone(&self.pixels));
+    pub(super) fn glow(&self, document: &Document<'_>) -> Result<Glow, SceneError> {
         let glows = &document.pictures.borrow().glows;
-        Glow::new(picture, self.wrap, self.is_nearest, self.transform, glows)
+        Glow::new(document.load, glows, self.texture, &self.pixels)
     }
 }
 
@@ -116,11 +109,14 @@ impl Document<'_> {
         };
         let given = given.unwrap_or_default();
         Ok(Some(Placed {
-            picture,
+            texture: Texture {
+                picture: picture as u32,
+                is_color: true,
+                is_nearest,
+                wrap,
+                transform: given.columns(),
+            },
             pixels,
-            wrap,
-            is_nearest,
-            transform: given.columns(),
             set: given.tex_coord.unwrap_or(named.set),
         }))
     }

@@ -1,5 +1,7 @@
 use super::*;
 use crate::Profile;
+use crate::profile::{OVER_DIRECTIONS, towards};
+use crate::shown::Shown;
 
 /// A file of type `kind` with these angles, whose candela values are `value` of both angles.
 fn file(kind: u32, vertical: &[f64], horizontal: &[f64], value: impl Fn(f64, f64) -> f64) -> Vec<u8> {
@@ -121,6 +123,8 @@ fn pictures_have_the_flux_of_their_tables() {
         let bytes = file(1, &vertical, &horizontal, value);
         let table = Photometry::read(&bytes).expect("sound");
         let profile = Profile::read(name.into(), bytes).expect("sound");
+        let [width, height] = [profile.picture.width, profile.picture.height];
+        let picture = Shown::new([width, height], &profile.picture.texels, &OVER_DIRECTIONS);
         // By rings, as no octahedron has them.
         let (mut flux, mut first, mut shown) = (0.0, 0.0, 0.0);
         let rings = 720;
@@ -132,7 +136,7 @@ fn pictures_have_the_flux_of_their_tables() {
                 let d = luminaire(v, 5.0 * f64::from(k) + 2.5);
                 flux += table.candela(d) * solid / 72.0;
                 first += table.candela(d) * d[2] * solid / 72.0;
-                let seen = profile.shown(d.map(|x| x as f32));
+                let seen = towards(&picture, d.map(|x| x as f32));
                 shown += f64::from(seen) * f64::from(profile.peak) * solid / 72.0;
                 if seen > 0.0 {
                     assert!(

@@ -22,10 +22,10 @@ use std::path::{Path, PathBuf};
 
 use super::error::{SceneError, malformed};
 use super::files::{Limits, Load, without_mark};
-use super::frame::emits;
-use super::model::{Material, Mesh, Node, Primitive, Scene, SceneData};
+use super::model::{Material, Mesh, Node, Primitive, SceneData, emits};
 use super::notes::Notes;
 use super::polygon::Cutter;
+use super::scene::Scene;
 use crate::vector::{dot, normal};
 use mtl::Library;
 

@@ -282,12 +282,12 @@ impl Reading<'_, '_> {
                 material.masked = !material.is_clear();
             }
         }
-        let glow = emission_map.filter(|_| radiance != [0.0; 3]).map(|map| {
+        let mut glow = None;
+        if let Some(map) = emission_map.filter(|_| radiance != [0.0; 3]) {
             paint.glow_texture = Some(map.texture);
-            let picture = (map.kept.number as usize, map.kept.pixels);
-            let Texture { wrap, transform, .. } = map.texture;
-            Glow::new(picture, wrap, false, transform, &self.library.glows)
-        });
+            let Library { load, glows, .. } = &*self.library;
+            glow = Some(Glow::new(load, glows, map.texture, &map.kept.pixels)?);
+        }
         // Glass is left out as a whole.
         material.paint = Some(paint).filter(|paint| paint.is_seen() && !material.is_clear());
         self.library.materials.insert(name, (material, glow));
