@@ -18,7 +18,7 @@ fn hostile_values_are_named() {
         ("/nodes/0/scale", json!([3e38, 1.0, 1.0]), "2^40"),
         ("/nodes/0/mesh", json!(7), "mesh 7"),
         ("/nodes/0/camera", json!(0), "camera 0"),
-        ("/nodes/0/children", json!([0]), "parent of node 0"),
+        ("/nodes/0/children", json!([0]), "node 0 is below itself"),
         ("/nodes/0/children", json!([9]), "node 9"),
         ("/scenes/0/nodes", json!([4]), "node 4"),
         (

@@ -81,7 +81,7 @@ impl Scene {
 
     pub(super) fn read_gltf(name: &str, bytes: &[u8], load: &Load) -> Result<Self, SceneError> {
         let (text, binary) = container::split(name, bytes)?;
-        let (root, pointers) = container::parse(name, text)?;
+        let (root, pointers) = container::parse(name, &text)?;
         let mut document = Document {
             path: name,
             load,
@@ -106,7 +106,7 @@ impl Scene {
         data.materials = looks.into_iter().map(|look| look.material).collect();
         let order = node::read(&document, &mut data)?;
         bend::skins(&document, &order, &mut data)?;
-        light::punctual(&document, &order, &mut data)?;
+        light::punctual(&document, &order, &mut data);
         light::measured(&document, &order, &mut data)?;
         (data.animations, data.idle) = animation::read(&document, &order)?;
         data.pictures = document.pictures.take().into_kept();

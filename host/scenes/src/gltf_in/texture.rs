@@ -3,23 +3,34 @@
 use std::rc::Rc;
 
 use gltf::json;
+use gltf::json::extensions::texture::TextureTransform;
 use gltf::json::texture::{Info, MagFilter, WrappingMode};
 use gltf::json::validation::Checked::Valid;
 use image::RgbaImage;
 use serde::Deserialize;
-use serde_json::{Map, Value};
 
 use super::super::error::SceneError;
 use super::super::glow::Glow;
-use super::super::paint::{Texture, Wrap};
+use super::super::paint::{IN_PLACE, Texture, Wrap};
 use super::super::pictures::mean_of;
 use super::Document;
 
 /// A texture as a material names it.
-pub(super) struct Named<'a> {
+pub(super) struct Named {
     pub index: json::Index<json::Texture>,
     pub set: u32,
-    pub others: Option<&'a Map<String, Value>>,
+    pub transform: Option<TextureTransform>,
+}
+
+impl From<&Info> for Named {
+    fn from(info: &Info) -> Self {
+        let extensions = info.extensions.as_ref();
+        Self {
+            index: info.index,
+            set: info.tex_coord,
+            transform: extensions.and_then(|own| own.texture_transform.clone()),
+        }
+    }
 }
 
 /// A texture with its pixels, and which set of coordinates it lies by.
@@ -46,35 +57,12 @@ impl Placed {
     }
 }
 
-/// `KHR_texture_transform`: scaled, then turned, then moved.
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase", default)]
-struct Transform {
-    offset: [f32; 2],
-    rotation: f32,
-    scale: [f32; 2],
-    tex_coord: Option<u32>,
-}
-
-impl Transform {
-    /// The effect of each coordinate, and where the origin goes. A rotation is against the clock as seen: the second axis
-    /// points down.
-    fn columns(&self) -> [[f32; 2]; 3] {
-        let angle = f64::from(self.rotation);
-        let (sine, cosine, [x, y]) = (libm::sin(angle) as f32, libm::cos(angle) as f32, self.scale);
-        [[cosine * x, -sine * x], [sine * y, cosine * y], self.offset]
-    }
-}
-
-impl Default for Transform {
-    fn default() -> Self {
-        Self {
-            offset: [0.0; 2],
-            rotation: 0.0,
-            scale: [1.0; 2],
-            tex_coord: None,
-        }
-    }
+/// `KHR_texture_transform`: scaled, then turned, then moved. A rotation is against the clock as seen: the second axis points
+/// down.
+fn columns(given: &TextureTransform) -> [[f32; 2]; 3] {
+    let angle = f64::from(given.rotation.0);
+    let (sine, cosine, [x, y]) = (libm::sin(angle) as f32, libm::cos(angle) as f32, given.scale.0);
+    [[cosine * x, -sine * x], [sine * y, cosine * y], given.offset.0]
 }
 
 /// Another picture of a texture.
@@ -88,7 +76,7 @@ const SOURCES: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 
 impl Document<'_> {
     /// The texture that a material names; `None` where its picture cannot be had, which is noted.
-    pub(super) fn placed(&self, named: &Named<'_>, element: &str) -> Result<Option<Placed>, SceneError> {
+    pub(super) fn placed(&self, named: &Named, element: &str) -> Result<Option<Placed>, SceneError> {
         let Some((picture, pixels)) = self.pixels_of(named.index, element)? else {
             return Ok(None);
         };
@@ -103,21 +91,20 @@ impl Document<'_> {
                 _ => Wrap::Repeat,
             });
         }
-        let given: Option<Transform> = match named.others {
-            Some(others) => self.extension(others, "KHR_texture_transform", element)?,
-            None => None,
-        };
-        let given = given.unwrap_or_default();
         Ok(Some(Placed {
             texture: Texture {
                 picture: picture as u32,
                 is_color: true,
                 is_nearest,
                 wrap,
-                transform: given.columns(),
+                transform: named.transform.as_ref().map_or(IN_PLACE, columns),
             },
             pixels,
-            set: given.tex_coord.unwrap_or(named.set),
+            set: named
+                .transform
+                .as_ref()
+                .and_then(|own| own.tex_coord)
+                .unwrap_or(named.set),
         }))
     }
 
