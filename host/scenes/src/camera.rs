@@ -2,8 +2,8 @@
 
 use glam::DAffine3;
 
-use super::transform::unit_or;
-use crate::vector::cross;
+use super::transform::{Transform, unit_or};
+use crate::vector::{cross, sub};
 
 /// Where an image is seen from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,6 +24,17 @@ pub struct View {
 pub(super) fn view_of_node(world: &DAffine3, yfov: f32) -> View {
     let [_, up, back, eye] = world.to_cols_array_2d();
     looking(eye, unit_or(back.map(|x| -x), [0.0, 0.0, -1.0]), up, yfov)
+}
+
+/// A view from one place to another, +Y up; along -Z where both are one.
+pub(super) fn towards(eye: [f64; 3], target: [f64; 3], yfov: f32) -> View {
+    let forward = unit_or(sub(target, eye), [0.0, 0.0, -1.0]);
+    looking(eye, forward, [0.0, 1.0, 0.0], yfov)
+}
+
+/// Where the node of a camera stands.
+pub(super) fn place_of(view: &View) -> Transform {
+    Transform::Matrix([view.right, view.up, view.forward.map(|x| -x), view.eye])
 }
 
 /// `forward` is a unit vector; `up` is made orthogonal to it.

@@ -2,12 +2,11 @@
 
 use std::sync::{Arc, OnceLock};
 
-use super::camera::{View, looking};
+use super::camera::{View, place_of, towards};
 use super::error::SceneError;
 use super::model::{Camera, Node, SceneData};
 use super::skin_words;
-use super::transform::{Transform, unit_or};
-use crate::vector::sub;
+use super::transform::Transform;
 
 /// A scene that passed every check of [`Scene::new`]: finite, in range, references whole.
 #[derive(Clone, Debug)]
@@ -100,17 +99,14 @@ impl Scene {
     /// As [`Scene::new`]: places beyond 2^40 m, fields of view that are none.
     pub fn seen_from(self, eye: [f32; 3], target: [f32; 3], yfov: f32) -> Result<Self, SceneError> {
         let mut data = self.into_data();
-        let [from, to] = [eye, target].map(|p| p.map(f64::from));
-        let forward = unit_or(sub(to, from), [0.0, 0.0, -1.0]);
-        let view = looking(from, forward, [0.0, 1.0, 0.0], yfov);
-        let columns = [view.right, view.up, view.forward.map(|x| -x), eye];
+        let view = towards(eye.map(f64::from), target.map(f64::from), yfov);
         data.cameras = vec![Camera {
             node: data.nodes.len() as u32,
             yfov,
         }];
         data.nodes.push(Node {
             name: String::from("camera"),
-            transform: Transform::Matrix(columns),
+            transform: place_of(&view),
             ..Node::default()
         });
         Self::new(data)
