@@ -269,17 +269,12 @@ impl Reading<'_> {
             numbers.push((mesh, number));
         }
         // Programs write `d 0` for what a picture's alpha cuts out.
-        let is_left_out = |own: &Material| own.is_clear() && !emits(own.radiance);
-        if data.materials.iter().all(is_left_out) {
-            for material in &mut data.materials {
-                material.transmission = 0.0;
-                let what = "all surfaces let half of the light through or more: they are taken as opaque";
-                self.notes.add(self.file, what);
-            }
-        }
-        if data.materials.iter().any(is_left_out) {
-            let what = "surfaces that let half of the light through or more are left out";
-            self.notes.add(self.file, what);
+        if data
+            .materials
+            .iter()
+            .all(|own| own.is_clear() && !emits(own.radiance))
+        {
+            data.materials.iter_mut().for_each(|own| own.transmission = 0.0);
         }
         for (part, (mesh, material)) in parts.into_iter().zip(numbers) {
             let (mut primitive, coordinates) = (part.primitive, part.coordinates);
