@@ -76,6 +76,11 @@ impl SceneBuilder {
         self.data.meshes.len() as u32 - 1
     }
 
+    /// A mesh of one shape.
+    pub fn solid(&mut self, name: &str, material: u32, draw: impl FnOnce(&mut Shape) -> &mut Shape) -> u32 {
+        self.mesh(name, &[(&Shape::of(draw), material)])
+    }
+
     /// A node with a mesh, moved and turned.
     pub fn node(
         &mut self,

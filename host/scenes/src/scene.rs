@@ -138,8 +138,8 @@ mod tests {
         let mut b = SceneBuilder::new("test", [0.0; 3]);
         let grey = b.matte("grey", [0.5; 3], 1.0);
         // Its front towards +Z.
-        let mut flat = Shape::new();
-        flat.quad([[0.0, 0.0, 1.0], [3.0, 0.0, 1.0], [3.0, 2.0, 1.0], [0.0, 2.0, 1.0]]);
+        let flat =
+            Shape::of(|s| s.quad([[0.0, 0.0, 1.0], [3.0, 0.0, 1.0], [3.0, 2.0, 1.0], [0.0, 2.0, 1.0]]));
         let mesh = b.mesh("flat", &[(&flat, grey)]);
         b.put("flat", None, [0.0, 0.0, 10.0], mesh);
         let turned = b

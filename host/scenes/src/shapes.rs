@@ -30,6 +30,11 @@ impl Shape {
         Self::default()
     }
 
+    /// A shape in one step.
+    pub fn of(draw: impl FnOnce(&mut Self) -> &mut Self) -> Self {
+        std::mem::take(draw(&mut Self::default()))
+    }
+
     fn vertex(&mut self, p: [f64; 3]) -> u32 {
         self.positions.push(p.map(|x| x as f32));
         self.positions.len() as u32 - 1
