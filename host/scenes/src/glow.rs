@@ -5,11 +5,9 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::rc::Rc;
 
-use image::RgbaImage;
-
 use super::error::SceneError;
 use super::files::Load;
-use super::paint::Texture;
+use super::paint::{Picture, Texture};
 use super::shown::Shown;
 
 /// Texels looked at for the triangles of one primitive, about: 2^24.
@@ -43,22 +41,22 @@ pub(super) struct Glow {
 }
 
 impl Glow {
-    /// Of a texture of colours, and the pixels of its picture.
+    /// Of a texture of colours, and its picture.
     ///
     /// # Errors
     /// [`SceneError::Memory`].
-    pub fn new(load: &Load, glows: &Glows, texture: Texture, pixels: &RgbaImage) -> Result<Self, SceneError> {
+    pub fn new(load: &Load, glows: &Glows, texture: Texture, picture: &Picture) -> Result<Self, SceneError> {
         let number = texture.picture;
         let picture = match glows.borrow_mut().entry(number) {
             Entry::Occupied(known) => Rc::clone(known.get()),
             Entry::Vacant(place) => {
-                let bytes = 2 * pixels.as_raw().len() as u64;
+                let bytes = 2 * picture.texels.len() as u64;
                 load.take(&format!("picture {number}"), "the light of a picture", bytes)?;
-                let size = [pixels.width(), pixels.height()];
+                let size = [picture.width, picture.height];
                 Rc::clone(place.insert(Rc::new(Glowing {
-                    shown: RefCell::new(Shown::new(size, pixels.as_raw(), &texture)),
+                    shown: RefCell::new(Shown::new(size, &picture.texels, &texture)),
                     size,
-                    sums: sums(pixels),
+                    sums: sums(picture),
                 })))
             }
         };
@@ -143,16 +141,14 @@ impl Glow {
 }
 
 /// [`Glowing::sums`].
-fn sums(pixels: &RgbaImage) -> Vec<u32> {
-    let columns = pixels.width() as usize + 1;
-    let mut sums = vec![0; columns * (pixels.height() as usize + 1)];
-    for (y, row) in pixels.rows().enumerate() {
-        let mut sum = 0;
-        for (x, pixel) in row.enumerate() {
-            let [r, g, b, _] = pixel.0;
-            sum += u32::from(r | g | b != 0);
-            sums[(y + 1) * columns + x + 1] = sums[y * columns + x + 1] + sum;
-        }
+fn sums(picture: &Picture) -> Vec<u32> {
+    let columns = picture.width as usize + 1;
+    let mut sums = vec![0; columns * (picture.height as usize + 1)];
+    for (k, &[r, g, b, _]) in picture.texels.as_chunks::<4>().0.iter().enumerate() {
+        let (x, y) = (k % (columns - 1), k / (columns - 1));
+        let at = (y + 1) * columns + x + 1;
+        let own = u32::from(r | g | b != 0);
+        sums[at] = (sums[at - 1] + sums[at - columns] + own) - sums[at - columns - 1];
     }
     sums
 }

@@ -3,7 +3,6 @@
 use std::fmt::Display;
 use std::io::Cursor;
 use std::path::Path;
-use std::rc::Rc;
 use std::sync::Arc;
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, RgbaImage};
@@ -66,30 +65,28 @@ pub(super) fn decode_light(load: &Load, bytes: Vec<u8>, path: &Path) -> Result<D
     decode(load, &name, &bytes, Some(path))
 }
 
-/// Pixels as a scene keeps them.
-pub(super) fn kept(pixels: Rc<RgbaImage>) -> Picture {
-    let (width, height) = pixels.dimensions();
-    let pixels = Rc::try_unwrap(pixels).unwrap_or_else(|shared| (*shared).clone());
-    Picture {
-        width,
-        height,
-        texels: Arc::new(pixels.into_raw()),
+impl From<RgbaImage> for Picture {
+    fn from(pixels: RgbaImage) -> Self {
+        Self {
+            width: pixels.width(),
+            height: pixels.height(),
+            texels: Arc::new(pixels.into_raw()),
+        }
     }
 }
 
 /// Mean of each channel of a picture, colours made linear.
-pub(super) fn mean_of(pixels: &RgbaImage, is_color: bool) -> [f32; 4] {
+pub(super) fn mean_of(picture: &Picture, is_color: bool) -> [f32; 4] {
     let linear: [f64; 256] = std::array::from_fn(|encoded| match is_color {
         true => f64::from(linear_from_srgb(encoded as u8)),
         false => encoded as f64 / 255.0,
     });
     let mut sum = [0.0_f64; 4];
-    for pixel in pixels.pixels() {
-        let [r, g, b, alpha] = pixel.0;
-        let alpha = f64::from(alpha) / 255.0;
+    for &[r, g, b, alpha] in picture.texels.as_chunks::<4>().0 {
         let [r, g, b] = [r, g, b].map(|channel| linear[usize::from(channel)]);
-        sum = [sum[0] + r, sum[1] + g, sum[2] + b, sum[3] + alpha];
+        let own = [r, g, b, f64::from(alpha) / 255.0];
+        sum = [0, 1, 2, 3].map(|k| sum[k] + own[k]);
     }
-    let count = (f64::from(pixels.width()) * f64::from(pixels.height())).max(1.0);
+    let count = (picture.texels.len() / 4).max(1) as f64;
     sum.map(|channel| (channel / count) as f32)
 }

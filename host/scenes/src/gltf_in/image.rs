@@ -2,7 +2,6 @@
 //! black.
 
 use std::collections::HashMap;
-use std::rc::Rc;
 
 use image::RgbaImage;
 
@@ -16,7 +15,7 @@ use super::{Document, container, ktx2};
 #[derive(Default)]
 pub(super) struct Pictures {
     /// By number in the file; `None` where it cannot be had.
-    decoded: HashMap<usize, Option<Rc<RgbaImage>>>,
+    decoded: HashMap<usize, Option<Picture>>,
     /// Means by picture, and whether its channels are colours.
     pub means: HashMap<(usize, bool), [f32; 4]>,
     /// Those that the scene keeps: their numbers in the file.
@@ -38,24 +37,22 @@ impl Pictures {
 
     /// What is kept, by number in the scene.
     pub(super) fn into_kept(mut self) -> Vec<Picture> {
-        let pixels = self
-            .kept
-            .iter()
-            .filter_map(|index| self.decoded.remove(&(*index as usize))?);
-        pixels.map(pictures::kept).collect()
+        let kept = self.kept.iter();
+        kept.filter_map(|&index| self.decoded.remove(&(index as usize))?)
+            .collect()
     }
 }
 
 impl Document<'_> {
-    /// The pixels of picture `index`, which must be in the list; `None` where they cannot be had, which is noted.
-    pub(super) fn picture(&self, index: usize) -> Result<Option<Rc<RgbaImage>>, SceneError> {
+    /// Picture `index`, which must be in the list; `None` where it cannot be had, which is noted.
+    pub(super) fn picture(&self, index: usize) -> Result<Option<Picture>, SceneError> {
         if let Some(known) = self.pictures.borrow().decoded.get(&index) {
             return Ok(known.clone());
         }
         let (image, name) = (&self.root.images[index], format!("images[{index}]"));
         let encoded = container::uri_or_view(self, image.uri.as_deref(), image.buffer_view, &name);
-        let pixels = match encoded.and_then(|bytes| self.decode(&name, &bytes)) {
-            Ok(pixels) => Some(Rc::new(pixels)),
+        let picture = match encoded.and_then(|bytes| self.decode(&name, &bytes)) {
+            Ok(pixels) => Some(Picture::from(pixels)),
             Err(error) if error.ends_the_load() => return Err(error),
             Err(error) => {
                 let what = format!(
@@ -65,8 +62,8 @@ impl Document<'_> {
                 None
             }
         };
-        self.pictures.borrow_mut().decoded.insert(index, pixels.clone());
-        Ok(pixels)
+        self.pictures.borrow_mut().decoded.insert(index, picture.clone());
+        Ok(picture)
     }
 
     fn decode(&self, name: &str, bytes: &[u8]) -> Result<RgbaImage, SceneError> {

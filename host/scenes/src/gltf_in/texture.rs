@@ -1,17 +1,14 @@
 //! Textures: a picture with its wrapping and its place on the surface, and means.
 
-use std::rc::Rc;
-
 use gltf::json;
 use gltf::json::extensions::texture::TextureTransform;
 use gltf::json::texture::{Info, MagFilter, WrappingMode};
 use gltf::json::validation::Checked::Valid;
-use image::RgbaImage;
 use serde::Deserialize;
 
 use super::super::error::SceneError;
 use super::super::glow::Glow;
-use super::super::paint::{IN_PLACE, Texture, Wrap};
+use super::super::paint::{IN_PLACE, Picture, Texture, Wrap};
 use super::super::pictures::mean_of;
 use super::Document;
 
@@ -33,11 +30,11 @@ impl From<&Info> for Named {
     }
 }
 
-/// A texture with its pixels, and which set of coordinates it lies by.
+/// A texture with its picture, and which set of coordinates it lies by.
 pub(super) struct Placed {
     /// With the number of its picture in the file.
     texture: Texture,
-    pixels: Rc<RgbaImage>,
+    picture: Picture,
     pub set: u32,
 }
 
@@ -53,7 +50,7 @@ impl Placed {
 
     pub(super) fn glow(&self, document: &Document<'_>) -> Result<Glow, SceneError> {
         let glows = &document.pictures.borrow().glows;
-        Glow::new(document.load, glows, self.texture, &self.pixels)
+        Glow::new(document.load, glows, self.texture, &self.picture)
     }
 }
 
@@ -77,7 +74,7 @@ const SOURCES: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 impl Document<'_> {
     /// The texture that a material names; `None` where its picture cannot be had, which is noted.
     pub(super) fn placed(&self, named: &Named, element: &str) -> Result<Option<Placed>, SceneError> {
-        let Some((picture, pixels)) = self.pixels_of(named.index, element)? else {
+        let Some((number, picture)) = self.picture_of(named.index, element)? else {
             return Ok(None);
         };
         let texture = self.get(&self.root.textures, named.index, "texture", element)?;
@@ -93,13 +90,13 @@ impl Document<'_> {
         }
         Ok(Some(Placed {
             texture: Texture {
-                picture: picture as u32,
+                picture: number as u32,
                 is_color: true,
                 is_nearest,
                 wrap,
                 transform: named.transform.as_ref().map_or(IN_PLACE, columns),
             },
-            pixels,
+            picture,
             set: named
                 .transform
                 .as_ref()
@@ -115,21 +112,21 @@ impl Document<'_> {
         element: &str,
         is_color: bool,
     ) -> Result<Option<[f32; 4]>, SceneError> {
-        let Some((picture, pixels)) = self.pixels_of(info.index, element)? else {
+        let Some((number, picture)) = self.picture_of(info.index, element)? else {
             return Ok(None);
         };
         // Many materials share a picture.
         let mut pictures = self.pictures.borrow_mut();
-        let mean = pictures.means.entry((picture, is_color));
-        Ok(Some(*mean.or_insert_with(|| mean_of(&pixels, is_color))))
+        let mean = pictures.means.entry((number, is_color));
+        Ok(Some(*mean.or_insert_with(|| mean_of(&picture, is_color))))
     }
 
     /// The first picture of a texture that can be decoded, with its number.
-    fn pixels_of(
+    fn picture_of(
         &self,
         index: json::Index<json::Texture>,
         element: &str,
-    ) -> Result<Option<(usize, Rc<RgbaImage>)>, SceneError> {
+    ) -> Result<Option<(usize, Picture)>, SceneError> {
         let texture = self.get(&self.root.textures, index, "texture", element)?;
         let name = format!("textures[{}]", index.value());
         let mut pictures = Vec::new();
@@ -145,10 +142,9 @@ impl Document<'_> {
         for &picture in &pictures {
             self.get(&self.root.images, json::Index::new(picture), "image", &name)?;
         }
-        for &picture in &pictures {
-            let picture = picture as usize;
-            if let Some(pixels) = self.picture(picture)? {
-                return Ok(Some((picture, pixels)));
+        for &number in &pictures {
+            if let Some(picture) = self.picture(number as usize)? {
+                return Ok(Some((number as usize, picture)));
             }
         }
         if pictures.is_empty() {

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
 
 use image::RgbaImage;
 
@@ -22,7 +21,7 @@ type Entry = HashMap<String, (u32, String)>;
 #[derive(Clone)]
 struct Kept {
     number: u32,
-    pixels: Rc<RgbaImage>,
+    picture: Picture,
     mean: [f32; 3],
     has_shape: bool,
 }
@@ -63,10 +62,9 @@ impl<'a> Library<'a> {
 
     /// All pictures, by number.
     pub fn into_pictures(self) -> Vec<Picture> {
-        drop(self.materials);
         let mut kept: Vec<Kept> = self.kept.into_values().collect();
         kept.sort_by_key(|own| own.number);
-        kept.into_iter().map(|own| pictures::kept(own.pixels)).collect()
+        kept.into_iter().map(|own| own.picture).collect()
     }
 
     /// Adds the materials of a file; the first one of a name stays.
@@ -184,10 +182,11 @@ impl Reading<'_, '_> {
                 }
             }
         }
-        let [r, g, b, _] = pictures::mean_of(&pixels, true);
+        let picture = Picture::from(pixels);
+        let [r, g, b, _] = pictures::mean_of(&picture, true);
         let kept = Kept {
             number: self.library.kept.len() as u32,
-            pixels: Rc::new(pixels),
+            picture,
             mean: [r, g, b],
             has_shape: other.is_some(),
         };
@@ -286,7 +285,7 @@ impl Reading<'_, '_> {
         if let Some(map) = emission_map.filter(|_| radiance != [0.0; 3]) {
             paint.glow_texture = Some(map.texture);
             let Library { load, glows, .. } = &*self.library;
-            glow = Some(Glow::new(load, glows, map.texture, &map.kept.pixels)?);
+            glow = Some(Glow::new(load, glows, map.texture, &map.kept.picture)?);
         }
         // Glass is left out as a whole.
         material.paint = Some(paint).filter(|paint| paint.is_seen() && !material.is_clear());
