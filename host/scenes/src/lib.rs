@@ -86,7 +86,7 @@ pub use model::{
     SceneData, Skin,
 };
 pub use paint::{IN_PLACE, MAX_SIDE, Opacity, Paint, Picture, Texture, Wrap};
-pub use profile::Profile;
+pub use profile::{Profile, Sent};
 pub use ray_bvh::{RayBvh, RayBvhError};
 pub use scene::Scene;
 pub use scene_light::SceneLight;

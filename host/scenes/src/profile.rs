@@ -32,8 +32,15 @@ pub struct Profile {
     pub name: String,
     /// The file, for export.
     pub file: Arc<Vec<u8>>,
-    /// What it sends, relative to [`peak`](Self::peak), encoded as sRGB: an unfolded octahedron with the axis in the middle.
+    /// What it sends, relative to [`Sent::peak`], encoded as sRGB: an unfolded octahedron with the axis in the middle.
     pub picture: Picture,
+    /// What a tree knows of it.
+    pub sent: Sent,
+}
+
+/// What a profile sends, in numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sent {
     /// Candela where the picture shows one; such that its integral is the table's.
     pub peak: f32,
     /// Integral of what the picture shows, over 2π.
@@ -76,16 +83,18 @@ impl Profile {
         let sent = over_directions(side, |local| table.candela(local.map(f64::from)));
         let seen = over_directions(side, |local| f64::from(towards(&shown, local)));
         let tau = std::f64::consts::TAU;
+        let mean_cosine = (seen[1] / seen[0]) as f32;
+        let sent = Sent {
+            peak: (greatest * (sent[0] / (greatest * seen[0]))) as f32,
+            whole: ((seen[0] / tau) as f32).min(2.0),
+            mean_cosine: mean_cosine.clamp(-1.0, 1.0),
+            cos_outer: cos_outer(&picture).min(mean_cosine - 1.0e-6).max(-1.0),
+        };
         Ok(Self {
             name,
             file: Arc::new(file),
-            peak: (greatest * (sent[0] / (greatest * seen[0]))) as f32,
-            whole: ((seen[0] / tau) as f32).min(2.0),
-            mean_cosine: ((seen[1] / seen[0]) as f32).clamp(-1.0, 1.0),
-            cos_outer: cos_outer(&picture)
-                .min((seen[1] / seen[0]) as f32 - 1.0e-6)
-                .max(-1.0),
             picture,
+            sent,
         })
     }
 }

@@ -117,7 +117,10 @@ pub(super) fn measured(
         data.analytic.push(AnalyticLight {
             name: profile.name.clone(),
             node: node_in_scene,
-            kind: AnalyticKind::profile(index, profile),
+            kind: AnalyticKind::Profile {
+                profile: index,
+                sent: profile.sent,
+            },
             color: own.color.map(|channel| channel.min(1.0)),
             intensity: own.multiplier,
             range: None,

@@ -7,23 +7,18 @@ use gltf::json;
 use gltf::json::mesh::{Mode, Semantic};
 use gltf::json::validation::Checked;
 
-use super::super::check::MAX_TRIANGLES;
-use super::super::error::{SceneError, malformed};
+use super::super::error::SceneError;
 use super::super::model::{Mesh, Primitive};
 use super::attributes::Attributes;
 use super::material::Look;
 use super::{DAMAGED, Document, RADIANCE_ATTRIBUTE, bend};
 
-/// Decoded data that neighbouring primitives often share.
-#[derive(Default)]
-struct Shared {
-    positions: Option<(usize, Rc<Vec<[f32; 3]>>)>,
-    triangles: u64,
-}
+/// The positions of the last accessor of them, which neighbouring primitives often share.
+type Shared = Option<(usize, Rc<Vec<[f32; 3]>>)>;
 
 /// All meshes. Primitives without a material get one that is appended to `looks`.
 pub(super) fn read(document: &Document<'_>, looks: &mut Vec<Look>) -> Result<Vec<Mesh>, SceneError> {
-    let mut shared = Shared::default();
+    let mut shared = None;
     let mut meshes = Vec::new();
     for (m, mesh) in document.root.meshes.iter().enumerate() {
         let mut primitives = Vec::new();
@@ -76,14 +71,6 @@ fn one(
     }
     let positions = positions(&attributes, shared)?;
     let triangles = triangles(document, &attributes, (primitive, mode), positions.len())?;
-    shared.triangles += triangles.len() as u64;
-    if shared.triangles > MAX_TRIANGLES {
-        let problem = format!(
-            "has {} triangles, more than the {MAX_TRIANGLES} that fit",
-            shared.triangles
-        );
-        return Err(malformed(document.path, problem, "split the scene"));
-    }
     let coordinates = coordinates(document, &attributes, &looks[material], positions.len())?;
     let radiance = radiance(document, &attributes, &looks[material], &triangles)?;
     let targets = bend::targets(document, primitive, positions.len(), element)?;
@@ -105,7 +92,7 @@ fn positions(attributes: &Attributes<'_, '_>, shared: &mut Shared) -> Result<Rc<
     let index = attributes
         .accessor(Semantic::Positions)
         .map(|index| index.value());
-    match &shared.positions {
+    match shared {
         Some((of, positions)) if Some(*of) == index && attributes.draco.is_none() => {
             return Ok(Rc::clone(positions));
         }
@@ -113,7 +100,7 @@ fn positions(attributes: &Attributes<'_, '_>, shared: &mut Shared) -> Result<Rc<
     }
     let positions = Rc::new(attributes.floats::<3>(Semantic::Positions)?.unwrap_or_default());
     if attributes.draco.is_none() {
-        shared.positions = index.map(|index| (index, Rc::clone(&positions)));
+        *shared = index.map(|index| (index, Rc::clone(&positions)));
     }
     Ok(positions)
 }
@@ -135,11 +122,7 @@ fn coordinates(
         document.note(element, what);
         return Ok(None);
     };
-    // What is missing, or no number, lies at the origin.
-    if values.len() < vertices {
-        let what = format!("TEXCOORD_{set} has fewer entries than POSITION, and what is missing counts as 0");
-        document.note(element, what);
-    }
+    // What is missing lies at the origin.
     values.resize(vertices, [0.0; 2]);
     Ok(Some(values))
 }
@@ -153,15 +136,12 @@ fn radiance(
 ) -> Result<Option<Vec<[f32; 3]>>, SceneError> {
     let element = attributes.element;
     let check = |count: usize| {
-        let problem = || format!("has an attribute of {count} elements, fewer than its positions");
-        match triangles
-            .as_flattened()
-            .iter()
-            .any(|&vertex| vertex as usize >= count)
-        {
-            true => Err(document.malformed(element, problem(), DAMAGED)),
-            false => Ok(()),
+        let mut vertices = triangles.as_flattened().iter();
+        if vertices.all(|&vertex| (vertex as usize) < count) {
+            return Ok(());
         }
+        let problem = format!("has an attribute of {count} elements, fewer than its positions");
+        Err(document.malformed(element, problem, DAMAGED))
     };
     if let Some(values) = attributes.floats::<3>(Semantic::Extras(RADIANCE_ATTRIBUTE.to_owned()))? {
         check(values.len())?;

@@ -123,19 +123,19 @@ fn pictures_have_the_flux_of_their_tables() {
                 flux += table.candela(d) * solid / 72.0;
                 first += table.candela(d) * d[2] * solid / 72.0;
                 let seen = towards(&picture, d.map(|x| x as f32));
-                shown += f64::from(seen) * f64::from(profile.peak) * solid / 72.0;
+                shown += f64::from(seen) * f64::from(profile.sent.peak) * solid / 72.0;
                 assert!(
-                    seen <= 0.0 || d[2] as f32 >= profile.cos_outer,
+                    seen <= 0.0 || d[2] as f32 >= profile.sent.cos_outer,
                     "{name}: {}",
                     d[2]
                 );
             }
         }
-        let whole = f64::from(profile.whole) * std::f64::consts::TAU * f64::from(profile.peak);
+        let whole = f64::from(profile.sent.whole) * std::f64::consts::TAU * f64::from(profile.sent.peak);
         for share in [
             shown / flux,
             whole / flux,
-            1.0 + f64::from(profile.mean_cosine) - first / flux,
+            1.0 + f64::from(profile.sent.mean_cosine) - first / flux,
         ] {
             assert!((share - 1.0).abs() < 0.005, "{name}: {shown}, {whole} of {flux}");
         }
