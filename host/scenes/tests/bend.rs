@@ -9,7 +9,7 @@ use lightbvh_scenes::{
 };
 use serde_json::{Value, json};
 
-use crate::files::{bending, broken, changed, embedded, push, read, read_json, refused, triangle};
+use crate::files::{add_view, bending, broken, changed, push, read, read_json, refused, triangle};
 
 fn near(a: [f32; 3], b: [f32; 3]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-5)
@@ -161,11 +161,7 @@ fn jointed() -> Value {
     root["skins"] = json!([{ "joints": [1, 2] }]);
     let mut bytes = [[1_u8, 0, 0, 0]; 3].as_flattened().to_vec();
     bytes.extend([[100_u8, 0, 0, 0]; 3].as_flattened());
-    push(
-        &mut root["buffers"],
-        json!({ "byteLength": 24, "uri": embedded(&bytes) }),
-    );
-    push(&mut root["bufferViews"], json!({ "buffer": 1, "byteLength": 24 }));
+    add_view(&mut root, &bytes);
     let accessor = |at, normalized| json!({ "bufferView": 2, "byteOffset": at, "componentType": 5121, "count": 3, "type": "VEC4", "normalized": normalized });
     push(&mut root["accessors"], accessor(0, false));
     push(&mut root["accessors"], accessor(12, true));
@@ -178,10 +174,8 @@ fn jointed() -> Value {
 #[test]
 fn joints_and_weights_in_bytes() {
     let scene = read_json(&jointed());
-    assert_eq!(
-        scene.frame(0).triangles[0].p,
-        [[0.0, 0.0, 7.0], [1.0, 0.0, 7.0], [0.0, 1.0, 7.0]]
-    );
+    let expected = [[0.0, 0.0, 7.0], [1.0, 0.0, 7.0], [0.0, 1.0, 7.0]];
+    assert_eq!(scene.frame(0).triangles[0].p, expected);
     let attributes = "/meshes/0/primitives/0/attributes/";
     for (pointer, value, expected) in [
         (&*format!("{attributes}WEIGHTS_0"), json!(99), "accessor 99"),

@@ -79,16 +79,9 @@ pub fn changed(pointer: &str, value: Value) -> Value {
 /// [`triangle`] with texture coordinates, which glows by a picture.
 pub fn textured(coordinates: [[f32; 2]; 3], picture: &[u8]) -> Value {
     let mut root = triangle();
-    let bytes = bytes(coordinates.as_flattened());
-    push(
-        &mut root["buffers"],
-        json!({ "byteLength": 24, "uri": embedded(&bytes) }),
-    );
-    push(&mut root["bufferViews"], json!({ "buffer": 1, "byteLength": 24 }));
-    push(
-        &mut root["accessors"],
-        json!({ "bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC2" }),
-    );
+    let view = add_view(&mut root, &bytes(coordinates.as_flattened()));
+    let accessor = json!({ "bufferView": view, "componentType": 5126, "count": 3, "type": "VEC2" });
+    push(&mut root["accessors"], accessor);
     root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(2);
     root["materials"][0]["emissiveTexture"] = json!({ "index": 0 });
     // Texels as they are: by means of four all of a small picture would glow.
@@ -116,6 +109,21 @@ pub fn png_white_black() -> Vec<u8> {
 /// Appends to a list of a file.
 pub fn push(list: &mut Value, value: Value) {
     list.as_array_mut().expect("a list").push(value);
+}
+
+/// Appends a buffer of these bytes, and a view of it, whose number it returns.
+pub fn add_view(root: &mut Value, bytes: &[u8]) -> usize {
+    let [buffer, view] = ["buffers", "bufferViews"].map(|list| root[list].as_array().map_or(0, Vec::len));
+    let length = bytes.len();
+    push(
+        &mut root["buffers"],
+        json!({ "byteLength": length, "uri": embedded(bytes) }),
+    );
+    push(
+        &mut root["bufferViews"],
+        json!({ "buffer": buffer, "byteLength": length }),
+    );
+    view
 }
 
 /// `bytes` as the uri of an embedded buffer or picture.

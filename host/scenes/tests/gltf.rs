@@ -4,7 +4,9 @@ use lightbvh::light::TWO_SIDED;
 use lightbvh_scenes::{Frame, Scene};
 use serde_json::{Value, json};
 
-use crate::files::{bending, busy, bytes, changed, embedded, push, read, read_json, refused, triangle};
+use crate::files::{
+    add_view, bending, busy, bytes, changed, embedded, push, read, read_json, refused, triangle,
+};
 
 fn frame(root: &Value) -> Frame {
     read_json(root).frame(0)
@@ -151,15 +153,9 @@ fn positions_of_every_component_type() {
 fn sparse_indices_replace_some() {
     let mut root = triangle();
     // Element 1 of 0 1 2 becomes 2, element 2 becomes 1: turned over.
-    push(
-        &mut root["buffers"],
-        json!({ "byteLength": 6, "uri": embedded(&[1, 2, 2, 0, 1, 0]) }),
-    );
-    let views = &mut root["bufferViews"];
-    push(views, json!({ "buffer": 1, "byteLength": 2 }));
-    push(views, json!({ "buffer": 1, "byteOffset": 2, "byteLength": 4 }));
+    let (at, values) = (add_view(&mut root, &[1, 2]), add_view(&mut root, &[2, 0, 1, 0]));
     root["accessors"][1]["sparse"] = json!({
-        "count": 2, "indices": { "bufferView": 2, "componentType": 5121 }, "values": { "bufferView": 3 },
+        "count": 2, "indices": { "bufferView": at, "componentType": 5121 }, "values": { "bufferView": values },
     });
     let expected = [[0.0; 3], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
     assert_eq!(frame(&root).triangles[0].p, expected);
@@ -203,11 +199,7 @@ fn lamps(counts: [usize; 2]) -> Value {
     ]
     .concat();
     let mut root = triangle();
-    push(
-        &mut root["buffers"],
-        json!({ "byteLength": 84, "uri": embedded(&bytes(&numbers)) }),
-    );
-    push(&mut root["bufferViews"], json!({ "buffer": 1, "byteLength": 84 }));
+    add_view(&mut root, &bytes(&numbers));
     let accessor = |offset, count, shape| json!({ "bufferView": 2, "byteOffset": offset, "componentType": 5126, "count": count, "type": shape });
     push(&mut root["accessors"], accessor(0, counts[0], "VEC3"));
     push(&mut root["accessors"], accessor(36, counts[1], "VEC4"));

@@ -108,15 +108,9 @@ fn add(
     let weights = node.weights.clone().or(of_mesh).unwrap_or_default();
     if let Some(index) = node.camera {
         let camera = document.get(&document.root.cameras, index, "camera", &element)?;
-        let index = index.value();
-        match &camera.perspective {
-            Some(perspective) => {
-                let place = Camera {
-                    node: data.nodes.len() as u32,
-                    yfov: perspective.yfov,
-                };
-                cameras.push((index, place));
-            }
+        let node = data.nodes.len() as u32;
+        match camera.perspective.as_ref().map(|own| own.yfov) {
+            Some(yfov) => cameras.push((index.value(), Camera { node, yfov })),
             None => document.note(&element, "its camera is not perspective and is ignored"),
         }
     }
@@ -126,24 +120,32 @@ fn add(
         Some(_) => instancing::places(document, node, &element)?,
         None => None,
     };
-    data.nodes.push(Node {
-        name: name.clone(),
+    let is_repeated = instances.is_some();
+    let node = Node {
+        name,
         parent,
         transform: transform(node),
-        mesh: mesh.filter(|_| instances.is_none()),
+        mesh,
         skin,
-        weights: weights.clone(),
-    });
-    for (i, transform) in instances.into_iter().flatten().enumerate() {
-        data.nodes.push(Node {
-            name: format!("{name} {i}"),
+        weights,
+    };
+    let repeated = instances
+        .into_iter()
+        .flatten()
+        .enumerate()
+        .map(|(i, transform)| Node {
+            name: format!("{} {i}", node.name),
             parent: Some(own),
             transform,
-            mesh,
             skin: None,
-            weights: weights.clone(),
+            ..node.clone()
         });
-    }
+    let repeated: Vec<Node> = repeated.collect();
+    data.nodes.push(Node {
+        mesh: mesh.filter(|_| !is_repeated),
+        ..node
+    });
+    data.nodes.extend(repeated);
     Ok(())
 }
 
