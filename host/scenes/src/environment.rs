@@ -27,7 +27,14 @@ pub fn read_environment(
     let name = path.display();
     let load = Load::new(None, limits)?;
     let bytes = load.read_any(path);
-    let picture = bytes.and_then(|bytes| pictures::decode_light(&load, bytes, path));
+    let picture = bytes.and_then(|bytes| {
+        // The first bytes that some programs (B. Walter's `rgbe.c`) write for the same format.
+        let bytes = match bytes.strip_prefix(b"#?RGBE") {
+            Some(rest) => [b"#?RADIANCE", rest].concat(),
+            None => bytes,
+        };
+        pictures::decode(&load, &name.to_string(), &bytes, Some(path))
+    });
     let mut picture = match picture {
         Err(error) if !error.ends_the_load() => {
             let problem = format!("cannot be read as an environment map: {error}");

@@ -45,10 +45,8 @@ pub(super) fn view(frame: &Frame) -> View {
     let vertices = || all.clone().flat_map(|own| own.p).map(wide);
     let low = vertices().reduce(DVec3::min).unwrap_or_default();
     let high = vertices().reduce(DVec3::max).unwrap_or_default();
-    let mut best = (
-        0.0,
-        around(low, high, DVec3::new(0.35, 0.3, 1.0).normalize(), 2.37),
-    );
+    let first = around(low, high, DVec3::new(0.35, 0.3, 1.0).normalize(), 2.37);
+    let mut best = (0.0, first);
     let surfaces = match frame.triangles.is_empty() {
         true => &frame.clear,
         false => &frame.triangles,
@@ -116,18 +114,21 @@ fn points(frame: &Frame, surfaces: &[SurfaceTriangle], rays: &RayBvh, size: f64)
             let shining = lights.get(own.light as usize).filter(|_| n == front);
             let shining = shining.map(|own| own.point_for((p + n).as_vec3(), [0.5; 2]).radiance);
             let mut light = luminance(shining.unwrap_or_default());
-            let suns = suns
+            let far = suns
                 .iter()
-                .map(|&(towards, irradiance)| (towards, FAR, irradiance * n.dot(towards)));
+                .map(|&(to, irradiance)| (to, FAR, irradiance * n.dot(to)));
             let near = chosen.iter().skip(k % 8).step_by(8).map(|&index| {
                 let at = lights[index].point_for(receiver.position(), sequence(k));
                 let irradiance = luminance(at.irradiance(&receiver)) * each / flux[index];
                 (wide(at.p) - start, 1.0, irradiance)
             });
-            for (towards, far, irradiance) in suns.chain(near) {
-                let is_lit = irradiance > 0.0 && distance(rays, start, towards, far).is_none();
-                light += if is_lit { irradiance } else { 0.0 };
-            }
+            let is_lit =
+                |&(to, far, irradiance): &_| irradiance > 0.0 && distance(rays, start, to, far).is_none();
+            light += far
+                .chain(near)
+                .filter(is_lit)
+                .map(|(.., irradiance)| irradiance)
+                .sum::<f64>();
             let (size, weight) = (roots[index] * root.sqrt(), counts * light.min(1e30).sqrt());
             all.push(Point { p, n, size, weight });
         }
@@ -145,17 +146,13 @@ fn suns(frame: &Frame) -> Vec<(DVec3, f64)> {
     // The first one stands for the map.
     let suns = frame.sky.suns().iter().skip(1);
     let suns = suns.map(|sun| (wide(sun.direction), luminance(sun.irradiance)));
-    let map = frame.sky.environment().into_iter();
-    let parts = map
-        .flat_map(|map| (0..LIGHTS).map(move |i| (i, map)))
-        .map(|(i, map)| {
-            let sample = map
-                .map()
-                .sample(i as u32 * (u32::MAX / LIGHTS as u32), sequence(i));
-            let irradiance = luminance(sample.radiance) / (f64::from(sample.density) * LIGHTS as f64);
-            (wide(sample.direction), irradiance)
-        });
-    suns.chain(parts).collect()
+    let mut all: Vec<_> = suns.collect();
+    for (i, map) in (0..LIGHTS).flat_map(|i| frame.sky.environment().map(|map| (i, map.map()))) {
+        let sample = map.sample(i as u32 * (u32::MAX / LIGHTS as u32), sequence(i));
+        let irradiance = luminance(sample.radiance) / (f64::from(sample.density) * LIGHTS as f64);
+        all.push((wide(sample.direction), irradiance));
+    }
+    all
 }
 
 /// The weight of what is seen: in the image, on this side, farther than `near`, nothing before it. What is small counts less.

@@ -14,7 +14,7 @@ use super::srgb::linear_from_srgb;
 
 /// What cannot be decoded.
 pub(super) fn undecoded(name: &str, problem: impl Display) -> SceneError {
-    let advice = "use PNG, JPEG, WebP, TGA, HDR, EXR or KTX 2 of at most 16384 pixels a side";
+    let advice = "use PNG, JPEG, WebP, TGA or KTX 2 of at most 16384 pixels a side";
     malformed(name, format!("cannot be decoded: {problem}"), advice)
 }
 
@@ -54,15 +54,19 @@ pub(super) fn decode(
         .map_err(|error| undecoded(name, error))
 }
 
-/// Decodes a file, which may hold light (.hdr, .exr).
-pub(super) fn decode_light(load: &Load, bytes: Vec<u8>, path: &Path) -> Result<DynamicImage, SceneError> {
-    let name = path.display().to_string();
-    // The first bytes that some programs (B. Walter's `rgbe.c`) write for the same format.
-    let bytes = match bytes.strip_prefix(b"#?RGBE") {
-        Some(rest) => [b"#?RADIANCE", rest].concat(),
-        None => bytes,
-    };
-    decode(load, &name, &bytes, Some(path))
+/// The same for a surface, whose picture holds no light.
+pub(super) fn decode_surface(
+    load: &Load,
+    name: &str,
+    bytes: &[u8],
+    path: Option<&Path>,
+) -> Result<RgbaImage, SceneError> {
+    match decode(load, name, bytes, path)? {
+        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
+            Err(undecoded(name, "it holds light, as environment maps do"))
+        }
+        picture => Ok(picture.into_rgba8()),
+    }
 }
 
 impl From<RgbaImage> for Picture {

@@ -126,33 +126,3 @@ impl Scene {
         Self::new(data)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::builder::SceneBuilder;
-    use super::super::shapes::Shape;
-    use crate::Scene;
-
-    #[test]
-    fn what_was_up_is_up() {
-        let mut b = SceneBuilder::new("test", [0.0; 3]);
-        let grey = b.matte("grey", [0.5; 3], 1.0);
-        // Its front towards +Z.
-        let flat =
-            Shape::of(|s| s.quad([[0.0, 0.0, 1.0], [3.0, 0.0, 1.0], [3.0, 2.0, 1.0], [0.0, 2.0, 1.0]]));
-        let mesh = b.mesh("flat", &[(&flat, grey)]);
-        b.put("flat", None, [0.0, 0.0, 10.0], mesh);
-        let turned = b
-            .finish()
-            .and_then(Scene::from_z_up)
-            .expect("a sound scene")
-            .frame(0);
-        let first = turned.triangles[0].p;
-        assert_eq!(first, [[0.0, 11.0, 0.0], [3.0, 11.0, 0.0], [3.0, 11.0, -2.0]]);
-        assert_eq!(
-            crate::vector::normal(first),
-            [0.0, 6.0, 0.0],
-            "the front is above"
-        );
-    }
-}

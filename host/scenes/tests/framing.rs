@@ -184,3 +184,12 @@ fn nothing_to_see_is_no_error() {
         assert!(all.iter().flatten().all(|x| x.is_finite()), "{view:?}");
     }
 }
+
+#[test]
+fn up_along_z_is_turned_to_up_along_y() {
+    let flat = sheet([0.0, 0.0, 11.0], [3.0, 0.0, 0.0], [0.0, 2.0, 0.0], 0);
+    let turned = scene(vec![flat], false).from_z_up().expect("a sound scene");
+    let first = turned.frame(0).triangles[0].p;
+    // The front is above.
+    assert_eq!(first, [[0.0, 11.0, 0.0], [3.0, 11.0, 0.0], [3.0, 11.0, -2.0]]);
+}

@@ -72,7 +72,7 @@ impl Document<'_> {
             self.load.check(name, "a picture, decoded,", header.bytes())?;
             header.decode(name, bytes)?
         } else {
-            pictures::decode(self.load, name, bytes, None)?.into_rgba8()
+            pictures::decode_surface(self.load, name, bytes, None)?
         };
         self.load.take(name, "a picture", pixels.as_raw().len() as u64)?;
         Ok(pixels)

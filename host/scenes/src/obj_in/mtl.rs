@@ -26,12 +26,6 @@ struct Kept {
     has_shape: bool,
 }
 
-/// A picture, and where it lies.
-struct Map {
-    texture: Texture,
-    kept: Kept,
-}
-
 /// Materials by name, and the pictures that they share.
 pub(super) struct Library<'a> {
     load: &'a Load,
@@ -131,7 +125,12 @@ impl Reading<'_, '_> {
     }
 
     /// A map by a word; `opacity` is the word of another one, which says where it is.
-    fn map(&mut self, entry: &Entry, word: &str, opacity: &str) -> Result<Option<Map>, SceneError> {
+    fn map(
+        &mut self,
+        entry: &Entry,
+        word: &str,
+        opacity: &str,
+    ) -> Result<Option<(Texture, Kept)>, SceneError> {
         let Some((line, rest)) = entry.get(word) else {
             return Ok(None);
         };
@@ -140,16 +139,14 @@ impl Reading<'_, '_> {
             .get(opacity)
             .map(|(_, rest)| self.file_of(map_options(rest).2));
         let kept = self.kept(*line, (self.file_of(name), opacity))?;
-        Ok(kept.map(|kept| {
-            let texture = Texture {
-                picture: kept.number,
-                is_color: true,
-                is_nearest: false,
-                wrap,
-                transform,
-            };
-            Map { texture, kept }
-        }))
+        let texture = |kept: &Kept| Texture {
+            picture: kept.number,
+            is_color: true,
+            is_nearest: false,
+            wrap,
+            transform,
+        };
+        Ok(kept.map(|kept| (texture(&kept), kept)))
     }
 
     /// The picture of a file, with the alpha of another one, or its red if that is opaque.
@@ -197,9 +194,10 @@ impl Reading<'_, '_> {
     /// The pixels of a file; `None` where they cannot be had, which is noted.
     fn decode(&mut self, line: u32, path: &Path) -> Result<Option<RgbaImage>, SceneError> {
         let load = self.library.load;
-        let bytes = load.read(path);
-        match bytes.and_then(|bytes| pictures::decode_light(load, bytes, path)) {
-            Ok(picture) => Ok(Some(picture.into_rgba8())),
+        let name = path.display().to_string();
+        let pixels = load.read(path);
+        match pixels.and_then(|bytes| pictures::decode_surface(load, &name, &bytes, Some(path))) {
+            Ok(pixels) => Ok(Some(pixels)),
             Err(error) if error.ends_the_load() => Err(error),
             Err(error) => {
                 let what = format!("a picture counts as white, and where it is what glows as black: {error}");
@@ -219,12 +217,12 @@ impl Reading<'_, '_> {
         let illumination = self.number(&entry, "illum")?;
         let is_one_of = |models: &[f32]| illumination.is_some_and(|own| models.contains(&own));
         let unit = |x: f32| x.clamp(0.0, 1.0);
-        let times = |color: [f32; 3], map: &Option<Map>| match map {
-            Some(map) => [0, 1, 2].map(|i| color[i] * map.kept.mean[i]),
+        let times = |color: [f32; 3], map: &Option<(Texture, Kept)>| match map {
+            Some((_, kept)) => [0, 1, 2].map(|i| color[i] * kept.mean[i]),
             None => color,
         };
         // Exporters write black beside a map that says all.
-        let or_one = |color: [f32; 3], map: &Option<Map>| match map {
+        let or_one = |color: [f32; 3], map: &Option<(Texture, Kept)>| match map {
             Some(_) if color == [0.0; 3] => [1.0; 3],
             _ => color,
         };
@@ -273,19 +271,19 @@ impl Reading<'_, '_> {
             radiance,
             ..Paint::PLAIN
         };
-        if let Some(map) = diffuse_map.filter(|_| !is_mirror) {
+        if let Some((texture, kept)) = diffuse_map.filter(|_| !is_mirror) {
             let [r, g, b] = factor.map(unit);
-            (paint.base, paint.base_texture) = ([r, g, b, 1.0], Some(map.texture));
-            if map.kept.has_shape {
+            (paint.base, paint.base_texture) = ([r, g, b, 1.0], Some(texture));
+            if kept.has_shape {
                 paint.opacity = Opacity::Cut(0.5);
                 material.masked = !material.is_clear();
             }
         }
         let mut glow = None;
-        if let Some(map) = emission_map.filter(|_| radiance != [0.0; 3]) {
-            paint.glow_texture = Some(map.texture);
+        if let Some((texture, kept)) = emission_map.filter(|_| radiance != [0.0; 3]) {
+            paint.glow_texture = Some(texture);
             let Library { load, glows, .. } = &*self.library;
-            glow = Some(Glow::new(load, glows, map.texture, &map.kept.picture)?);
+            glow = Some(Glow::new(load, glows, texture, &kept.picture)?);
         }
         // Glass is left out as a whole.
         material.paint = Some(paint).filter(|paint| paint.is_seen() && !material.is_clear());
