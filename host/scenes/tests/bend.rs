@@ -179,7 +179,7 @@ fn joints_and_weights_in_bytes() {
     let attributes = "/meshes/0/primitives/0/attributes/";
     for (pointer, value, expected) in [
         (&*format!("{attributes}WEIGHTS_0"), json!(99), "accessor 99"),
-        ("/accessors/2/count", json!(2), "2 entries for 3 vertices"),
+        ("/accessors/2/count", json!(2), "has 2 elements, fewer"),
         ("/accessors/2/normalized", json!(true), "as a joint"),
         ("/skins/0/joints", json!([1]), "a joint of the mesh"),
         ("/skins/0/joints", json!([1, 9]), "node 9"),

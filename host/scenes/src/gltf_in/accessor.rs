@@ -22,35 +22,46 @@ struct Elements<'a> {
 }
 
 impl Document<'_> {
-    /// Elements of `N` numbers each, integers converted as glTF says.
+    /// Elements of `N` numbers each, integers converted as glTF says: all, or those of `rows`.
     pub(super) fn floats<const N: usize>(
         &self,
         index: Index<Accessor>,
         element: &str,
+        rows: Option<&[u32]>,
     ) -> Result<Vec<[f32; N]>, SceneError> {
-        let own = self.elements(index, element, |own| match own.numbers {
-            found if found == N => Ok(()),
+        let own = self.elements(index, element, rows.map(<[u32]>::len), |own| match own.numbers {
+            found if found == N => beyond(rows, own.count),
             found => Err(format!("has {found} numbers per element, expected {N}")),
         })?;
-        let all = 0..own.count;
-        Ok(all.map(|i| std::array::from_fn(|k| own.float(i, k))).collect())
+        let read = |i: usize| std::array::from_fn(|k| own.float(i, k));
+        Ok(match rows {
+            Some(rows) => rows.iter().map(|&row| read(row as usize)).collect(),
+            None => (0..own.count).map(read).collect(),
+        })
+    }
+
+    /// How many elements an accessor has.
+    pub(super) fn count(&self, index: Index<Accessor>, element: &str) -> Result<usize, SceneError> {
+        self.elements(index, element, Some(0), |_| Ok(()))
+            .map(|own| own.count)
     }
 
     /// Vertex indices: one unsigned integer per element.
     pub(super) fn indices(&self, index: Index<Accessor>, element: &str) -> Result<Vec<u32>, SceneError> {
         use ComponentType::{U8, U16, U32};
-        let own = self.elements(index, element, |own| match (own.numbers, own.component) {
+        let own = self.elements(index, element, None, |own| match (own.numbers, own.component) {
             (1, U8 | U16 | U32) => Ok(()),
             _ => Err(String::from("is not a list of unsigned integers")),
         })?;
         Ok((0..own.count).map(|i| own.unsigned(i)).collect())
     }
 
-    /// Takes memory for the elements, and replaces those that are sparse.
+    /// Takes memory for all elements, or so many, and replaces those that are sparse.
     fn elements(
         &self,
         index: Index<Accessor>,
         element: &str,
+        taken: Option<usize>,
         check: impl Fn(&Elements<'_>) -> Result<(), String>,
     ) -> Result<Elements<'_>, SceneError> {
         let accessor = self.get(&self.root.accessors, index, "accessor", element)?;
@@ -62,7 +73,9 @@ impl Document<'_> {
         };
         let (numbers, count) = (shape.multiplicity(), accessor.count.0);
         // Every number takes four bytes; many primitives may share one accessor.
-        let bytes = count.saturating_mul(4 * numbers as u64);
+        let bytes = taken
+            .map_or(count, |taken| taken as u64)
+            .saturating_mul(4 * numbers as u64);
         let take = || self.load.take(name, "the list of elements", bytes);
         let mut own = match accessor.buffer_view {
             Some(view) => {
@@ -226,6 +239,14 @@ impl Elements<'_> {
             true => normalized(self.component, value),
             false => value,
         }
+    }
+}
+
+/// An error if a row is beyond `count` elements.
+pub(super) fn beyond(rows: Option<&[u32]>, count: usize) -> Result<(), String> {
+    match rows.unwrap_or_default().iter().any(|&row| row as usize >= count) {
+        true => Err(format!("has {count} elements, fewer than its positions")),
+        false => Ok(()),
     }
 }
 

@@ -33,12 +33,12 @@ pub(super) fn places(
     let index = |name: &str| attributes.get(name).map(|&index| json::Index::new(index));
     let vectors = |name: &str| -> Result<Option<Vec<[f32; 3]>>, SceneError> {
         index(name)
-            .map(|index| document.floats::<3>(index, &element))
+            .map(|index| document.floats::<3>(index, &element, None))
             .transpose()
     };
     let (translations, scales) = (vectors("TRANSLATION")?, vectors("SCALE")?);
     let rotations = index("ROTATION")
-        .map(|index| document.floats::<4>(index, &element))
+        .map(|index| document.floats::<4>(index, &element, None))
         .transpose()?;
     let counts = [
         translations.as_ref().map(Vec::len),
