@@ -1,7 +1,7 @@
 //! glTF 2.0 in: `.gltf` with external or embedded buffers, and `.glb`.
 //!
-//! The `gltf` crate gives the JSON model only. Its own readers index buffers by numbers from the file and panic on
-//! hostile ones, so buffers are read here, every range checked before it is used and every count before anything is
+//! The `gltf` crate gives the JSON model and the parts of `.glb`. Its other readers index buffers by numbers from the file and
+//! panic on hostile ones, so buffers are read here, every range checked before it is used and every count before anything is
 //! allocated for it.
 //!
 //! Read:
@@ -20,7 +20,7 @@
 //!   ([`super::Material::is_clear`]);
 //! - `KHR_materials_unlit`: the colour is emitted, so that it is seen as it is, and nothing is reflected. It lights what is near;
 //! - `EXT_lights_ies`: photometric files (ANSI/IES LM-63, types A, B and C) become lights of the tree with a profile.
-//! - `KHR_lights_punctual`: points and spots are lights of the tree, suns stand beside it. Ranges are not applied, which is said.
+//! - `KHR_lights_punctual`: points and spots are lights of the tree, suns stand next to it.
 //!
 //! Radiance is taken as W/(m² sr) where glTF says nits; only the exposure differs. The rest is left out with a note in
 //! [`super::SceneData::warnings`], or refused by name where the file says that it is required; of required extensions that only
