@@ -4,7 +4,7 @@ use lightbvh::light::{
     AnyLight, BoxLight, DiscLight, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
 };
 
-use super::profile::Profile;
+use super::profile::Sent;
 
 /// A light on a node, shining along the node's -Z where it has a direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,14 +58,8 @@ pub enum AnalyticKind {
     Profile {
         /// Index into [`SceneData::profiles`](super::SceneData::profiles).
         profile: u32,
-        /// Candela at most, and what a tree knows of it: [`Profile`].
-        peak: f32,
-        /// See [`peak`](Self::Profile::peak).
-        cos_outer: f32,
-        /// See [`peak`](Self::Profile::peak).
-        whole: f32,
-        /// See [`peak`](Self::Profile::peak).
-        mean_cosine: f32,
+        /// What a tree knows of it.
+        sent: Sent,
     },
     /// From all of a box, in every direction. Rays pass it and do not see it.
     Box {
@@ -90,24 +84,13 @@ impl AnalyticKind {
         let squares = self.half().iter().map(|&x| f64::from(x) * f64::from(x));
         (!self.half().is_empty()).then(|| squares.sum::<f64>().sqrt())
     }
-
-    /// Of profile number `index`, which is `profile`.
-    pub fn profile(index: u32, profile: &Profile) -> Self {
-        Self::Profile {
-            profile: index,
-            peak: profile.peak,
-            cos_outer: profile.cos_outer,
-            whole: profile.whole,
-            mean_cosine: profile.mean_cosine,
-        }
-    }
 }
 
 impl AnalyticLight {
     /// Colour times intensity.
     pub(super) fn emission(&self) -> [f32; 3] {
         let intensity = match self.kind {
-            AnalyticKind::Profile { peak, .. } => self.intensity * peak,
+            AnalyticKind::Profile { sent, .. } => self.intensity * sent.peak,
             _ => self.intensity,
         };
         self.color.map(|channel| channel * intensity)
@@ -139,19 +122,14 @@ impl AnalyticLight {
                 mesh,
             }
             .into(),
-            AnalyticKind::Profile {
-                cos_outer,
-                whole,
-                mean_cosine,
-                ..
-            } => ProfileLight {
+            AnalyticKind::Profile { sent, .. } => ProfileLight {
                 p,
                 intensity: emission,
                 axis: [0.0, 0.0, -1.0],
                 across: [1.0, 0.0, 0.0],
-                cos_outer,
-                whole,
-                mean_cosine,
+                cos_outer: sent.cos_outer,
+                whole: sent.whole,
+                mean_cosine: sent.mean_cosine,
                 mesh,
                 flags: 0,
             }

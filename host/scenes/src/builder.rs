@@ -3,14 +3,15 @@
 use std::collections::BTreeMap;
 
 use super::analytic::AnalyticLight;
+use super::camera::{place_of, towards};
 use super::error::SceneError;
 use super::model::{
-    Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
+    Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, SceneData,
 };
+use super::scene::Scene;
 use super::shapes::{Shape, on_circle, rotation};
 use super::track::Track;
-use super::transform::{Transform, unit_or};
-use crate::vector::{cross, sub};
+use super::transform::Transform;
 
 /// A scene under construction. Channels are collected into one animation per period.
 pub(super) struct SceneBuilder {
@@ -73,6 +74,11 @@ impl SceneBuilder {
             primitives,
         });
         self.data.meshes.len() as u32 - 1
+    }
+
+    /// A mesh of one shape.
+    pub fn solid(&mut self, name: &str, material: u32, draw: impl FnOnce(&mut Shape) -> &mut Shape) -> u32 {
+        self.mesh(name, &[(&Shape::of(draw), material)])
     }
 
     /// A node with a mesh, moved and turned.
@@ -196,21 +202,15 @@ impl SceneBuilder {
 
     /// A camera at `eye` that looks at `target`.
     pub fn camera(&mut self, eye: [f64; 3], target: [f64; 3], yfov_degrees: f64) {
-        let forward = unit_or(sub(target, eye), [0.0, 0.0, -1.0]);
-        let right = unit_or(cross(forward, [0.0, 1.0, 0.0]), [1.0, 0.0, 0.0]);
-        let up = cross(right, forward);
-        let columns = [right, up, forward.map(|x| -x), eye];
-        let transform = Transform::Matrix(columns.map(|column| column.map(|x| x as f32)));
+        let yfov = yfov_degrees.to_radians() as f32;
+        self.data.cameras.push(Camera {
+            node: self.data.nodes.len() as u32,
+            yfov,
+        });
         self.data.nodes.push(Node {
             name: String::from("camera"),
-            parent: None,
-            transform,
+            transform: place_of(&towards(eye, target, yfov)),
             ..Node::default()
-        });
-        let node = self.data.nodes.len() as u32 - 1;
-        self.data.cameras.push(Camera {
-            node,
-            yfov: yfov_degrees.to_radians() as f32,
         });
     }
 

@@ -11,8 +11,9 @@ mod wheel;
 
 use super::builder::SceneBuilder;
 use super::error::SceneError;
-use super::model::{Material, Scene};
+use super::model::Material;
 use super::random::Random;
+use super::scene::Scene;
 use super::shapes::{Shape, on_circle};
 
 const UP: [f64; 3] = [0.0, 1.0, 0.0];

@@ -11,11 +11,9 @@ use super::clips::named;
 use super::deform::is_skinned;
 use super::error::{SceneError, malformed};
 use super::flush::flush_tiny;
-use super::frame::emits;
-use super::model::{
-    Animation, Channel, Counts, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
-};
+use super::model::{Channel, Interpolation, Material, Mesh, Node, Primitive, Property, SceneData, emits};
 use super::paint::{MAX_SIDE, Opacity, Paint, Picture};
+use super::scene::{Counts, Scene};
 use super::transform::Transform;
 
 /// Most triangles of a frame, over all instances: 2^26, some 3 GiB of records, well inside 32-bit indices.
@@ -41,7 +39,6 @@ impl Scene {
     pub fn new(mut data: SceneData) -> Result<Self, SceneError> {
         flush_tiny(&mut data);
         let check = Check { scene: &data.name };
-        check.limit("nodes", data.nodes.len(), u64::from(u32::MAX))?;
         for (index, picture) in data.pictures.iter().enumerate() {
             check.picture(index, picture)?;
         }
@@ -75,21 +72,6 @@ impl Scene {
         let counts = check.count(&data)?;
         check.places(&data)?;
         Ok(Self::from_checked(data, counts))
-    }
-
-    /// Shows these animations and no others, where they are sound; else all stays as it was.
-    pub(super) fn show(&mut self, animations: Vec<Animation>) -> Result<(), SceneError> {
-        let old = std::mem::replace(&mut self.data.animations, animations);
-        let check = Check {
-            scene: &self.data.name,
-        };
-        let found = check
-            .animations(&self.data)
-            .and_then(|()| check.places(&self.data));
-        if found.is_err() {
-            self.data.animations = old;
-        }
-        found
     }
 }
 
@@ -384,16 +366,18 @@ impl Check<'_> {
 
     /// Sizes of every frame, and whether 32-bit indices and memory can hold them.
     fn count(&self, data: &SceneData) -> Result<Counts, SceneError> {
+        let add = |a: [usize; 4], b: [usize; 4]| [0, 1, 2, 3].map(|k| a[k].saturating_add(b[k]));
         let of_primitive = |primitive: &Primitive| {
             let material = &data.materials[primitive.material as usize];
-            let count =
-                |is: &dyn Fn(usize) -> bool| (0..primitive.triangles.len()).filter(|&t| is(t)).count();
-            let triangles = count(&|t| primitive.is_shown(t, material));
-            let emissive = count(&|t| emits(primitive.triangle_radiance(t, material.radiance)));
-            let clear = primitive.triangles.len() - triangles;
-            [triangles, clear, emissive, usize::from(emissive > 0)]
+            let of_triangle = |t: usize| {
+                let emits = usize::from(emits(primitive.triangle_radiance(t, material.radiance)));
+                let shown = usize::from(primitive.is_shown(t, material));
+                [shown, 1 - shown, emits, 0]
+            };
+            let mut all = (0..primitive.triangles.len()).map(of_triangle).fold([0; 4], add);
+            all[3] = usize::from(all[2] > 0);
+            all
         };
-        let add = |a: [usize; 4], b: [usize; 4]| [0, 1, 2, 3].map(|k| a[k].saturating_add(b[k]));
         let sums = |mesh: &Mesh| mesh.primitives.iter().map(of_primitive).fold([0; 4], add);
         let per_mesh: Vec<[usize; 4]> = data.meshes.iter().map(sums).collect();
         let placed = data.nodes.iter().filter_map(|node| node.mesh);

@@ -4,7 +4,7 @@
 use std::collections::HashSet;
 use std::mem::{Discriminant, discriminant};
 
-use super::model::{Animation, Property, Scene, SceneData};
+use super::model::{Animation, Property, SceneData};
 
 /// Most names that a message has.
 const NAMED: usize = 8;
@@ -35,7 +35,13 @@ impl SceneData {
                 self.animations.push(animation);
             }
         }
-        self.warnings.extend(self.clip_words());
+        let (is, are) = match self.clips.len() {
+            0 => return,
+            1 => ("animation", "moves what another does, and is left out"),
+            _ => ("animations", "move what others do, and are left out"),
+        };
+        let names = names_of(&self.clips);
+        self.warnings.push(format!("{is} {names} {are}: {ADVICE}"));
     }
 
     /// Shows the first animation of this name, or that at this place in the file, from 0, and the others that are named
@@ -44,70 +50,37 @@ impl SceneData {
     /// # Errors
     /// The word that names none, and the names that there are.
     pub fn play(&mut self, words: &[String]) -> Result<(), NoClip> {
-        self.warnings.retain(|warning| !warning.ends_with(ADVICE));
-        let mut all = std::mem::take(&mut self.animations);
-        all.append(&mut self.clips);
-        all.sort_by_key(|animation| animation.place);
+        let mut rest = std::mem::take(&mut self.animations);
+        rest.append(&mut self.clips);
+        rest.sort_by_key(|animation| animation.place);
         let mut chosen: Vec<Animation> = Vec::new();
         for word in words {
-            let place: Option<u32> = word.parse().ok();
-            let by_name = all.iter().position(|animation| animation.name == *word);
-            let by_place = || all.iter().position(|animation| Some(animation.place) == place);
-            let Some(index) = by_name.or_else(by_place) else {
-                if chosen
-                    .iter()
-                    .any(|own| own.name == *word || Some(own.place) == place)
-                {
-                    // Named again.
-                    continue;
-                }
-                return Err(NoClip {
-                    word: word.clone(),
-                    expected: match (all.is_empty(), chosen.is_empty()) {
-                        (true, true) => {
+            let is_named = |own: &Animation| own.name == *word;
+            let is_there = |own: &Animation| word.parse() == Ok(own.place);
+            let found = rest
+                .iter()
+                .position(is_named)
+                .or_else(|| rest.iter().position(is_there));
+            match found {
+                Some(index) => chosen.push(rest.remove(index)),
+                // Named again.
+                None if chosen.iter().any(|own| is_named(own) || is_there(own)) => {}
+                None => {
+                    let word = word.clone();
+                    let expected = match rest.is_empty() && chosen.is_empty() {
+                        true => {
                             String::from("a scene with animations, and it has none; leave the option out")
                         }
-                        (true, false) => String::from("no more: all that there are are named"),
-                        _ => format!("one of {}", names_of(&all)),
-                    },
-                });
-            };
-            chosen.push(all.remove(index));
+                        false => format!("one of {}", names_of(chosen.iter().chain(&rest))),
+                    };
+                    return Err(NoClip { word, expected });
+                }
+            }
         }
         self.animations = chosen;
         self.part_clips();
-        self.clips.extend(all);
+        self.clips.extend(rest);
         Ok(())
-    }
-
-    /// What moves what another does, and is left out for that, in words.
-    fn clip_words(&self) -> Option<String> {
-        let (is, are) = match self.clips.len() {
-            0 => return None,
-            1 => ("animation", "moves what another does, and is left out"),
-            _ => ("animations", "move what others do, and are left out"),
-        };
-        Some(format!("{is} {} {are}: {ADVICE}", names_of(&self.clips)))
-    }
-}
-
-impl Scene {
-    /// Shows one after the other each animation that is left out, alone, the first `most` of them, and calls `with` for its
-    /// place among them and the scene then. Returns what is wrong with those that [`Scene::new`] would refuse, which are
-    /// passed.
-    pub fn each_clip(&self, most: usize, mut with: impl FnMut(usize, &Self)) -> Vec<String> {
-        let mut scene = self.clone();
-        let mut broken = Vec::new();
-        for (index, clip) in self.data().clips.iter().take(most).enumerate() {
-            match scene.show(vec![clip.clone()]) {
-                Ok(()) => with(index, &scene),
-                Err(error) => broken.push(format!(
-                    "animation {} is left out, as it cannot be shown: {error}",
-                    named(clip.place, &clip.name)
-                )),
-            }
-        }
-        broken
     }
 }
 
@@ -129,15 +102,15 @@ pub(super) fn named(place: u32, name: &str) -> String {
     format!("{place} \"{}\"", own.escape_debug())
 }
 
-fn names_of(all: &[Animation]) -> String {
-    names(all.iter().map(|own| (own.place, own.name.as_str())))
-}
-
 /// The first numbers and names, and how many more there are.
-fn names<'a>(of: impl ExactSizeIterator<Item = (u32, &'a str)>) -> String {
-    let count = of.len();
-    let some: Vec<String> = of.take(NAMED).map(|(place, name)| named(place, name)).collect();
-    match count.saturating_sub(NAMED) {
+fn names_of<'a>(all: impl IntoIterator<Item = &'a Animation>) -> String {
+    let mut all = all.into_iter();
+    let some: Vec<String> = all
+        .by_ref()
+        .take(NAMED)
+        .map(|own| named(own.place, &own.name))
+        .collect();
+    match all.count() {
         0 => some.join(", "),
         more => format!("{} and {more} more", some.join(", ")),
     }
@@ -163,10 +136,6 @@ mod tests {
         }
     }
 
-    fn shown(data: &SceneData) -> Vec<&str> {
-        data.animations.iter().map(|own| own.name.as_str()).collect()
-    }
-
     #[test]
     fn clips_of_one_thing_exclude_each_other() {
         let mut data = SceneData {
@@ -175,51 +144,38 @@ mod tests {
                 clip(1, "walk", &[1, 2], Property::Rotation),
                 clip(2, "door", &[3], Property::Rotation),
                 clip(3, "bob", &[0], Property::Translation),
+                clip(4, "0", &[9], Property::Scale),
+                clip(5, "bob", &[0], Property::Translation),
             ],
             ..SceneData::default()
         };
         data.part_clips();
-        assert_eq!(shown(&data), ["idle", "door", "bob"]);
-        assert_eq!(data.warnings.len(), 1);
-        assert!(data.warnings[0].starts_with("animation 1 \"walk\" moves what another does"));
-        let play = |data: &mut SceneData, words: &[&str]| {
-            data.play(&words.iter().map(ToString::to_string).collect::<Vec<_>>())
-        };
-        // What is named moves alone.
-        play(&mut data, &["walk"]).expect("there");
-        assert_eq!(shown(&data), ["walk"]);
-        assert_eq!((data.warnings.len(), data.clips.len()), (0, 3));
-        play(&mut data, &["bob", "walk", "idle"]).expect("there");
-        assert_eq!(shown(&data), ["bob", "walk"]);
-        assert!(data.warnings[0].starts_with("animation 0 \"idle\""));
-        let all = "one of 0 \"idle\", 1 \"walk\", 2 \"door\", 3 \"bob\"";
-        let error = play(&mut data.clone(), &["run"]).expect_err("there is none");
-        assert_eq!((error.word.as_str(), error.expected.as_str()), ("run", all));
-        // Named again it is the same, which is there.
-        let mut again = data.clone();
-        play(&mut again, &["walk", "walk", "1"]).expect("there");
-        assert_eq!(shown(&again), ["walk"]);
-        assert!(play(&mut SceneData::default(), &["run"]).is_err());
-        // Two of one name are told apart by their places; names come first.
-        let mut twins = SceneData {
-            animations: vec![
-                clip(2, "idle", &[0], Property::Rotation),
-                clip(5, "idle", &[0], Property::Rotation),
-                clip(6, "5", &[0], Property::Rotation),
-            ],
-            ..SceneData::default()
-        };
-        for (word, place) in [("2", 2), ("idle", 2), ("5", 6), ("6", 6)] {
-            play(&mut twins, &[word]).expect("there");
-            assert_eq!(twins.animations[0].place, place, "{word}");
+        let shown = |data: &SceneData| data.animations.iter().map(|own| own.place).collect::<Vec<_>>();
+        assert_eq!((shown(&data), data.warnings.len()), (vec![0, 2, 3, 4], 1));
+        let said = "animations 1 \"walk\", 5 \"bob\" move what others do";
+        assert!(data.warnings[0].starts_with(said), "{:?}", data.warnings);
+        // By names, the first of one name, then by places; what is named moves alone; named again it is the same.
+        for (words, places, warnings) in [
+            ("walk", vec![1], 0),
+            ("bob walk idle", vec![3, 1], 1),
+            ("walk walk 1", vec![1], 0),
+            ("0", vec![4], 0),
+            ("0 0", vec![4, 0], 0),
+            ("5", vec![5], 0),
+        ] {
+            let words: Vec<String> = words.split(' ').map(String::from).collect();
+            data.play(&words).expect("there");
+            assert_eq!(
+                (shown(&data), data.warnings.len()),
+                (places, warnings),
+                "{words:?}"
+            );
+            assert_eq!(data.animations.len() + data.clips.len(), 6);
         }
-        play(&mut twins, &["5", "5"]).expect("one by its name, one by its place");
-        assert_eq!((twins.animations[0].place, twins.warnings.len()), (6, 1));
-        assert_eq!(
-            names_of(&[clip(0, "a\n\u{1b}[1m", &[], Property::Scale)]),
-            r#"0 "a\n\u{1b}[1m""#
-        );
-        assert_eq!(named(3, &"\u{e4}".repeat(80)).chars().count(), 84);
-        assert_eq!(named(3, &"\u{e4}".repeat(81)).chars().count(), 85);
+        let run = [String::from("run")];
+        let error = data.play(&run).expect_err("there is none");
+        assert_eq!(error.word, "run");
+        assert!(error.expected.starts_with("one of 0 \"idle\", 1 \"walk\", 2"));
+        assert!(SceneData::default().play(&run).is_err());
     }
 }

@@ -3,26 +3,8 @@
 use glam::DAffine3;
 
 use super::animate::Pose;
-use super::model::{Primitive, SceneData};
+use super::model::{Influence, Primitive, SceneData};
 use super::transform::{affine, mirrors};
-
-/// Four of the joints that move a vertex.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Influence {
-    /// Indices into [`Skin::joints`].
-    pub joints: [u16; 4],
-    /// Shares, not negative; a vertex's shares are taken relative to their sum. Where that is 0, the first joint moves it.
-    pub weights: [f32; 4],
-}
-
-/// Nodes that move vertices. Where a node's mesh has one, the node's own place does not matter (glTF 2.0, section 3.7.3.3).
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Skin {
-    /// Indices into [`SceneData::nodes`](super::SceneData::nodes).
-    pub joints: Vec<u32>,
-    /// For each joint, from the mesh's space to the joint's: four columns of three rows.
-    pub inverse_bind: Vec<[[f32; 3]; 4]>,
-}
 
 /// Whether the vertices of `primitive` on node `node` do not simply follow the node.
 pub(super) fn deforms(data: &SceneData, node: usize, primitive: &Primitive) -> bool {

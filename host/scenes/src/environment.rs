@@ -27,7 +27,14 @@ pub fn read_environment(
     let name = path.display();
     let load = Load::new(None, limits)?;
     let bytes = load.read_any(path);
-    let picture = bytes.and_then(|bytes| pictures::decode_light(&load, bytes, path));
+    let picture = bytes.and_then(|bytes| {
+        // The first bytes that some programs (B. Walter's `rgbe.c`) write for the same format.
+        let bytes = match bytes.strip_prefix(b"#?RGBE") {
+            Some(rest) => [b"#?RADIANCE", rest].concat(),
+            None => bytes,
+        };
+        pictures::decode(&load, &name.to_string(), &bytes, Some(path))
+    });
     let mut picture = match picture {
         Err(error) if !error.ends_the_load() => {
             let problem = format!("cannot be read as an environment map: {error}");
@@ -124,39 +131,27 @@ mod tests {
         (found, warnings)
     }
 
-    #[test]
-    fn what_is_no_picture_is_named() {
-        let (found, _) = read("no-picture.hdr", b"#?RADIANCE\nnothing", 1.0);
-        let error = found.expect_err("no picture");
-        assert!(error.contains(".hdr or .exr"), "{error}");
-        let missing = read_environment(Path::new("missing.hdr"), 1.0, &Limits::default(), &mut Vec::new());
-        let error = missing.expect_err("no file").to_string();
-        assert!(error.contains("missing.hdr"), "{error}");
-    }
-
     /// Ones: 128 / 256 · 2^(129 - 128).
     const ONE: [u8; 4] = [128, 128, 128, 129];
 
     #[test]
-    fn too_much_light_is_named() {
-        for (pixel, scale, what) in [
-            (ONE, 1e38, "--environment-scale"),
-            ([128, 128, 128, 255], 1.0, "repair the picture"),
+    fn files_that_are_no_map_and_light_that_is_too_much_or_none_are_named() {
+        let one = |pixel| picture([1, 1], &[pixel]);
+        for (bytes, scale, parts) in [
+            (b"#?RADIANCE\nnothing".to_vec(), 1.0, [".hdr or .exr", "map.hdr"]),
+            (one(ONE), 1e38, ["--environment-scale", "2^100"]),
+            (one([128, 128, 128, 255]), 1.0, ["repair the picture", "2^100"]),
         ] {
-            let error = read("bright.hdr", &picture([1, 1], &[pixel]), scale)
-                .0
-                .expect_err(what);
-            assert!(error.contains(what) && error.contains("2^100"), "{error}");
+            let error = read("map.hdr", &bytes, scale).0.expect_err(parts[0]);
+            assert!(parts.iter().all(|part| error.contains(part)), "{error}");
         }
-    }
-
-    #[test]
-    fn maps_without_light_are_named() {
-        // 1 / 2 · 2^-120.
+        // 1 / 2 · 2^-120 is none.
         for (pixel, scale) in [([0; 4], 1.0), ([128, 128, 128, 8], 1.0), (ONE, 1e-35)] {
-            let (found, said) = read("black.hdr", &picture([1, 1], &[pixel]), scale);
-            assert!(found.is_ok());
-            assert!(said.len() == 1 && said[0].contains("is black"), "{said:?}");
+            let (found, said) = read("black.hdr", &one(pixel), scale);
+            assert!(
+                found.is_ok() && said.len() == 1 && said[0].contains("is black"),
+                "{said:?}"
+            );
         }
     }
 
@@ -167,10 +162,8 @@ mod tests {
             picture.put_pixel(x, y, image::Rgb([2.0, number, 3.0]));
         }
         let said = clean(&mut picture).expect("three are none");
-        assert!(
-            said.starts_with("3 of its pixels") && said.ends_with("column 7, row 1: -1e-6"),
-            "{said}"
-        );
+        assert!(said.starts_with("3 of its pixels"), "{said}");
+        assert!(said.ends_with("column 7, row 1: -1e-6"), "{said}");
         for (x, y) in [(7, 1), (5, 2), (3, 7)] {
             assert_eq!(picture.get_pixel(x, y).0, [2.0, 0.0, 3.0]);
         }

@@ -9,6 +9,11 @@ pub(super) fn flush(x: f32, smallest: f32) -> f32 {
     if x.abs() < smallest { 0.0 } else { x }
 }
 
+/// A place, rounded once from `f64`.
+pub(super) fn rounded(p: [f64; 3]) -> [f32; 3] {
+    p.map(|x| flush(x as f32, MIN_COORDINATE))
+}
+
 /// Factors and texture coordinates below this are none: 2^-40.
 const SMALLEST_FACTOR: f32 = 1.0 / (1_u64 << 40) as f32;
 

@@ -8,13 +8,12 @@ use glam::{DVec3, Vec3};
 use lightbvh::ShadingPoint;
 use lightbvh::light::{AnyLight, Light};
 use lightbvh_kernels::shading::ray::{FAR, Ray};
-use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle, any_hit, closest_hit};
+use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle, closest_hit};
 
-use super::camera::looking;
+use super::camera::{View, looking};
 use super::frame::Frame;
+use super::ray_bvh::RayBvh;
 use super::scene_light::SceneLight;
-use super::transform::unit_or;
-use crate::{RayBvh, View};
 
 /// Points, each with two sides, and the lights, and parts of the sky, that each asks.
 const POINTS: usize = 192;
@@ -40,18 +39,23 @@ struct Point {
     weight: f64,
 }
 
-/// The view of a frame.
+/// The view of a frame: of its glass if there is nothing else to look at.
 pub(super) fn view(frame: &Frame) -> View {
-    let triangles = frame.triangles.iter().chain(&frame.clear);
-    let vertices = || triangles.clone().flat_map(|own| own.p).map(wide);
+    let all = frame.triangles.iter().chain(&frame.clear);
+    let vertices = || all.clone().flat_map(|own| own.p).map(wide);
     let low = vertices().reduce(DVec3::min).unwrap_or_default();
     let high = vertices().reduce(DVec3::max).unwrap_or_default();
-    let mut best = (0.0, around(low, high, DVec3::new(0.35, 0.3, 1.0), 2.37));
-    let Ok(rays) = RayBvh::build(&frame.triangles) else {
+    let first = around(low, high, DVec3::new(0.35, 0.3, 1.0).normalize(), 2.37);
+    let mut best = (0.0, first);
+    let surfaces = match frame.triangles.is_empty() {
+        true => &frame.clear,
+        false => &frame.triangles,
+    };
+    let Ok(rays) = RayBvh::build(surfaces) else {
         return best.1;
     };
     let size = low.distance(high);
-    let points = points(frame, &rays, size);
+    let points = points(frame, surfaces, &rays, size);
     let mean: DVec3 = points.iter().map(|own| own.weight * own.p).sum();
     let square = |own: &Point| own.weight * (own.p - mean) * (own.p - mean);
     let most = 2.0 * points.iter().map(square).sum::<DVec3>().map(f64::sqrt);
@@ -76,29 +80,27 @@ pub(super) fn view(frame: &Frame) -> View {
 
 /// A camera that looks at the middle of a box, from the direction `towards`, `distance` half diagonals away; at 2.37 of them the
 /// sphere around the box touches the image's upper and lower edge.
-fn around(min: DVec3, max: DVec3, towards: DVec3, distance: f64) -> View {
-    let centre = [0, 1, 2].map(|i| 0.5 * (min[i] + max[i]));
-    let half = [0, 1, 2].map(|i| 0.5 * (max[i] - min[i]));
-    let radius = half.iter().map(|h| h * h).sum::<f64>().sqrt().max(1e-3);
-    let forward = unit_or((-towards).into(), [0.0, 0.0, -1.0]);
-    let eye = [0, 1, 2].map(|i| centre[i] - forward[i] * distance * radius);
-    looking(eye, forward, [0.0, 1.0, 0.0], YFOV)
+fn around(low: DVec3, high: DVec3, towards: DVec3, distance: f64) -> View {
+    let radius = (0.5 * low.distance(high)).max(1e-3);
+    let eye = 0.5 * (low + high) + distance * radius * towards;
+    looking(eye.into(), (-towards).into(), [0.0, 1.0, 0.0], YFOV)
 }
 
 /// What there is to see: of each point the front and the back. All weights together are one.
-fn points(frame: &Frame, rays: &RayBvh, size: f64) -> Vec<Point> {
+fn points(frame: &Frame, surfaces: &[SurfaceTriangle], rays: &RayBvh, size: f64) -> Vec<Point> {
     let lights: Vec<AnyLight> = frame.lights();
     let flux: Vec<f64> = lights.iter().map(SceneLight::flux).collect();
     let chosen = spread(&flux, 8 * LIGHTS);
     let each = flux.iter().sum::<f64>() / LIGHTS as f64;
     let suns = suns(frame);
     let root = |own: &SurfaceTriangle| libm::cbrt(DVec3::from(crate::vector::normal(own.p)).length());
-    let roots: Vec<f64> = frame.triangles.iter().map(root).collect();
-    let surfaces = spread(&roots, POINTS.min(8 * roots.len()));
-    let root = roots.iter().sum::<f64>() / surfaces.len() as f64;
+    let roots: Vec<f64> = surfaces.iter().map(root).collect();
+    let triangles = spread(&roots, POINTS.min(8 * roots.len()));
+    let count = triangles.len() as f64;
+    let root = roots.iter().sum::<f64>() / count;
     let mut all = Vec::new();
-    for (k, &index) in surfaces.iter().enumerate() {
-        let own = &frame.triangles[index];
+    for (k, index) in triangles.into_iter().enumerate() {
+        let own = &surfaces[index];
         let [a, b, c] = own.p.map(wide);
         let [u, v] = sequence(k).map(f64::from);
         let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
@@ -112,23 +114,27 @@ fn points(frame: &Frame, rays: &RayBvh, size: f64) -> Vec<Point> {
             let shining = lights.get(own.light as usize).filter(|_| n == front);
             let shining = shining.map(|own| own.point_for((p + n).as_vec3(), [0.5; 2]).radiance);
             let mut light = luminance(shining.unwrap_or_default());
-            for &(towards, irradiance) in &suns {
-                let irradiance = irradiance * n.dot(towards);
-                let is_lit = irradiance > 0.0 && distance(rays, start, towards).is_none();
-                light += if is_lit { irradiance } else { 0.0 };
-            }
-            for &index in chosen.iter().skip(k % 8).step_by(8) {
+            let far = suns
+                .iter()
+                .map(|&(to, irradiance)| (to, FAR, irradiance * n.dot(to)));
+            let near = chosen.iter().skip(k % 8).step_by(8).map(|&index| {
                 let at = lights[index].point_for(receiver.position(), sequence(k));
                 let irradiance = luminance(at.irradiance(&receiver)) * each / flux[index];
-                let is_lit = irradiance > 0.0 && is_clear(rays, start, wide(at.p));
-                light += if is_lit { irradiance } else { 0.0 };
-            }
+                (wide(at.p) - start, 1.0, irradiance)
+            });
+            let is_lit =
+                |&(to, far, irradiance): &_| irradiance > 0.0 && distance(rays, start, to, far).is_none();
+            light += far
+                .chain(near)
+                .filter(is_lit)
+                .map(|(.., irradiance)| irradiance)
+                .sum::<f64>();
             let (size, weight) = (roots[index] * root.sqrt(), counts * light.min(1e30).sqrt());
             all.push(Point { p, n, size, weight });
         }
     }
     let sum = |all: &[Point]| all.iter().map(|own| own.weight).sum::<f64>();
-    let dark = DARK * sum(&all).max(1e-30) / surfaces.len() as f64;
+    let dark = DARK * sum(&all).max(1e-30) / count;
     all.iter_mut().step_by(2).for_each(|front| front.weight += dark);
     let sum = sum(&all);
     all.iter_mut().for_each(|own| own.weight /= sum);
@@ -139,13 +145,10 @@ fn points(frame: &Frame, rays: &RayBvh, size: f64) -> Vec<Point> {
 fn suns(frame: &Frame) -> Vec<(DVec3, f64)> {
     // The first one stands for the map.
     let suns = frame.sky.suns().iter().skip(1);
-    let mut all: Vec<_> = suns
-        .map(|sun| (wide(sun.direction), luminance(sun.irradiance)))
-        .collect();
-    for (i, map) in (0..LIGHTS).flat_map(|i| frame.sky.environment().map(|map| (i, map))) {
-        let sample = map
-            .map()
-            .sample(i as u32 * (u32::MAX / LIGHTS as u32), sequence(i));
+    let suns = suns.map(|sun| (wide(sun.direction), luminance(sun.irradiance)));
+    let mut all: Vec<_> = suns.collect();
+    for (i, map) in (0..LIGHTS).flat_map(|i| frame.sky.environment().map(|map| (i, map.map()))) {
+        let sample = map.sample(i as u32 * (u32::MAX / LIGHTS as u32), sequence(i));
         let irradiance = luminance(sample.radiance) / (f64::from(sample.density) * LIGHTS as f64);
         all.push((wide(sample.direction), irradiance));
     }
@@ -161,7 +164,7 @@ fn seen(points: &[Point], rays: &RayBvh, view: &View, near: f64) -> f64 {
         let (depth, faces) = (d.dot(forward), -d.normalize_or_zero().dot(own.n));
         let half = depth * tangent;
         let is_in = depth > near && d.dot(right).abs() < 1.5 * half && d.dot(up).abs() < half;
-        if !is_in || faces <= 0.0 || !is_clear(rays, eye, own.p + 1e-5 * d.length() * own.n) {
+        if !is_in || faces <= 0.0 || distance(rays, eye, d + 1e-5 * d.length() * own.n, 1.0).is_some() {
             return 0.0;
         }
         own.weight * (own.size / (0.065 * half)).min(1.0) * (faces / 0.4).min(1.0)
@@ -176,7 +179,7 @@ fn between(points: &[Point], rays: &RayBvh, size: f64) -> Vec<(View, f64)> {
         let d = (1.5 * own.n + direction(137.5 * k as f64, -20.0)).normalize_or_zero();
         let start = own.p + 1e-5 * size * own.n;
         // Where nothing is opposite it is outside.
-        let eye = distance(rays, start, d).map(|across| start + 0.05 * across * d);
+        let eye = distance(rays, start, d, FAR).map(|across| start + 0.05 * across * d);
         let forward = DVec3::new(d.x, 0.3 * d.y, d.z).normalize_or(DVec3::NEG_Z);
         eye.map(|eye| looking(eye.into(), forward.into(), [0.0, 1.0, 0.0], 1.05))
     });
@@ -185,16 +188,18 @@ fn between(points: &[Point], rays: &RayBvh, size: f64) -> Vec<(View, f64)> {
 
 /// `count` indices, each as often as its weight says; none where there is no weight.
 fn spread(weights: &[f64], count: usize) -> Vec<usize> {
-    let mut total = 0.0;
-    let add = |weight: &f64| {
-        total += weight;
-        total
+    let add = |total: &mut f64, weight: &f64| {
+        *total += weight;
+        Some(*total)
     };
-    let sums: Vec<f64> = weights.iter().map(add).collect();
-    let count = count * usize::from(total > 0.0 && total.is_finite());
-    let step = total / count as f64;
-    let at = |i: usize| sums.partition_point(|&sum| sum < step * (i as f64 + 0.5));
-    (0..count).map(at).collect()
+    let sums: Vec<f64> = weights.iter().scan(0.0, add).collect();
+    let total = sums
+        .last()
+        .copied()
+        .filter(|total| *total > 0.0 && total.is_finite());
+    let at =
+        |i: usize| sums.partition_point(|&sum| sum < total.unwrap_or(0.0) / count as f64 * (i as f64 + 0.5));
+    (0..total.map_or(0, |_| count)).map(at).collect()
 }
 
 /// The `i`-th of evenly spread pairs (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018).
@@ -208,14 +213,11 @@ fn direction(around: f64, above: f64) -> DVec3 {
     DVec3::new(libm::sin(around), libm::tan(above), libm::cos(around)).normalize()
 }
 
-fn distance(rays: &RayBvh, from: DVec3, d: DVec3) -> Option<f64> {
-    let hit = closest_hit(&rays.surfaces(), &Ray::new(from.as_vec3(), d.as_vec3(), FAR));
+/// To the first surface between `from` and so many lengths of `d`.
+fn distance(rays: &RayBvh, from: DVec3, d: DVec3, far: f32) -> Option<f64> {
+    let ray = Ray::new(from.as_vec3(), d.as_vec3(), far * (1.0 - 1e-6));
+    let hit = closest_hit(&rays.surfaces(), &ray);
     (hit.triangle != NONE).then_some(f64::from(hit.t))
-}
-
-fn is_clear(rays: &RayBvh, from: DVec3, to: DVec3) -> bool {
-    let ray = Ray::new(from.as_vec3(), (to - from).as_vec3(), 1.0 - 1e-6);
-    !any_hit(&rays.surfaces(), &ray, NONE)
 }
 
 fn luminance(rgb: [f32; 3]) -> f64 {

@@ -2,20 +2,18 @@
 
 mod material;
 
-use std::collections::HashMap;
-
 use gltf::binary::{Glb, Header};
 use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
 use serde_json::{Value, json};
 
 use self::material::{Textures, is_product, strength};
 use super::analytic::{AnalyticKind, AnalyticLight};
-use super::deform::{Influence, Skin};
 use super::error::{SceneError, malformed};
 use super::gltf_in::{BACKGROUND_EXTRA, IES, RADIANCE_ATTRIBUTE};
-use super::model::{Animation, Interpolation, Material, Primitive, Property, Scene};
+use super::model::{Animation, Influence, Interpolation, Material, Primitive, Property, Skin};
 use super::paint::Picture;
 use super::profile::Profile;
+use super::scene::Scene;
 use super::transform::Transform;
 
 /// glTF's numbers for component types.
@@ -61,8 +59,6 @@ struct Writer {
     binary: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
-    /// Accessor of each list of times, by its bits: channels often share one.
-    times: HashMap<Vec<u32>, usize>,
 }
 
 impl Writer {
@@ -203,25 +199,15 @@ impl Writer {
                 Interpolation::Linear => "LINEAR",
                 Interpolation::CubicSpline => "CUBICSPLINE",
             };
-            let (input, output) = (self.input(&channel.times), self.floats(&channel.values, shape));
+            let input = self.floats(&channel.times, "SCALAR");
+            self.accessors[input]["min"] = json!([channel.times.first()]);
+            self.accessors[input]["max"] = json!([channel.times.last()]);
+            let output = self.floats(&channel.values, shape);
             let target = json!({ "node": channel.node, "path": path });
             channels.push(json!({ "sampler": samplers.len(), "target": target }));
             samplers.push(json!({ "input": input, "output": output, "interpolation": interpolation }));
         }
         json!({ "name": animation.name, "samplers": samplers, "channels": channels })
-    }
-
-    /// The accessor of a list of times.
-    fn input(&mut self, times: &[f32]) -> usize {
-        let bits: Vec<u32> = times.iter().map(|time| time.to_bits()).collect();
-        if let Some(&input) = self.times.get(&bits) {
-            return input;
-        }
-        let input = self.floats(times, "SCALAR");
-        self.accessors[input]["min"] = json!([times.first()]);
-        self.accessors[input]["max"] = json!([times.last()]);
-        self.times.insert(bits, input);
-        input
     }
 
     fn skin(&mut self, skin: &Skin) -> Value {

@@ -1,50 +1,46 @@
-//! The lights of a scene as meshes and instances: what a light BVH that follows moving lights is told.
+//! The lights of a scene as meshes and instances of a light BVH, and the edits that follow them.
 
 use std::collections::BTreeMap;
 
+use glam::DAffine3;
 use lightbvh::light::TWO_SIDED;
 use lightbvh::node::{Holds, Node as Layout};
 use lightbvh::{BuildParams, Edit, EditError, EmissiveTriangle, InstanceId, MeshId};
 
 use super::animate::Pose;
 use super::deform::{deforms, is_skinned};
-use super::frame::{FRAMES_PER_SECOND, emits, rounded};
-use super::model::{Primitive, Scene, SceneData};
+use super::flush::rounded;
+use super::frame::FRAMES_PER_SECOND;
+use super::model::{Primitive, SceneData, emits};
+use super::scene::Scene;
 use super::scene_light::SceneLight;
-use glam::DAffine3;
+use super::transform::to_light_bvh;
 
 /// The mesh lights of a scene as instances of meshes, followed from frame to frame. Instances come in the order of
 /// [`Frame::mesh_lights`](super::Frame::mesh_lights), and their lights are numbered as [`Frame::emissive`](super::Frame::emissive).
-/// What bends has a mesh of its own, whose triangles are told anew in each frame where they have changed.
+/// A primitive that bends has a mesh of its own, whose triangles are set in each frame where they have changed.
 #[derive(Clone, Debug)]
 pub struct Instances<L = EmissiveTriangle> {
     followed: Vec<Followed<L>>,
 }
 
-/// An instance, and what was last told of it.
+/// An instance, and its last edits.
 #[derive(Clone, Debug)]
 struct Followed<L> {
-    carried: Carried,
+    source: Source,
     id: InstanceId,
     place: DAffine3,
-    bent: Option<Bent<L>>,
+    /// The mesh and the triangles of a primitive that bends.
+    bent: Option<(MeshId, Vec<L>)>,
 }
 
-/// What a node carries that is an instance.
+/// Where the lights of an instance come from.
 #[derive(Clone, Copy, Debug)]
-enum Carried {
-    /// A primitive of the mesh of this node.
-    Mesh(usize),
-    /// This light by formula.
+enum Source {
+    /// A node, and a primitive of its mesh.
+    Primitive(usize, (u32, usize)),
+    /// A light by formula.
     Light(usize),
-}
-
-/// A primitive that bends.
-#[derive(Clone, Debug)]
-struct Bent<L> {
-    primitive: usize,
-    mesh: MeshId,
-    triangles: Vec<L>,
 }
 
 impl<L: SceneLight> Instances<L> {
@@ -60,71 +56,46 @@ impl<L: SceneLight> Instances<L> {
         let data = scene.data();
         let pose = pose_at(scene, frame);
         let mut lights = lightbvh::Bvh::new(params);
-        let mut meshes: BTreeMap<(u32, usize), MeshId> = BTreeMap::new();
-        let mut add = Vec::new();
-        let mut followed: Vec<(Carried, DAffine3, Option<Bent<L>>)> = Vec::new();
-        for (index, node) in data.nodes.iter().enumerate() {
-            let Some(mesh) = node.mesh else { continue };
-            for (number, primitive) in data.meshes[mesh as usize].primitives.iter().enumerate() {
-                let bends = deforms(data, index, primitive);
-                let shared = meshes.get(&(mesh, number)).filter(|_| !bends).copied();
-                let (id, triangles) = match shared {
-                    Some(id) => (id, Vec::new()),
-                    None => {
-                        let triangles = emissive_of(data, &pose, index, primitive);
-                        if triangles.is_empty() {
-                            continue;
-                        }
-                        let kept = if bends { triangles.clone() } else { Vec::new() };
-                        (lights.apply(vec![Edit::AddMesh { triangles }])?.meshes[0], kept)
-                    }
-                };
-                let bent = bends.then_some(Bent {
-                    primitive: number,
-                    mesh: id,
-                    triangles,
-                });
-                if bent.is_none() {
-                    meshes.insert((mesh, number), id);
-                }
-                let place = place(data, &pose, index, primitive);
-                followed.push((Carried::Mesh(index), place, bent));
-                add.push(Edit::AddInstance {
-                    mesh: id,
-                    transform: transform(&place),
-                    radiance: 1.0,
-                });
-            }
-        }
-        for (number, own) in data.analytic.iter().enumerate() {
-            let Some(light) = own.light().and_then(L::of_kind) else {
-                continue;
+        let mut shared: BTreeMap<(u32, usize), MeshId> = BTreeMap::new();
+        let (mut add, mut followed) = (Vec::new(), Vec::new());
+        for source in sources(data) {
+            let bends = source.bends(data);
+            let key = match source {
+                Source::Primitive(_, key) if !bends => Some(key),
+                _ => None,
             };
-            let triangles = vec![light];
-            let mesh = lights.apply(vec![Edit::AddMesh { triangles }])?.meshes[0];
-            let place = pose.place_of(data, own);
-            followed.push((Carried::Light(number), place, None));
+            let (mesh, bent) = match key.and_then(|key| shared.get(&key)) {
+                Some(&mesh) => (mesh, None),
+                None => {
+                    let triangles: Vec<L> = source.lights(data, &pose);
+                    if triangles.is_empty() {
+                        continue;
+                    }
+                    let kept = bends.then(|| triangles.clone());
+                    let mesh = lights.apply(vec![Edit::AddMesh { triangles }])?.meshes[0];
+                    shared.extend(key.map(|key| (key, mesh)));
+                    (mesh, kept.map(|kept| (mesh, kept)))
+                }
+            };
+            let place = source.place(data, &pose);
+            followed.push((source, place, bent));
             add.push(Edit::AddInstance {
                 mesh,
-                transform: transform(&place),
+                transform: to_light_bvh(&place),
                 radiance: 1.0,
             });
         }
         let ids = lights.apply(add)?.instances;
         lights.refit();
         let followed = followed.into_iter().zip(ids);
-        let followed = followed.map(|((carried, place, bent), id)| Followed {
-            carried,
+        let followed = followed.map(|((source, place, bent), id)| Followed {
+            source,
             id,
             place,
             bent,
         });
-        Ok((
-            lights,
-            Self {
-                followed: followed.collect(),
-            },
-        ))
+        let followed = followed.collect();
+        Ok((lights, Self { followed }))
     }
 
     /// The edits from the last frame asked for to this one: the instances that moved, and the meshes that bent.
@@ -133,37 +104,24 @@ impl<L: SceneLight> Instances<L> {
         let pose = pose_at(scene, frame);
         let mut edits = Vec::new();
         for followed in &mut self.followed {
-            let now = match followed.carried {
-                Carried::Light(number) => pose.place_of(data, &data.analytic[number]),
-                Carried::Mesh(node) => match (&mut followed.bent, data.nodes[node].mesh) {
-                    (Some(bent), Some(mesh)) => {
-                        let primitive = &data.meshes[mesh as usize].primitives[bent.primitive];
-                        let triangles = emissive_of(data, &pose, node, primitive);
-                        if triangles != bent.triangles {
-                            bent.triangles.clone_from(&triangles);
-                            let mesh = bent.mesh;
-                            edits.push(Edit::SetTriangles { mesh, triangles });
-                        }
-                        place(data, &pose, node, primitive)
-                    }
-                    _ => pose.world[node],
-                },
-            };
+            if let Some((mesh, last)) = &mut followed.bent {
+                let triangles = followed.source.lights(data, &pose);
+                if triangles != *last {
+                    last.clone_from(&triangles);
+                    let mesh = *mesh;
+                    edits.push(Edit::SetTriangles { mesh, triangles });
+                }
+            }
+            let now = followed.source.place(data, &pose);
             if now != followed.place {
                 followed.place = now;
                 edits.push(Edit::SetTransform {
                     instance: followed.id,
-                    transform: transform(&now),
+                    transform: to_light_bvh(&now),
                 });
             }
         }
         edits
-    }
-
-    /// The only instance of a mesh that bends.
-    pub fn of_bent(&self, mesh: MeshId) -> Option<InstanceId> {
-        let bends = |followed: &&Followed<L>| followed.bent.as_ref().is_some_and(|bent| bent.mesh == mesh);
-        self.followed.iter().find(bends).map(|followed| followed.id)
     }
 }
 
@@ -171,25 +129,52 @@ fn pose_at(scene: &Scene, frame: u32) -> Pose {
     Pose::at(scene.data(), f64::from(frame) / f64::from(FRAMES_PER_SECOND))
 }
 
-/// Where the mesh's space is; joints take vertices to the world by themselves.
-fn place(data: &SceneData, pose: &Pose, node: usize, primitive: &Primitive) -> DAffine3 {
-    if is_skinned(data, node, primitive) {
-        DAffine3::IDENTITY
-    } else {
-        pose.world[node]
+/// In the order of a frame's mesh lights.
+fn sources(data: &SceneData) -> impl Iterator<Item = Source> + '_ {
+    let nodes = data.nodes.iter().enumerate();
+    let primitives = nodes.flat_map(move |(index, node)| {
+        node.mesh.into_iter().flat_map(move |mesh| {
+            let count = data.meshes[mesh as usize].primitives.len();
+            (0..count).map(move |primitive| Source::Primitive(index, (mesh, primitive)))
+        })
+    });
+    primitives.chain((0..data.analytic.len()).map(Source::Light))
+}
+
+impl Source {
+    fn bends(self, data: &SceneData) -> bool {
+        match self {
+            Self::Primitive(node, at) => deforms(data, node, primitive(data, at)),
+            Self::Light(_) => false,
+        }
+    }
+
+    /// Where the mesh's space is; joints take vertices to the world by themselves.
+    fn place(self, data: &SceneData, pose: &Pose) -> DAffine3 {
+        match self {
+            Self::Light(number) => pose.place_of(data, &data.analytic[number]),
+            Self::Primitive(node, at) if is_skinned(data, node, primitive(data, at)) => DAffine3::IDENTITY,
+            Self::Primitive(node, _) => pose.world[node],
+        }
+    }
+
+    /// The lights in the space that [`place`](Self::place) places.
+    fn lights<L: SceneLight>(self, data: &SceneData, pose: &Pose) -> Vec<L> {
+        match self {
+            Self::Light(number) => {
+                let light = data.analytic[number].light();
+                light.and_then(L::of_kind).into_iter().collect()
+            }
+            Self::Primitive(node, at) => emissive_of(data, pose, node, primitive(data, at)),
+        }
     }
 }
 
-/// Rounded to what a light BVH is told.
-pub(super) fn transform(place: &DAffine3) -> lightbvh::Transform {
-    let [a, b, c, t] = place.to_cols_array_2d().map(|column| column.map(|x| x as f32));
-    lightbvh::Transform {
-        columns: [a, b, c],
-        translation: t,
-    }
+fn primitive(data: &SceneData, (mesh, primitive): (u32, usize)) -> &Primitive {
+    &data.meshes[mesh as usize].primitives[primitive]
 }
 
-/// The emissive triangles of a primitive, in the space that [`place`] places.
+/// The emissive triangles of a primitive, in the space that [`Source::place`] places.
 fn emissive_of<L: SceneLight>(data: &SceneData, pose: &Pose, node: usize, primitive: &Primitive) -> Vec<L> {
     let material = &data.materials[primitive.material as usize];
     let lit = |index: usize| emits(primitive.triangle_radiance(index, material.radiance));
@@ -231,7 +216,13 @@ mod tests {
             let (mut lights, mut instances) =
                 Instances::new::<Node, (), WIDTH>(&scene, 3, BuildParams::default()).expect("sound");
             for frame in [3, 40] {
-                lights.apply(instances.edits(&scene, frame)).expect("sound");
+                let edits = instances.edits(&scene, frame);
+                let (moved, all) = (edits.len(), instances.followed.len());
+                assert!(
+                    moved < all && (moved > 0) == (frame == 40),
+                    "{name}: {moved} of {all}"
+                );
+                lights.apply(edits).expect("sound");
                 lights.refit();
                 lights
                     .validate()
@@ -247,19 +238,5 @@ mod tests {
                 }
             }
         }
-    }
-
-    #[test]
-    fn what_stands_still_is_not_edited() {
-        let scene = Scene::open("street").expect("built in");
-        let (_, mut instances) =
-            Instances::new::<Node, (), WIDTH>(&scene, 7, BuildParams::default()).expect("sound");
-        assert!(instances.edits(&scene, 7).is_empty());
-        let moved = instances.edits(&scene, 8).len();
-        assert!(
-            moved > 0 && moved < instances.followed.len(),
-            "{moved} of {}",
-            instances.followed.len()
-        );
     }
 }

@@ -1,15 +1,15 @@
 //! Lights by formula in a frame: where they stand, and what of them is seen.
 
-use lightbvh::light::{AnyLight, DiscLight, MIN_COORDINATE, RectangleLight, SphereLight};
+use lightbvh::light::{AnyLight, DiscLight, RectangleLight, SphereLight};
 use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 use lightbvh_kernels::shading::trace::SurfaceTriangle;
 
 use super::analytic::{AnalyticKind, AnalyticLight};
 use super::animate::Pose;
-use super::flush::flush;
+use super::flush::rounded;
 use super::frame::Frame;
-use super::instances::transform;
 use super::model::SceneData;
+use super::transform::to_light_bvh;
 
 /// Facets of a sphere around its axis, and sides of a disc; facets of a sphere from pole to pole.
 const AROUND: usize = 24;
@@ -40,10 +40,10 @@ pub(super) fn place(data: &SceneData, pose: &Pose, out: &mut Frame) {
     let lamps = data.analytic.iter().filter_map(|own| Some((own, own.light()?)));
     for (k, (own, local)) in (0..).zip(lamps) {
         let (mesh, light) = (out.mesh_lights.len() as u32 + k, out.emissive.len() as u32 + k);
-        let world = transform(&pose.place_of(data, own)).place(&local, mesh);
+        let world = to_light_bvh(&pose.place_of(data, own)).place(&local, mesh);
         out.others.push(world);
         let shown = shown(world).into_iter().map(|p| SurfaceTriangle {
-            p: p.map(|vertex| vertex.map(|x| flush(x as f32, MIN_COORDINATE))),
+            p: p.map(rounded),
             material,
             light,
             instance: mesh,

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! Scene::open("street" | "path.glb")      load.rs: a built-in name, or a file of glTF 2.0, OBJ or PLY
-//!   └─ Scene (checked)                    model.rs: nodes, meshes, materials, animations; check.rs: what is refused
-//!        ├─ Scene::frame(n) -> Frame      frame.rs: triangles, emissive triangles, mesh lights, camera at n / 25 s
+//!   └─ Scene (checked)                    scene.rs around model.rs: nodes, meshes, materials, animations; check.rs: what is refused
+//!        ├─ Scene::frame(n) -> Frame      place.rs: triangles, emissive triangles, mesh lights, camera at n / 25 s
 //!        └─ Scene::to_glb()               glb_out.rs: any scene as .glb
 //! ```
 //!
@@ -45,6 +45,7 @@ mod notes;
 mod obj_in;
 mod paint;
 mod pictures;
+mod place;
 #[cfg(feature = "formats")]
 mod ply_in;
 #[cfg(feature = "formats")]
@@ -52,8 +53,10 @@ mod polygon;
 mod profile;
 mod random;
 mod ray_bvh;
+mod scene;
 mod scene_light;
 mod shapes;
+mod shown;
 mod skin_words;
 mod sky;
 mod srgb;
@@ -71,7 +74,6 @@ pub use analytic::{AnalyticKind, AnalyticLight};
 pub use camera::View;
 pub use check::MAX_TRIANGLES;
 pub use clips::NoClip;
-pub use deform::{Influence, Skin};
 pub use environment::read_environment;
 pub use error::SceneError;
 pub use files::Limits;
@@ -80,11 +82,13 @@ pub use ies_in::Photometry;
 pub use instances::Instances;
 pub use load::{BUILT_IN, STAGE};
 pub use model::{
-    Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
+    Animation, Camera, Channel, Influence, Interpolation, Material, Mesh, Node, Primitive, Property,
+    SceneData, Skin,
 };
 pub use paint::{IN_PLACE, MAX_SIDE, Opacity, Paint, Picture, Texture, Wrap};
-pub use profile::Profile;
+pub use profile::{Profile, Sent};
 pub use ray_bvh::{RayBvh, RayBvhError};
+pub use scene::Scene;
 pub use scene_light::SceneLight;
 pub use skin_words::SkinArrays;
 pub use sky::Sky;

@@ -1,7 +1,7 @@
 //! What lights a scene, and which commands can do with it.
 
 use super::error::SceneError;
-use super::model::{Counts, Scene};
+use super::scene::{Counts, Scene};
 
 impl Scene {
     /// What a command that knows emissive triangles alone leaves out.

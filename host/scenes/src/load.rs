@@ -10,7 +10,8 @@ use super::error::SceneError;
 #[cfg(not(feature = "formats"))]
 use super::error::not_compiled;
 use super::files::{Limits, Load};
-use super::model::{Scene, SceneData};
+use super::model::SceneData;
+use super::scene::Scene;
 use super::{carousel, square, stage, street};
 
 /// Names of the built-in scenes that commands take by default.

@@ -1,30 +1,14 @@
-//! The scene model: a checked [`Scene`] around plain [`SceneData`].
+//! What a scene is made of.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use lightbvh::light::infinite::Environment;
 use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 
-use crate::View;
-
 use super::analytic::AnalyticLight;
-use super::deform::{Influence, Skin};
-use super::frame::emits;
 use super::paint::{Paint, Picture};
 use super::profile::Profile;
-use super::skin_words;
 use super::transform::Transform;
-
-/// A scene that passed every check of [`Scene::new`]: finite, in range, references whole.
-#[derive(Clone, Debug)]
-pub struct Scene {
-    pub(super) data: SceneData,
-    /// Camera for scenes that bring none, made from frame 0 when it is asked for.
-    pub(super) default_camera: OnceLock<View>,
-    /// What is painted on it, made when it is asked for.
-    paint: OnceLock<Arc<Vec<u32>>>,
-    pub(super) counts: Counts,
-}
 
 /// Everything a scene is made of, unchecked, open for construction.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -113,6 +97,24 @@ pub struct Primitive {
     pub targets: Vec<Vec<[f32; 3]>>,
     /// Joints of each vertex, in sets of four.
     pub influences: Vec<Vec<Influence>>,
+}
+
+/// Four of the joints that move a vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Influence {
+    /// Indices into [`Skin::joints`].
+    pub joints: [u16; 4],
+    /// Shares, not negative; a vertex's shares are taken relative to their sum. Where that is 0, the first joint moves it.
+    pub weights: [f32; 4],
+}
+
+/// Nodes that move vertices. Where a node's mesh has one, the node's own place does not matter (glTF 2.0, section 3.7.3.3).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Skin {
+    /// Indices into [`SceneData::nodes`].
+    pub joints: Vec<u32>,
+    /// For each joint, from the mesh's space to the joint's: four columns of three rows.
+    pub inverse_bind: Vec<[[f32; 3]; 4]>,
 }
 
 /// How a surface reflects and emits.
@@ -250,18 +252,6 @@ pub struct Camera {
     pub yfov: f32,
 }
 
-/// Sizes of every frame of a scene.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Counts {
-    pub triangles: usize,
-    /// Of clear glass that does not emit.
-    pub clear: usize,
-    pub emissive: usize,
-    pub mesh_lights: usize,
-    pub analytic: usize,
-    pub suns: usize,
-}
-
 impl Primitive {
     /// Whether triangle `index` is in frames; those of clear materials are not unless they emit.
     pub(super) fn is_shown(&self, index: usize, material: &Material) -> bool {
@@ -276,54 +266,7 @@ impl Primitive {
     }
 }
 
-impl Scene {
-    /// Wraps data that [`Scene::new`] found sound.
-    pub(super) fn from_checked(data: SceneData, counts: Counts) -> Self {
-        Self {
-            data,
-            default_camera: OnceLock::new(),
-            paint: OnceLock::new(),
-            counts,
-        }
-    }
-
-    /// Built-in name or path of the file.
-    pub fn name(&self) -> &str {
-        &self.data.name
-    }
-
-    /// What the scene is made of.
-    pub fn data(&self) -> &SceneData {
-        &self.data
-    }
-
-    /// Gives the parts back, for changes; [`Scene::new`] checks them again.
-    pub fn into_data(self) -> SceneData {
-        self.data
-    }
-
-    /// What the loader left out, one sentence each.
-    pub fn warnings(&self) -> &[String] {
-        &self.data.warnings
-    }
-
-    /// The scene with means in place of all that is painted on it.
-    pub fn unpainted(mut self) -> Self {
-        for material in &mut self.data.materials {
-            material.paint = None;
-        }
-        self.data.pictures.clear();
-        self.paint = OnceLock::new();
-        self
-    }
-
-    /// The words of [`SkinArrays`](super::SkinArrays).
-    pub(super) fn paint_words(&self) -> Arc<Vec<u32>> {
-        Arc::clone(self.paint.get_or_init(|| Arc::new(skin_words::words(&self.data))))
-    }
-
-    /// Triangles of every frame.
-    pub fn triangle_count(&self) -> usize {
-        self.counts.triangles
-    }
+/// Whether any channel is above zero.
+pub(super) fn emits(radiance: [f32; 3]) -> bool {
+    radiance.iter().any(|&channel| channel > 0.0)
 }

@@ -16,7 +16,7 @@ struct Kind {
     what: String,
     /// The first ones.
     places: Vec<String>,
-    last: String,
+    last: Option<String>,
     count: usize,
 }
 
@@ -24,30 +24,30 @@ impl Notes {
     /// Something at `place`, which may be empty, is left out or replaced: `what` has the same words for the same kind.
     pub fn add(&mut self, place: impl Into<String>, what: impl Into<String>) {
         let (place, what) = (place.into(), what.into());
-        let next = self.kinds.len();
         let known = self.kinds.iter().position(|kind| kind.what == what);
-        if known.is_none() && next == MAX_KINDS {
+        if known.is_none() && self.kinds.len() == MAX_KINDS {
             self.more += 1;
             return;
         }
-        if known.is_none() {
+        let index = known.unwrap_or_else(|| {
+            let (places, last, count) = (Vec::new(), None, 0);
             self.kinds.push(Kind {
                 what,
-                places: Vec::new(),
-                last: String::new(),
-                count: 0,
+                places,
+                last,
+                count,
             });
-        }
-        let kind = &mut self.kinds[known.unwrap_or(next)];
+            self.kinds.len() - 1
+        });
+        let kind = &mut self.kinds[index];
         // Several textures of an element say the same.
-        if kind.last == place {
-            return;
+        if kind.last.as_ref() != Some(&place) {
+            kind.count += 1;
+            if kind.places.len() < MAX_PLACES && !place.is_empty() {
+                kind.places.push(place.clone());
+            }
+            kind.last = Some(place);
         }
-        kind.count += 1;
-        if kind.places.len() < MAX_PLACES {
-            kind.places.push(place.clone());
-        }
-        kind.last = place;
     }
 
     /// A line for each kind: `materials[0], materials[3], materials[4] and 7 more: ...`.
@@ -60,10 +60,7 @@ impl Notes {
                 more => format!("{places} and {more} more: {}", kind.what),
             }
         };
-        let mut lines: Vec<String> = self.kinds.into_iter().map(line).collect();
-        if self.more > 0 {
-            lines.push(format!("and {} more", self.more));
-        }
-        lines
+        let more = (self.more > 0).then(|| format!("and {} more", self.more));
+        self.kinds.into_iter().map(line).chain(more).collect()
     }
 }

@@ -3,7 +3,6 @@
 use std::fmt::Display;
 use std::io::Cursor;
 use std::path::Path;
-use std::rc::Rc;
 use std::sync::Arc;
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, RgbaImage};
@@ -15,7 +14,7 @@ use super::srgb::linear_from_srgb;
 
 /// What cannot be decoded.
 pub(super) fn undecoded(name: &str, problem: impl Display) -> SceneError {
-    let advice = "use PNG, JPEG, WebP, TGA, HDR, EXR or KTX 2 of at most 16384 pixels a side";
+    let advice = "use PNG, JPEG, WebP, TGA or KTX 2 of at most 16384 pixels a side";
     malformed(name, format!("cannot be decoded: {problem}"), advice)
 }
 
@@ -55,41 +54,43 @@ pub(super) fn decode(
         .map_err(|error| undecoded(name, error))
 }
 
-/// Decodes a file, which may hold light (.hdr, .exr).
-pub(super) fn decode_light(load: &Load, bytes: Vec<u8>, path: &Path) -> Result<DynamicImage, SceneError> {
-    let name = path.display().to_string();
-    // The first bytes that some programs (B. Walter's `rgbe.c`) write for the same format.
-    let bytes = match bytes.strip_prefix(b"#?RGBE") {
-        Some(rest) => [b"#?RADIANCE", rest].concat(),
-        None => bytes,
-    };
-    decode(load, &name, &bytes, Some(path))
+/// The same for a surface, whose picture holds no light.
+pub(super) fn decode_surface(
+    load: &Load,
+    name: &str,
+    bytes: &[u8],
+    path: Option<&Path>,
+) -> Result<RgbaImage, SceneError> {
+    match decode(load, name, bytes, path)? {
+        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
+            Err(undecoded(name, "it holds light, as environment maps do"))
+        }
+        picture => Ok(picture.into_rgba8()),
+    }
 }
 
-/// Pixels as a scene keeps them.
-pub(super) fn kept(pixels: Rc<RgbaImage>) -> Picture {
-    let (width, height) = pixels.dimensions();
-    let pixels = Rc::try_unwrap(pixels).unwrap_or_else(|shared| (*shared).clone());
-    Picture {
-        width,
-        height,
-        texels: Arc::new(pixels.into_raw()),
+impl From<RgbaImage> for Picture {
+    fn from(pixels: RgbaImage) -> Self {
+        Self {
+            width: pixels.width(),
+            height: pixels.height(),
+            texels: Arc::new(pixels.into_raw()),
+        }
     }
 }
 
 /// Mean of each channel of a picture, colours made linear.
-pub(super) fn mean_of(pixels: &RgbaImage, is_color: bool) -> [f32; 4] {
+pub(super) fn mean_of(picture: &Picture, is_color: bool) -> [f32; 4] {
     let linear: [f64; 256] = std::array::from_fn(|encoded| match is_color {
         true => f64::from(linear_from_srgb(encoded as u8)),
         false => encoded as f64 / 255.0,
     });
     let mut sum = [0.0_f64; 4];
-    for pixel in pixels.pixels() {
-        let [r, g, b, alpha] = pixel.0;
-        let alpha = f64::from(alpha) / 255.0;
+    for &[r, g, b, alpha] in picture.texels.as_chunks::<4>().0 {
         let [r, g, b] = [r, g, b].map(|channel| linear[usize::from(channel)]);
-        sum = [sum[0] + r, sum[1] + g, sum[2] + b, sum[3] + alpha];
+        let own = [r, g, b, f64::from(alpha) / 255.0];
+        sum = [0, 1, 2, 3].map(|k| sum[k] + own[k]);
     }
-    let count = (f64::from(pixels.width()) * f64::from(pixels.height())).max(1.0);
+    let count = (picture.texels.len() / 4).max(1) as f64;
     sum.map(|channel| (channel / count) as f32)
 }

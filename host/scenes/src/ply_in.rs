@@ -6,8 +6,9 @@
 
 use super::error::{SceneError, malformed};
 use super::files::{Limits, Load, without_mark};
-use super::model::{Material, Mesh, Node, Primitive, Scene, SceneData};
+use super::model::{Material, Mesh, Node, Primitive, SceneData};
 use super::polygon::Cutter;
+use super::scene::Scene;
 
 /// Longest header.
 const MAX_HEADER: usize = 1 << 20;
@@ -286,30 +287,31 @@ mod tests {
              property list ushort uint vertex_index\nend_header\n"
         )
         .into_bytes();
-        let mut put = |bytes: &[u8]| {
-            if is_little {
-                out.extend(bytes);
-            } else {
-                out.extend(bytes.iter().rev());
-            }
+        let mut put = |bytes: &[u8]| match is_little {
+            true => out.extend(bytes),
+            false => out.extend(bytes.iter().rev()),
         };
         for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
             put(&f64::to_le_bytes(x));
             put(&(y as f32).to_le_bytes());
-            put(&0_i16.to_le_bytes());
-            put(&[2]);
-            put(&7_u16.to_le_bytes());
-            put(&7_u16.to_le_bytes());
-            for n in [0.0_f32, 0.0, -1.0] {
-                put(&n.to_le_bytes());
+            // z, two numbers of a list, and a normal.
+            for bytes in [
+                &[0, 0][..],
+                &[2],
+                &[7, 0],
+                &[7, 0],
+                &[0; 4],
+                &[0; 4],
+                &(-1.0_f32).to_le_bytes(),
+            ] {
+                put(bytes);
             }
         }
-        put(&5_i32.to_le_bytes());
-        put(&[1]);
-        put(&4_u16.to_le_bytes());
-        for vertex in 0..4_u32 {
-            put(&vertex.to_le_bytes());
+        // An edge, and a face's flag and four vertices.
+        for bytes in [&[5, 0, 0, 0][..], &[1], &[4, 0]] {
+            put(bytes);
         }
+        (0..4_u32).for_each(|vertex| put(&vertex.to_le_bytes()));
         out
     }
 
@@ -321,18 +323,15 @@ mod tests {
     #[test]
     fn text_and_binary_hold_the_same_in_any_order() {
         let text = read("t", TEXT.as_bytes()).expect("valid");
-        assert_eq!(
-            text.positions,
-            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]
-        );
+        let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        assert_eq!(text.positions, square);
         assert_eq!(text.triangles, [[0, 1, 2], [0, 2, 3]]);
         let face = "element face 1\nproperty list uchar int vertex_indices\n";
-        let first = TEXT
+        let (header, numbers) = TEXT.split_once("0 0 0\n").expect("the first vertex");
+        let header = header
             .replace(face, "")
             .replace("element vertex", &format!("{face}element vertex"));
-        let first = first
-            .replace("4 0 1 2 3\n", "")
-            .replace("end_header\n", "end_header\n4 0 1 2 3\n");
+        let first = format!("{header}4 0 1 2 3\n0 0 0\n{}", numbers.replace("4 0 1 2 3\n", ""));
         for bytes in [binary(true), binary(false), first.into_bytes()] {
             let binary = read("b", &bytes).expect("valid");
             assert_eq!(binary.positions, text.positions);
@@ -342,31 +341,29 @@ mod tests {
 
     #[test]
     fn what_is_announced_must_be_there() {
-        let cases = [
+        let with = |from: &str, to: &str| TEXT.replace(from, to);
+        let many = "4000000000 of at least 6 bytes";
+        for (text, expected) in [
+            (with("vertex 4", "vertex 4000000000"), many),
             (
-                TEXT.replace("vertex 4", "vertex 4000000000"),
-                "4000000000 of at least 6 bytes",
+                with("4 0 1 2 3", "4 0 1 2 9"),
+                "[0, 1, 2, 9], but there are only 4",
             ),
+            (with("4 0 1 2 3", "9 0 1 2 3"), "face 0"),
+            (with("1 1 0", "1 one 0"), "vertex 2"),
+            (with("end_header", "end"), "end before `end_header`"),
+            (with("float x", "float w"), "no x, y and z"),
+            (with("float x", "half x"), "type `half` is not known"),
+            (with("ascii", "utf"), "format `utf` is not known"),
             (
-                TEXT.replace("4 0 1 2 3", "4 0 1 2 9"),
-                "has vertices [0, 1, 2, 9], but there are only 4",
-            ),
-            (TEXT.replace("4 0 1 2 3", "9 0 1 2 3"), "face 0"),
-            (TEXT.replace("1 1 0", "1 one 0"), "vertex 2"),
-            (TEXT.replace("end_header", "end"), "end before `end_header`"),
-            (TEXT.replace("float x", "float w"), "no x, y and z"),
-            (TEXT.replace("float x", "half x"), "type `half` is not known"),
-            (TEXT.replace("ascii", "utf"), "format `utf` is not known"),
-            (
-                TEXT.replace("ascii 1.0", "ascii 2.0"),
+                with("ascii 1.0", "ascii 2.0"),
                 "line 2 of the header: version `2.0`",
             ),
             (
-                String::from("version https://git-lfs.github.com/spec/v1\n"),
+                "version https://git-lfs.github.com/spec/v1\n".into(),
                 "git lfs pull",
             ),
-        ];
-        for (text, expected) in cases {
+        ] {
             let error = read("t.ply", text.as_bytes()).expect_err(expected).to_string();
             assert!(error.contains("t.ply: ") && error.contains(expected), "{error}");
         }

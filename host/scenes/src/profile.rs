@@ -2,14 +2,11 @@
 
 use std::sync::Arc;
 
-use bytemuck::cast_slice;
 use lightbvh::light::infinite::{direction_at, place_of};
-use lightbvh_kernels::shading::picture::{self, PictureWords};
-use lightbvh_kernels::shading::skin::{HEADER_WORDS, SRGB_WORDS};
 
 use super::ies_in::Photometry;
 use super::paint::{IN_PLACE, Picture, Texture, Wrap};
-use super::skin_words;
+use super::shown::Shown;
 use super::srgb::linear_from_srgb;
 
 /// Sides of the picture: the least of which two texels fit between the angles of the table, or the greatest.
@@ -19,6 +16,15 @@ const WITHIN: u32 = 3;
 /// What corners of a texel may miss of the cone around it, in cosine.
 const SLACK: f32 = 2.0e-4;
 
+/// How the picture is read.
+pub(super) const OVER_DIRECTIONS: Texture = Texture {
+    picture: 0,
+    is_color: true,
+    is_nearest: false,
+    wrap: [Wrap::Clamp; 2],
+    transform: IN_PLACE,
+};
+
 /// A luminaire's profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
@@ -26,8 +32,15 @@ pub struct Profile {
     pub name: String,
     /// The file, for export.
     pub file: Arc<Vec<u8>>,
-    /// What it sends, relative to [`peak`](Self::peak), encoded as sRGB: an unfolded octahedron with the axis in the middle.
+    /// What it sends, relative to [`Sent::peak`], encoded as sRGB: an unfolded octahedron with the axis in the middle.
     pub picture: Picture,
+    /// What a tree knows of it.
+    pub sent: Sent,
+}
+
+/// What a profile sends, in numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sent {
     /// Candela where the picture shows one; such that its integral is the table's.
     pub peak: f32,
     /// Integral of what the picture shows, over 2π.
@@ -66,26 +79,23 @@ impl Profile {
             height: side,
             texels: Arc::new(texels.collect()),
         };
-        let shown = Shown::of(&picture);
+        let shown = Shown::new([side; 2], &picture.texels, &OVER_DIRECTIONS);
         let sent = over_directions(side, |local| table.candela(local.map(f64::from)));
-        let seen = over_directions(side, |local| f64::from(shown.at(local)));
+        let seen = over_directions(side, |local| f64::from(towards(&shown, local)));
         let tau = std::f64::consts::TAU;
+        let mean_cosine = (seen[1] / seen[0]) as f32;
+        let sent = Sent {
+            peak: (greatest * (sent[0] / (greatest * seen[0]))) as f32,
+            whole: ((seen[0] / tau) as f32).min(2.0),
+            mean_cosine: mean_cosine.clamp(-1.0, 1.0),
+            cos_outer: cos_outer(&picture).min(mean_cosine - 1.0e-6).max(-1.0),
+        };
         Ok(Self {
             name,
             file: Arc::new(file),
-            peak: (greatest * (sent[0] / (greatest * seen[0]))) as f32,
-            whole: ((seen[0] / tau) as f32).min(2.0),
-            mean_cosine: ((seen[1] / seen[0]) as f32).clamp(-1.0, 1.0),
-            cos_outer: cos_outer(&picture)
-                .min((seen[1] / seen[0]) as f32 - 1.0e-6)
-                .max(-1.0),
             picture,
+            sent,
         })
-    }
-
-    /// What the picture shows towards a direction of the profile: x where horizontal angles begin, z its axis, y to their left.
-    pub fn shown(&self, local: [f32; 3]) -> f32 {
-        Shown::of(&self.picture).at(local)
     }
 }
 
@@ -150,47 +160,7 @@ fn cos_outer(picture: &Picture) -> f32 {
     (least - SLACK).max(-1.0)
 }
 
-/// The words of a picture of encoded colours that covers all directions, whose texels begin at word `texels`.
-pub(super) fn picture_words(picture: &Picture, texels: u32) -> PictureWords {
-    let texture = Texture {
-        picture: 0,
-        is_color: true,
-        is_nearest: false,
-        wrap: [Wrap::Clamp; 2],
-        transform: IN_PLACE,
-    };
-    skin_words::picture_words(&texture, picture, texels)
-}
-
-/// The texels of a picture, a word each.
-pub(super) fn texel_words(picture: &Picture) -> impl Iterator<Item = u32> + '_ {
-    let texels = picture.texels.chunks_exact(4);
-    texels.map(|rgba| u32::from_le_bytes([rgba[0], rgba[1], rgba[2], rgba[3]]))
-}
-
-/// A picture as the kernels read it: what is integrated is what is shown.
-struct Shown {
-    words: Vec<u32>,
-    at: u32,
-}
-
-impl Shown {
-    fn of(picture: &Picture) -> Self {
-        let mut words = vec![0; HEADER_WORDS as usize];
-        words.extend((0..SRGB_WORDS).map(|byte| linear_from_srgb(byte as u8).to_bits()));
-        let texels = words.len() as u32;
-        words.extend(texel_words(picture));
-        let at = words.len() as u32;
-        words.extend_from_slice(cast_slice(&[picture_words(picture, texels)]));
-        Self { words, at }
-    }
-
-    fn at(&self, [x, y, z]: [f32; 3]) -> f32 {
-        let [u, v] = place_of([x, z, y]);
-        let own = picture::Picture {
-            words: &self.words,
-            at: self.at,
-        };
-        own.at([u * 0.5 + 0.5, v * 0.5 + 0.5]).r
-    }
+/// What the picture shows in a direction of the profile: x where horizontal angles begin, z its axis, y to their left.
+pub(super) fn towards(shown: &Shown, [x, y, z]: [f32; 3]) -> f32 {
+    shown.at(place_of([x, z, y]).map(|place| place * 0.5 + 0.5)).r
 }

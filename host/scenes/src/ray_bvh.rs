@@ -1,5 +1,7 @@
 //! The ray BVH: built by `obvhs`, laid out for the kernels' walk.
 
+use std::collections::VecDeque;
+
 use glam::Vec3A;
 use lightbvh_kernels::shading::grid::{MAX_COORDINATE, STEP, snap};
 use lightbvh_kernels::shading::skin::NoSkin;
@@ -10,10 +12,10 @@ use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::leaf_collapser::collapse;
+use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::PlocBuilder;
 use obvhs::triangle::Triangle;
-use std::ops::Range;
 
 /// Boxes grow by this part of the scene's largest coordinate: two units in its last place, more than the ray-triangle
 /// test errs on hits of rays that begin within some thousand sizes of the scene, so that no box hides those.
@@ -79,7 +81,14 @@ impl RayBvh {
         if snapped.is_empty() {
             return Ok(Self::default());
         }
-        Ok(Layout::new(&build(&snapped), &snapped).written())
+        let tree = build(&snapped);
+        let area = |node: u32| f64::from(tree.nodes[node as usize].aabb().half_area());
+        if let Some(found) = written(&tree, &snapped, area) {
+            return Ok(found);
+        }
+        // Nodes of a balanced tree come level by level: three levels become one.
+        let found = written(&balanced(&tree), &snapped, |node| -f64::from(node));
+        Ok(found.expect("2^26 leaves have nine levels"))
     }
 
     /// The triangles and their numbers in a [`Hit`](lightbvh_kernels::shading::trace::Hit), in the order of the leaves.
@@ -151,197 +160,95 @@ fn build(triangles: &[SurfaceTriangle]) -> Bvh2 {
     bvh
 }
 
-/// The binary tree as the walk's: its leaves in their order, and nodes over runs of them.
-struct Layout<'a> {
-    bvh: &'a Bvh2,
-    triangles: &'a [SurfaceTriangle],
-    padding: f32,
-    /// The binary leaves, depth first.
-    leaves: Vec<u32>,
-    /// Where the leaves of each binary node lie among them.
-    runs: Vec<Range<u32>>,
-    /// Of each binary node, around the triangles where they are.
-    boxes: Vec<Aabb>,
+/// The leaves of a tree that is deeper than walks go, under the least depth.
+fn balanced(tree: &Bvh2) -> Bvh2 {
+    let leaves: Vec<Bvh2Node> = tree.nodes.iter().filter(|node| node.is_leaf()).copied().collect();
+    let mut nodes = vec![leaves[0]];
+    let mut runs = VecDeque::from([(0, 0..leaves.len())]);
+    while let Some((index, run)) = runs.pop_front() {
+        if run.len() == 1 {
+            nodes[index] = leaves[run.start];
+            continue;
+        }
+        let middle = run.start.midpoint(run.end);
+        let first = nodes.len();
+        nodes.extend([leaves[0]; 2]);
+        nodes[index] = Bvh2Node::new(Aabb::empty(), 0, first as u32);
+        runs.extend([(first, run.start..middle), (first + 1, middle..run.end)]);
+    }
+    for index in (0..nodes.len()).rev() {
+        let first = nodes[index].first_index as usize;
+        if !nodes[index].is_leaf() {
+            let bounds = nodes[first].aabb().union(nodes[first + 1].aabb());
+            nodes[index].set_aabb(bounds);
+        }
+    }
+    Bvh2 {
+        nodes,
+        primitive_indices: tree.primitive_indices.clone(),
+        ..Bvh2::default()
+    }
 }
 
-/// Some leaves, one after the other.
-#[derive(Clone)]
-enum Part {
-    /// Those of a binary node.
-    Node(u32),
-    /// Those of no node, halved in the middle: where the binary tree is deeper than walks go.
-    Run(Range<u32>),
+/// The children of a node in their order: the inner one of the highest rank is replaced by its own children while there is
+/// room (I. Wald, C. Benthin, S. Boulos, "Getting Rid of Packets", 2008, by area).
+fn children(tree: &Bvh2, node: u32, rank: &impl Fn(u32) -> f64) -> Vec<u32> {
+    let mut children = vec![node];
+    while children.len() < WIDTH {
+        let inner = children.iter().copied().enumerate();
+        let inner = inner.filter(|&(_, own)| !tree.nodes[own as usize].is_leaf());
+        let highest = inner.max_by(|a, b| rank(a.1).total_cmp(&rank(b.1)).then(b.0.cmp(&a.0)));
+        let Some((at, own)) = highest else { break };
+        let first = tree.nodes[own as usize].first_index;
+        children.splice(at..=at, [first, first + 1]);
+    }
+    children
 }
 
-/// A part that is to be written, and whose child it is.
-struct Visit {
-    part: Part,
-    parent: usize,
-    slot: usize,
-    /// Inner nodes that a path through it may have from here on.
-    levels: u32,
-}
-
-impl<'a> Layout<'a> {
-    fn new(bvh: &'a Bvh2, triangles: &'a [SurfaceTriangle]) -> Self {
-        let largest = triangles
-            .iter()
-            .flat_map(|t| t.p.iter().flatten())
-            .fold(0.0_f32, |m, c| m.max(c.abs()));
-        let mut leaves = Vec::new();
-        let mut runs = vec![0..0; bvh.nodes.len()];
-        let mut boxes = vec![Aabb::empty(); bvh.nodes.len()];
-        // Twice on the stack: to begin its run, and to end it.
-        let mut stack = vec![(0_u32, false)];
-        while let Some((index, ends)) = stack.pop() {
-            let (node, at) = (&bvh.nodes[index as usize], index as usize);
-            if ends {
-                runs[at].end = leaves.len() as u32;
-                let first = node.first_index as usize;
-                boxes[at] = if node.is_leaf() {
-                    let own = &bvh.primitive_indices[first..first + node.prim_count as usize];
-                    own.iter().fold(Aabb::empty(), |all, &i| {
-                        let [a, b, c] = triangles[i as usize].p.map(Vec3A::from);
-                        all.union(&Aabb::new(a.min(b).min(c), a.max(b).max(c)))
-                    })
-                } else {
-                    boxes[first].union(&boxes[first + 1])
-                };
-            } else {
-                runs[at].start = leaves.len() as u32;
-                stack.push((index, true));
-                if node.is_leaf() {
-                    leaves.push(index);
-                } else {
-                    stack.push((node.first_index + 1, false));
-                    stack.push((node.first_index, false));
-                }
+/// The binary tree as the walk's; none if it is deeper than walks go.
+fn written(tree: &Bvh2, triangles: &[SurfaceTriangle], rank: impl Fn(u32) -> f64) -> Option<RayBvh> {
+    let all = triangles.iter().flat_map(|own| own.p.iter().flatten());
+    let largest = all.fold(0.0_f32, |most, c| most.max(c.abs()));
+    let padding = Vec3A::splat(largest * PADDING + 2.0 * STEP);
+    let mut out = RayBvh::default();
+    // A binary node, where its own index goes, and the inner nodes that a path may have from it on.
+    let mut stack = vec![(0_u32, None, MAX_DEPTH)];
+    while let Some((binary, parent, levels)) = stack.pop() {
+        let node = &tree.nodes[binary as usize];
+        let child = if node.is_leaf() && parent.is_some() {
+            let mut block = TriangleBlock::EMPTY;
+            let mut sources = [NONE; LANES];
+            let first = node.first_index as usize;
+            let own = &tree.primitive_indices[first..first + node.prim_count as usize];
+            for (lane, &index) in own.iter().enumerate() {
+                block.set(lane, &triangles[index as usize]);
+                sources[lane] = index;
             }
-        }
-        Self {
-            bvh,
-            triangles,
-            padding: largest * PADDING + 2.0 * STEP,
-            leaves,
-            runs,
-            boxes,
-        }
-    }
-
-    fn run(&self, part: &Part) -> Range<u32> {
-        match part {
-            Part::Node(index) => self.runs[*index as usize].clone(),
-            Part::Run(run) => run.clone(),
-        }
-    }
-
-    fn bounds(&self, part: &Part) -> Aabb {
-        match part {
-            Part::Node(index) => self.boxes[*index as usize],
-            Part::Run(run) => self.leaves[run.start as usize..run.end as usize]
-                .iter()
-                .map(|&leaf| self.boxes[leaf as usize])
-                .fold(Aabb::empty(), |a, b| a.union(&b)),
-        }
-    }
-
-    /// The children of a part of several leaves, in their order. Of those that there are the largest is replaced by its own
-    /// children (I. Wald, C. Benthin, S. Boulos, "Getting Rid of Packets", 2008), unless one then had more leaves than fit
-    /// below it.
-    fn children(&self, part: &Part, levels: u32) -> Vec<Part> {
-        let fits = |part: &Part| self.run(part).len() as u64 <= (WIDTH as u64).saturating_pow(levels - 1);
-        let mut children = vec![part.clone()];
-        while let Some((at, node)) = self.largest(&children)
-            && children.len() < WIDTH
-        {
-            let first = self.bvh.nodes[node as usize].first_index;
-            children.splice(at..=at, [Part::Node(first), Part::Node(first + 1)]);
-        }
-        if children.len() == 1 || !children.iter().all(fits) {
-            let run = self.run(part);
-            let (count, parts) = (run.len() as u64, run.len().min(WIDTH) as u64);
-            let bound = |k: u64| run.start + (count * k / parts) as u32;
-            children = (0..parts).map(|k| Part::Run(bound(k)..bound(k + 1))).collect();
-        }
-        children
-    }
-
-    /// The largest inner node of the binary tree among `parts`, and where it is.
-    fn largest(&self, parts: &[Part]) -> Option<(usize, u32)> {
-        let area = |index: u32| self.bvh.nodes[index as usize].aabb().half_area();
-        let nodes = parts.iter().enumerate().filter_map(|(at, part)| match part {
-            Part::Node(index) if !self.bvh.nodes[*index as usize].is_leaf() => Some((at, *index)),
-            _ => None,
-        });
-        nodes.max_by(|a, b| area(a.1).total_cmp(&area(b.1)).then(b.0.cmp(&a.0)))
-    }
-
-    fn written(&self) -> RayBvh {
-        let mut out = RayBvh {
-            nodes: vec![RayNode::EMPTY],
-            blocks: Vec::with_capacity(self.leaves.len()),
-            sources: Vec::with_capacity(self.leaves.len() * LANES),
+            out.blocks.push(block);
+            out.sources.extend(sources);
+            RayNode::leaf(out.blocks.len() as u32 - 1, node.prim_count)
+        } else {
+            let (index, below) = (out.nodes.len(), levels.checked_sub(1)?);
+            let mut own = RayNode::EMPTY;
+            for (slot, child) in children(tree, binary, &rank).into_iter().enumerate().rev() {
+                let bounds = tree.nodes[child as usize].aabb();
+                let low = (bounds.min - padding).to_array().map(snap);
+                let high = (bounds.max + padding).to_array().map(snap);
+                for axis in 0..3 {
+                    own.min[axis][slot] = low[axis];
+                    own.max[axis][slot] = high[axis];
+                }
+                stack.push((child, Some((index, slot)), below));
+            }
+            out.nodes.push(own);
+            RayNode::inner(index as u32)
         };
-        let mut stack = Vec::new();
-        self.push_children(&Part::Node(0), 0, MAX_DEPTH as u32, &mut out, &mut stack);
-        while let Some(Visit {
-            part,
-            parent,
-            slot,
-            levels,
-        }) = stack.pop()
-        {
-            let run = self.run(&part);
-            out.nodes[parent].children[slot] = if run.len() == 1 {
-                let leaf = &self.bvh.nodes[self.leaves[run.start as usize] as usize];
-                let index = out.blocks.len() as u32;
-                let range = leaf.first_index as usize..(leaf.first_index + leaf.prim_count) as usize;
-                let mut block = TriangleBlock::EMPTY;
-                let first = out.sources.len();
-                out.sources.resize(first + LANES, NONE);
-                for (lane, &i) in self.bvh.primitive_indices[range].iter().enumerate() {
-                    block.set(lane, &self.triangles[i as usize]);
-                    out.sources[first + lane] = i;
-                }
-                out.blocks.push(block);
-                RayNode::leaf(index, leaf.prim_count)
-            } else {
-                let index = out.nodes.len();
-                out.nodes.push(RayNode::EMPTY);
-                self.push_children(&part, index, levels, &mut out, &mut stack);
-                RayNode::inner(index as u32)
-            };
-        }
-        out
-    }
-
-    /// Writes the boxes of the children of `part`, which is node `index`, and leaves it to the `stack` to write those.
-    fn push_children(
-        &self,
-        part: &Part,
-        index: usize,
-        levels: u32,
-        out: &mut RayBvh,
-        stack: &mut Vec<Visit>,
-    ) {
-        let children = self.children(part, levels);
-        for (slot, child) in children.into_iter().enumerate().rev() {
-            let bounds = self.bounds(&child);
-            let low = (bounds.min - Vec3A::splat(self.padding)).to_array().map(snap);
-            let high = (bounds.max + Vec3A::splat(self.padding)).to_array().map(snap);
-            let node = &mut out.nodes[index];
-            for axis in 0..3 {
-                node.min[axis][slot] = low[axis];
-                node.max[axis][slot] = high[axis];
-            }
-            stack.push(Visit {
-                part: child,
-                parent: index,
-                slot,
-                levels: levels - 1,
-            });
+        if let Some((parent, slot)) = parent {
+            let parent: &mut RayNode = &mut out.nodes[parent];
+            parent.children[slot] = child;
         }
     }
+    Some(out)
 }
 
 #[cfg(test)]

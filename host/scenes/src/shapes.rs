@@ -30,6 +30,11 @@ impl Shape {
         Self::default()
     }
 
+    /// A shape in one step.
+    pub fn of(draw: impl FnOnce(&mut Self) -> &mut Self) -> Self {
+        std::mem::take(draw(&mut Self::default()))
+    }
+
     fn vertex(&mut self, p: [f64; 3]) -> u32 {
         self.positions.push(p.map(|x| x as f32));
         self.positions.len() as u32 - 1
@@ -88,42 +93,16 @@ impl Shape {
         const T: f64 = 0.525_731_112_119_133_6;
         const U: f64 = 0.850_650_808_352_039_9;
         let corners = [
-            [-T, U, 0.0],
-            [T, U, 0.0],
-            [-T, -U, 0.0],
-            [T, -U, 0.0],
-            [0.0, -T, U],
-            [0.0, T, U],
-            [0.0, -T, -U],
-            [0.0, T, -U],
-            [U, 0.0, -T],
-            [U, 0.0, T],
-            [-U, 0.0, -T],
-            [-U, 0.0, T],
+            -T, U, 0.0, T, U, 0.0, -T, -U, 0.0, T, -U, 0.0, 0.0, -T, U, 0.0, T, U, 0.0, -T, -U, 0.0, T, -U,
+            U, 0.0, -T, U, 0.0, T, -U, 0.0, -T, -U, 0.0, T,
         ];
-        const FACES: [[usize; 3]; 20] = [
-            [0, 11, 5],
-            [0, 5, 1],
-            [0, 1, 7],
-            [0, 7, 10],
-            [0, 10, 11],
-            [1, 5, 9],
-            [5, 11, 4],
-            [11, 10, 2],
-            [10, 7, 6],
-            [7, 1, 8],
-            [3, 9, 4],
-            [3, 4, 2],
-            [3, 2, 6],
-            [3, 6, 8],
-            [3, 8, 9],
-            [4, 9, 5],
-            [2, 4, 11],
-            [6, 2, 10],
-            [8, 6, 7],
-            [9, 8, 1],
+        let faces = [
+            0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4, 11, 10, 2, 10, 7, 6, 7, 1, 8,
+            3, 9, 4, 3, 4, 2, 3, 2, 6, 3, 6, 8, 3, 8, 9, 4, 9, 5, 2, 4, 11, 6, 2, 10, 8, 6, 7, 9, 8, 1,
         ];
-        let mut faces: Vec<[[f64; 3]; 3]> = FACES.iter().map(|face| face.map(|i| corners[i])).collect();
+        let (corners, faces) = (corners.as_chunks::<3>().0, faces.as_chunks::<3>().0);
+        let mut faces: Vec<[[f64; 3]; 3]> =
+            faces.iter().map(|face| face.map(|i: usize| corners[i])).collect();
         for _ in 0..level {
             faces = faces.into_iter().flat_map(halve_edges).collect();
         }

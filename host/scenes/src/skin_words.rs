@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use bytemuck::cast_slice;
-use lightbvh_kernels::shading::picture::PictureWords;
-use lightbvh_kernels::shading::skin::{Corner, HAS_GLASS, HEADER_WORDS, PaintWords, SRGB_WORDS, SkinView};
+use lightbvh_kernels::shading::skin::{Corner, HAS_GLASS, PaintWords, SkinView};
 use lightbvh_kernels::shading::trace::NONE;
 
 use super::model::SceneData;
-use super::paint::{Opacity, Paint, Picture, Texture, Wrap};
-use super::profile;
+use super::paint::{Opacity, Paint, Picture, Texture};
+use super::profile::OVER_DIRECTIONS;
+use super::shown::{header, picture_words, words_of};
 use super::srgb::linear_from_srgb;
 
 /// Most texels of all pictures: 2^24, so that they fit the smallest storage buffers seen (128 MiB) with room to spare. Larger
@@ -43,50 +43,46 @@ pub(super) fn words(data: &SceneData) -> Vec<u32> {
     let pictures = fitted(&data.pictures, &colors(data));
     // After the materials, the profiles.
     let count = (data.materials.len() + data.profiles.len()) as u32;
-    let mut words = vec![0; HEADER_WORDS as usize];
-    words[0] = count;
-    words.extend((0..SRGB_WORDS).map(|byte| linear_from_srgb(byte as u8).to_bits()));
+    let mut words = header(count);
     let first = words.len();
     words.resize(first + (PaintWords::COUNT * count) as usize, 0);
-    let texels: Vec<u32> = pictures
+    let shown = pictures
         .iter()
+        .chain(data.profiles.iter().map(|own| &own.picture));
+    let places: Vec<([u32; 2], u32)> = shown
         .map(|picture| {
             let at = words.len() as u32;
-            words.extend(profile::texel_words(picture));
-            at
+            words.extend(words_of(&picture.texels));
+            ([picture.width, picture.height], at)
         })
         .collect();
+    let mut put = |texture: &Texture, (size, texels): ([u32; 2], u32)| {
+        let at = words.len() as u32;
+        words.extend_from_slice(cast_slice(&[picture_words(texture, size, texels)]));
+        at
+    };
+    let mut flags = 0;
     let mut paints = Vec::new();
     for material in &data.materials {
         let own = material.paint.as_ref().filter(|paint| paint.is_seen());
         let paint = own.map_or(NOTHING, |paint| {
-            let mut put = |texture: Option<Texture>| {
-                texture.map_or(NONE, |texture| {
-                    let at = words.len() as u32;
-                    let picture = &pictures[texture.picture as usize];
-                    let own = picture_words(&texture, picture, texels[texture.picture as usize]);
-                    words.extend_from_slice(cast_slice(&[own]));
-                    at
-                })
-            };
-            paint_words(paint, &mut put)
+            paint_words(paint, |texture| {
+                texture.map_or(NONE, |texture| put(&texture, places[texture.picture as usize]))
+            })
         });
         if paint.flags & PaintWords::CLEAR != 0 {
-            words[1] |= HAS_GLASS;
+            flags |= HAS_GLASS;
         }
         paints.push(paint);
     }
-    for profile in &data.profiles {
-        let texels = words.len() as u32;
-        words.extend(profile::texel_words(&profile.picture));
-        let at = words.len() as u32;
-        words.extend_from_slice(cast_slice(&[profile::picture_words(&profile.picture, texels)]));
+    for &place in &places[pictures.len()..] {
         paints.push(PaintWords {
             flags: PaintWords::BY_LIGHT,
-            emission_picture: at,
+            emission_picture: put(&OVER_DIRECTIONS, place),
             ..NOTHING
         });
     }
+    words[1] = flags;
     words[first..first + (PaintWords::COUNT * count) as usize].copy_from_slice(cast_slice(&paints));
     words
 }
@@ -107,7 +103,7 @@ const NOTHING: PaintWords = PaintWords {
     emission_picture: NONE,
 };
 
-fn paint_words(paint: &Paint, put: &mut impl FnMut(Option<Texture>) -> u32) -> PaintWords {
+fn paint_words(paint: &Paint, mut put: impl FnMut(Option<Texture>) -> u32) -> PaintWords {
     let (opacity, cutoff) = match paint.opacity {
         Opacity::Opaque => (0, 0.0),
         Opacity::Cut(cutoff) => (PaintWords::CUT, cutoff),
@@ -129,27 +125,6 @@ fn paint_words(paint: &Paint, put: &mut impl FnMut(Option<Texture>) -> u32) -> P
         rough_picture: put(paint.rough_texture),
         bump_picture: put(paint.bump_texture),
         emission_picture: put(paint.glow_texture),
-    }
-}
-
-pub(super) fn picture_words(texture: &Texture, picture: &Picture, texels: u32) -> PictureWords {
-    let wrap = |wrap| match wrap {
-        Wrap::Repeat => PictureWords::REPEAT,
-        Wrap::Clamp => PictureWords::CLAMP,
-        Wrap::Mirror => PictureWords::MIRROR,
-    };
-    let [columns, rows] = texture.wrap.map(wrap);
-    let bit = |is_set, flag| if is_set { flag } else { 0 };
-    let [x, y, origin] = texture.transform;
-    PictureWords {
-        width: picture.width,
-        height: picture.height,
-        flags: bit(texture.is_color, PictureWords::SRGB)
-            | bit(texture.is_nearest, PictureWords::NEAREST)
-            | (columns << PictureWords::WRAP_COLUMNS)
-            | (rows << PictureWords::WRAP_ROWS),
-        transform: [x[0], x[1], y[0], y[1], origin[0], origin[1]],
-        texels,
     }
 }
 

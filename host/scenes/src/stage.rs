@@ -6,7 +6,8 @@
 use super::analytic::{AnalyticKind, AnalyticLight};
 use super::builder::{STILL, SceneBuilder};
 use super::error::SceneError;
-use super::model::{Material, Scene};
+use super::model::Material;
+use super::scene::Scene;
 use super::shapes::{Shape, on_circle, rotation};
 
 const ALONG_X: [f64; 3] = [1.0, 0.0, 0.0];
@@ -80,13 +81,12 @@ fn room(b: &mut SceneBuilder) {
         roughness: 0.25,
         ..Material::default()
     });
-    let mut floor = Shape::new();
-    floor.cuboid([-7.0, -0.2, -5.2], [7.0, 0.0, 4.0]);
-    let mut walls = Shape::new();
-    walls
-        .cuboid([-7.0, 0.0, -5.2], [7.0, 6.5, -5.0])
-        .cuboid([-7.2, 0.0, -5.2], [-7.0, 6.5, 4.0])
-        .cuboid([7.0, 0.0, -5.2], [7.2, 6.5, 4.0]);
+    let floor = Shape::of(|s| s.cuboid([-7.0, -0.2, -5.2], [7.0, 0.0, 4.0]));
+    let walls = Shape::of(|s| {
+        s.cuboid([-7.0, 0.0, -5.2], [7.0, 6.5, -5.0])
+            .cuboid([-7.2, 0.0, -5.2], [-7.0, 6.5, 4.0])
+            .cuboid([7.0, 0.0, -5.2], [7.2, 6.5, 4.0])
+    });
     let mut folds = Shape::new();
     for side in [-1.0, 1.0] {
         for k in 0..9 {
@@ -106,8 +106,7 @@ fn room(b: &mut SceneBuilder) {
     let mut truss = Shape::new();
     truss.beam([-6.0, 5.6, 0.6], [6.0, 5.6, 0.6], 0.12);
     truss.beam([-6.0, 5.6, -2.2], [6.0, 5.6, -2.2], 0.12);
-    let mut ball = Shape::new();
-    ball.icosphere([0.0, 1.35, -1.9], [0.6, 0.6, 0.6], 3);
+    let ball = Shape::of(|s| s.icosphere([0.0, 1.35, -1.9], [0.6, 0.6, 0.6], 3));
     let mesh = b.mesh("boards", &[(&floor, boards)]);
     b.put("boards", None, [0.0; 3], mesh);
     let mesh = b.mesh(
@@ -211,9 +210,7 @@ fn bulbs(b: &mut SceneBuilder) {
 /// A ring of glowing tube, of triangles.
 fn sign(b: &mut SceneBuilder) {
     let glow = b.glow("neon", [14.0, 2.0, 9.0]);
-    let mut ring = Shape::new();
-    ring.torus([0.0; 3], 0.75, 0.05, 24, 6);
-    let mesh = b.mesh("sign", &[(&ring, glow)]);
+    let mesh = b.solid("sign", glow, |s| s.torus([0.0; 3], 0.75, 0.05, 24, 6));
     let node = b.node(
         "sign",
         None,

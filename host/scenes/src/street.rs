@@ -12,8 +12,9 @@ mod traffic;
 
 use super::builder::SceneBuilder;
 use super::error::SceneError;
-use super::model::{Material, Scene};
+use super::model::Material;
 use super::random::Random;
+use super::scene::Scene;
 use super::shapes::Shape;
 
 /// Half the length of the street, metres.

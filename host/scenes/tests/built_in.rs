@@ -1,8 +1,6 @@
 //! The built-in scenes: determinism, ranges, and the way through `.glb` and back.
 
-use std::sync::OnceLock;
-
-use lightbvh_scenes::{BUILT_IN, Frame, Scene, SceneError};
+use lightbvh_scenes::{BUILT_IN, Frame, Scene, SceneError, View};
 
 /// Of frames 0 and 150 of each built-in scene, in the order of [`BUILT_IN`].
 const KNOWN_DIGESTS: [u64; 6] = [
@@ -14,31 +12,17 @@ const KNOWN_DIGESTS: [u64; 6] = [
     0xa397_999c_9ff3_e2aa,
 ];
 
-/// Each built-in scene, made once for all tests.
-fn built_in(name: &str) -> &'static Scene {
-    static SCENES: OnceLock<Vec<Scene>> = OnceLock::new();
-    let make = || {
-        BUILT_IN
-            .iter()
-            .map(|name| Scene::open(name).expect("built-in scenes open"))
-            .collect()
-    };
-    let place = BUILT_IN
-        .iter()
-        .position(|known| *known == name)
-        .expect("a built-in name");
-    &SCENES.get_or_init(make)[place]
-}
-
 /// FNV-1a over all words of a frame.
 fn digest(frame: &Frame) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-    let camera = [
-        frame.camera.eye,
-        frame.camera.right,
-        frame.camera.up,
-        frame.camera.forward,
-    ];
+    let View {
+        eye,
+        right,
+        up,
+        forward,
+        ..
+    } = frame.camera;
+    let camera = [eye, right, up, forward];
     // Instances follow from the lights' meshes.
     let triangles: Vec<_> = frame
         .triangles
@@ -72,40 +56,26 @@ fn assert_same_words(a: &Frame, b: &Frame, what: &str) {
 }
 
 #[test]
-fn same_words_every_time_and_on_every_machine() {
+fn same_words_on_every_machine_and_through_glb_and_back() {
+    let mut digests = Vec::new();
     for name in BUILT_IN {
-        let again = Scene::open(name).expect("built-in scenes open");
+        let open = || Scene::open(name).expect("built-in scenes open");
+        let (scene, again) = (open(), open());
+        let glb = scene.to_glb().expect("built-in scenes can be written");
+        let back = Scene::read_gltf_slice(name, &glb, None).expect("what was written can be read");
+        assert_eq!(back.warnings(), [""; 0], "{name}");
         for frame in [0, 7, 150] {
-            assert_same_words(&built_in(name).frame(frame), &again.frame(frame), name);
+            let own = scene.frame(frame);
+            assert_same_words(&own, &again.frame(frame), name);
+            assert_same_words(&own, &back.frame(frame), name);
+            digests.extend((frame != 7).then(|| digest(&own)));
         }
     }
-    let digests: Vec<u64> = BUILT_IN
-        .iter()
-        .flat_map(|name| [0, 150].map(|frame| digest(&built_in(name).frame(frame))))
-        .collect();
-    // Taken from the first run; a change means that pictures and measurements change too.
+    // A change means that pictures and measurements change too.
     assert_eq!(
         digests, KNOWN_DIGESTS,
         "the built-in scenes changed: {digests:#018x?}"
     );
-}
-
-#[test]
-fn through_glb_and_back_gives_the_same_frames() {
-    for name in BUILT_IN {
-        let scene = built_in(name);
-        let glb = scene.to_glb().expect("built-in scenes can be written");
-        println!("{name}: {} bytes as .glb", glb.len());
-        let back = Scene::read_gltf_slice(name, &glb, None).expect("what was written can be read");
-        assert_eq!(back.warnings(), [""; 0], "{name}");
-        for frame in [0, 7, 150] {
-            assert_same_words(
-                &scene.frame(frame),
-                &back.frame(frame),
-                &format!("{name} frame {frame}"),
-            );
-        }
-    }
 }
 
 #[test]

@@ -79,16 +79,9 @@ pub fn changed(pointer: &str, value: Value) -> Value {
 /// [`triangle`] with texture coordinates, which glows by a picture.
 pub fn textured(coordinates: [[f32; 2]; 3], picture: &[u8]) -> Value {
     let mut root = triangle();
-    let bytes = bytes(coordinates.as_flattened());
-    push(
-        &mut root["buffers"],
-        json!({ "byteLength": 24, "uri": embedded(&bytes) }),
-    );
-    push(&mut root["bufferViews"], json!({ "buffer": 1, "byteLength": 24 }));
-    push(
-        &mut root["accessors"],
-        json!({ "bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC2" }),
-    );
+    let view = add_view(&mut root, &bytes(coordinates.as_flattened()));
+    let accessor = json!({ "bufferView": view, "componentType": 5126, "count": 3, "type": "VEC2" });
+    push(&mut root["accessors"], accessor);
     root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(2);
     root["materials"][0]["emissiveTexture"] = json!({ "index": 0 });
     // Texels as they are: by means of four all of a small picture would glow.
@@ -118,56 +111,82 @@ pub fn push(list: &mut Value, value: Value) {
     list.as_array_mut().expect("a list").push(value);
 }
 
+/// Appends a buffer of these bytes, and a view of it, whose number it returns.
+pub fn add_view(root: &mut Value, bytes: &[u8]) -> usize {
+    let [buffer, view] = ["buffers", "bufferViews"].map(|list| root[list].as_array().map_or(0, Vec::len));
+    let length = bytes.len();
+    push(
+        &mut root["buffers"],
+        json!({ "byteLength": length, "uri": embedded(bytes) }),
+    );
+    push(
+        &mut root["bufferViews"],
+        json!({ "buffer": buffer, "byteLength": length }),
+    );
+    view
+}
+
 /// `bytes` as the uri of an embedded buffer or picture.
 pub fn embedded(bytes: &[u8]) -> String {
     format!("data:;base64,{}", STANDARD.encode(bytes))
 }
 
-/// Two nodes, one swinging on the other, every interpolation, a camera, radiance per triangle, a matrix node.
-pub fn busy() -> SceneData {
-    let key = |x: f32| [x, 0.5 * x, 0.0, 0.0];
-    let channel = |node, property: Property, interpolation, values: Vec<[f32; 4]>, times: &[f32]| Channel {
+/// The numbers of a text.
+fn numbers(text: &str) -> Vec<f32> {
+    let words = text.split_whitespace();
+    words.map(|word| word.parse().expect("a number")).collect()
+}
+
+fn channel(node: u32, property: Property, way: Interpolation, times: &str, values: &str) -> Channel {
+    Channel {
         node,
         property,
-        interpolation,
-        times: times.to_vec(),
-        values: values
-            .iter()
-            .flat_map(|row| &row[..property.numbers()])
-            .copied()
-            .collect(),
-    };
-    let node = |parent, transform, mesh| Node {
+        interpolation: way,
+        times: numbers(times),
+        values: numbers(values),
+    }
+}
+
+fn node(parent: Option<u32>, transform: Transform, mesh: Option<u32>) -> Node {
+    Node {
         name: String::from("n"),
         parent,
         transform,
         mesh,
         ..Node::default()
+    }
+}
+
+fn mesh(primitives: Vec<Primitive>) -> Mesh {
+    Mesh {
+        name: String::from("m"),
+        primitives,
+    }
+}
+
+/// Two nodes, one swinging on the other, every interpolation, a camera, radiance per triangle, a matrix node.
+pub fn busy() -> SceneData {
+    use Interpolation::{CubicSpline, Linear, Step};
+    let sheared = [[1.0, 0.5, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [0.1; 3]];
+    let splines = "0 0 0 1 .5 0 2 1 0 3 1.5 0 4 2 0 5 2.5 0";
+    let animation = |channels| Animation {
+        channels,
+        ..Animation::default()
     };
     SceneData {
         name: String::from("test"),
         nodes: vec![
             node(None, Transform::at([1.0, 2.0, 3.0]), Some(0)),
             node(Some(0), Transform::IDENTITY, Some(0)),
-            node(
-                Some(1),
-                Transform::Matrix([[1.0, 0.5, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [0.1; 3]]),
-                Some(1),
-            ),
+            node(Some(1), Transform::Matrix(sheared), Some(1)),
             node(Some(0), Transform::IDENTITY, None),
         ],
         meshes: vec![
-            Mesh {
-                name: String::from("a"),
-                primitives: vec![tetrahedron(0, None)],
-            },
-            Mesh {
-                name: String::from("b"),
-                primitives: vec![
-                    tetrahedron(1, None),
-                    tetrahedron(1, Some(vec![[0.1; 3], [0.0; 3], [0.3; 3], [1e-3; 3]])),
-                ],
-            },
+            mesh(vec![tetrahedron(0, None)]),
+            mesh(vec![
+                tetrahedron(1, None),
+                tetrahedron(1, Some(vec![[0.1; 3], [0.0; 3], [0.3; 3], [1e-3; 3]])),
+            ]),
         ],
         materials: vec![
             Material {
@@ -183,46 +202,14 @@ pub fn busy() -> SceneData {
             },
         ],
         animations: vec![
-            Animation {
-                name: String::from("one"),
-                channels: vec![
-                    channel(
-                        0,
-                        Property::Translation,
-                        Interpolation::Linear,
-                        vec![key(0.0), key(3.0), key(0.0)],
-                        &[0.0, 1.0, 2.0],
-                    ),
-                    channel(
-                        0,
-                        Property::Scale,
-                        Interpolation::Step,
-                        vec![[1.0; 4], [-2.0, 1.0, 1.0, 0.0]],
-                        &[0.0, 0.7],
-                    ),
-                ],
-                ..Animation::default()
-            },
-            Animation {
-                name: String::from("two"),
-                channels: vec![
-                    channel(
-                        1,
-                        Property::Rotation,
-                        Interpolation::Linear,
-                        vec![[0.0, 0.0, 0.0, 1.0], [0.0, 0.7, 0.0, 0.7]],
-                        &[0.0, 1.3],
-                    ),
-                    channel(
-                        1,
-                        Property::Translation,
-                        Interpolation::CubicSpline,
-                        (0..6).map(|i| key(i as f32)).collect(),
-                        &[0.1, 0.9],
-                    ),
-                ],
-                ..Animation::default()
-            },
+            animation(vec![
+                channel(0, Property::Translation, Linear, "0 1 2", "0 0 0 3 1.5 0 0 0 0"),
+                channel(0, Property::Scale, Step, "0 0.7", "1 1 1 -2 1 1"),
+            ]),
+            animation(vec![
+                channel(1, Property::Rotation, Linear, "0 1.3", "0 0 0 1 0 .7 0 .7"),
+                channel(1, Property::Translation, CubicSpline, "0.1 0.9", splines),
+            ]),
         ],
         cameras: vec![Camera { node: 3, yfov: 0.7 }],
         background: [0.1, 0.2, 0.3],
@@ -233,96 +220,46 @@ pub fn busy() -> SceneData {
 /// Two tetrahedra that glow: one on node 0, bent by two targets whose weights are animated, one on node 1, which two joints bend,
 /// node 2 and, a metre above, node 3, which turns about z.
 pub fn bending() -> SceneData {
-    let quarter = [
-        0.0,
-        0.0,
-        std::f32::consts::FRAC_1_SQRT_2,
-        std::f32::consts::FRAC_1_SQRT_2,
-    ];
+    let still = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
+    let mut raised = still;
+    raised[3][1] = -1.0;
+    let quarter = "0 0 0 1 0 0 0.70710678 0.70710678";
     let mut data = busy();
-    let node = |parent, at, mesh| Node {
-        parent,
-        transform: Transform::at(at),
-        mesh,
-        ..Node::default()
-    };
     data.nodes = vec![
-        Node {
-            weights: vec![0.5, 0.25],
-            ..node(None, [5.0, 0.0, 0.0], Some(0))
-        },
-        Node {
-            skin: Some(0),
-            ..node(None, [100.0, 0.0, 0.0], Some(1))
-        },
-        node(None, [0.0, 0.0, 2.0], None),
-        node(Some(2), [0.0, 1.0, 0.0], None),
-        node(None, [0.0, 0.0, 20.0], None),
+        node(None, Transform::at([5.0, 0.0, 0.0]), Some(0)),
+        node(None, Transform::at([100.0, 0.0, 0.0]), Some(1)),
+        node(None, Transform::at([0.0, 0.0, 2.0]), None),
+        node(Some(2), Transform::at([0.0, 1.0, 0.0]), None),
+        node(None, Transform::at([0.0, 0.0, 20.0]), None),
     ];
+    data.nodes[0].weights = vec![0.5, 0.25];
+    data.nodes[1].skin = Some(0);
     data.cameras[0].node = 4;
-    let influence = |weights| Influence {
+    let (mut morphed, mut skinned) = (tetrahedron(0, None), tetrahedron(0, None));
+    morphed.targets = vec![vec![[0.0, 0.0, 1.0]; 4], Vec::new()];
+    skinned.radiance = Some(vec![[1.0; 3], [0.0; 3], [2.0; 3], [3.0; 3]]);
+    let influences = [[1.0, 0.0], [0.0, 0.5], [1.0, 1.0], [0.0; 2]].map(|[a, b]| Influence {
         joints: [0, 1, 0, 0],
-        weights,
-    };
-    data.meshes = vec![
-        Mesh {
-            name: String::from("targets"),
-            primitives: vec![Primitive {
-                targets: vec![vec![[0.0, 0.0, 1.0]; 4], Vec::new()],
-                ..tetrahedron(0, None)
-            }],
-        },
-        Mesh {
-            name: String::from("skin"),
-            primitives: vec![Primitive {
-                influences: vec![vec![
-                    influence([1.0, 0.0, 0.0, 0.0]),
-                    influence([0.0, 0.5, 0.0, 0.0]),
-                    influence([1.0, 1.0, 0.0, 0.0]),
-                    influence([0.0; 4]),
-                ]],
-                ..tetrahedron(0, Some(vec![[1.0; 3], [0.0; 3], [2.0; 3], [3.0; 3]]))
-            }],
-        },
-    ];
+        weights: [a, b, 0.0, 0.0],
+    });
+    skinned.influences = vec![influences.to_vec()];
+    data.meshes = vec![mesh(vec![morphed]), mesh(vec![skinned])];
     data.skins = vec![Skin {
         joints: vec![2, 3],
         // The second joint's own space begins a metre up.
-        inverse_bind: vec![
-            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]],
-            [
-                [1.0, 0.0, 0.0],
-                [0.0, 1.0, 0.0],
-                [0.0, 0.0, 1.0],
-                [0.0, -1.0, 0.0],
-            ],
-        ],
+        inverse_bind: vec![still, raised],
     }];
-    let turn = Channel {
-        node: 3,
-        property: Property::Rotation,
-        interpolation: Interpolation::Step,
-        times: vec![0.0, 1.0],
-        values: [[0.0, 0.0, 0.0, 1.0], quarter].concat(),
-    };
-    let weights = Channel {
-        node: 0,
-        property: Property::Weights(2),
-        interpolation: Interpolation::Linear,
-        times: vec![0.0, 2.0],
-        values: vec![0.0, 0.0, 3.0, 1.0],
-    };
-    data.animations = vec![Animation {
-        channels: vec![turn, weights],
-        ..Animation::default()
-    }];
+    data.animations.truncate(1);
+    data.animations[0].channels = vec![
+        channel(3, Property::Rotation, Interpolation::Step, "0 1", quarter),
+        channel(0, Property::Weights(2), Interpolation::Linear, "0 2", "0 0 3 1"),
+    ];
     data
 }
 
 fn tetrahedron(material: u32, radiance: Option<Vec<[f32; 3]>>) -> Primitive {
-    let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     Primitive {
-        positions,
+        positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
         material,
         radiance,

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use glam::Vec3;
 use lightbvh::light::infinite::Environment;
 use lightbvh_scenes::{Material, Mesh, Node, Primitive, Scene, SceneData, View};
 
@@ -9,19 +10,12 @@ use lightbvh_scenes::{Material, Mesh, Node, Primitive, Scene, SceneData, View};
 fn solid(low: [f32; 3], high: [f32; 3], material: u32) -> Primitive {
     let at = |i: usize| [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { low[axis] } else { high[axis] });
     let sides = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
+        0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5,
     ];
+    let sides = sides.as_chunks::<4>().0.iter();
     Primitive {
         positions: (0..8).map(at).collect(),
-        triangles: sides
-            .iter()
-            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
-            .collect(),
+        triangles: sides.flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect(),
         material,
         ..Primitive::default()
     }
@@ -65,10 +59,9 @@ fn scene(primitives: Vec<Primitive>, is_under_sky: bool) -> Scene {
 
 /// Where a point is in an image whose half height is one, right and up; none behind the eye.
 fn place(view: &View, p: [f32; 3]) -> Option<[f32; 2]> {
-    let d = [0, 1, 2].map(|i| p[i] - view.eye[i]);
-    let part = |axis: [f32; 3]| d.iter().zip(axis).map(|(x, y)| x * y).sum::<f32>();
-    let half = part(view.forward) * (0.5 * view.yfov).tan();
-    (half > 0.0).then(|| [part(view.right) / half, part(view.up) / half])
+    let d = Vec3::from(p) - Vec3::from(view.eye);
+    let half = d.dot(view.forward.into()) * (0.5 * view.yfov).tan();
+    (half > 0.0).then(|| [view.right, view.up].map(|axis| d.dot(axis.into()) / half))
 }
 
 /// All corners are in an image of 16:9, and fill at least a third of its width or height.
@@ -77,19 +70,14 @@ fn fill(view: &View, corners: &[[f32; 3]]) {
         .iter()
         .map(|&corner| place(view, corner).expect("before the eye"));
     let places: Vec<_> = places.map(|[x, y]| [x * 9.0 / 16.0, y]).collect();
-    assert!(
-        places.as_flattened().iter().all(|x| x.abs() < 1.0),
-        "{places:?}: {view:?}"
-    );
+    let is_in = places.as_flattened().iter().all(|x| x.abs() < 1.0);
     let fills = [0, 1].map(|axis| {
         let along = || places.iter().map(|place| place[axis]);
         0.5 * (along().fold(-1.0, f32::max) - along().fold(1.0, f32::min))
     });
-    assert!(fills[0].max(fills[1]) > 0.33, "{fills:?}: {view:?}");
-    assert!(
-        view.right[1].abs() < 1e-6 && view.up[1] > 0.0,
-        "upright: {view:?}"
-    );
+    assert!(is_in && fills[0].max(fills[1]) > 0.33, "{fills:?}: {view:?}");
+    let is_upright = view.right[1].abs() < 1e-6 && view.up[1] > 0.0;
+    assert!(is_upright, "{view:?}");
 }
 
 fn inside(eye: [f32; 3], low: [f32; 3], high: [f32; 3]) -> bool {
@@ -111,17 +99,19 @@ fn a_room_is_seen_from_inside() {
 
 #[test]
 fn what_is_dark_is_not_framed() {
-    // A lamp over a small table, a kilometre of ground that is dark but for what is near, and a hill behind which all is dark.
+    // A lamp over a small table, a kilometre of ground that is dark but for what is near.
     let ground = solid([-500.0, -1.0, -500.0], [500.0, 0.0, 500.0], 0);
     let table = solid([100.0, 0.0, 100.0], [102.0, 1.0, 102.0], 0);
     let lamp = solid([100.9, 2.0, 100.9], [101.1, 2.1, 101.1], 1);
     let camera = scene(vec![ground, table, lamp], false).frame(0).camera;
-    let away = [0, 1, 2].map(|i| camera.eye[i] - [101.0, 1.0, 101.0][i]);
-    let distance = away.iter().map(|x| x * x).sum::<f32>().sqrt();
-    assert!(distance < 400.0, "{camera:?}");
-    let towards: f32 = (0..3).map(|i| -away[i] * camera.forward[i]).sum::<f32>() / distance;
-    assert!(towards > 0.9, "the lamp is in the image: {camera:?}");
-    assert!(camera.eye[1] > 0.0, "above ground: {camera:?}");
+    let [eye, forward] = [camera.eye, camera.forward].map(Vec3::from);
+    let towards = Vec3::new(101.0, 1.0, 101.0) - eye;
+    assert!(towards.length() < 400.0, "{camera:?}");
+    assert!(
+        towards.normalize().dot(forward) > 0.9,
+        "the lamp is in the image: {camera:?}"
+    );
+    assert!(eye.y > 0.0, "above ground: {camera:?}");
 }
 
 #[test]
@@ -145,7 +135,7 @@ fn sign_is_seen_whole_from_its_front() {
             let sign = sheet([1.0, 2.0, 3.0], a, [0.0, 1.0, 0.0], material);
             let corners = sign.positions.clone();
             let view = scene(vec![sign], is_under_sky).frame(0).camera;
-            let towards: f32 = (0..3).map(|i| -view.forward[i] * front[i]).sum();
+            let towards = -Vec3::from(view.forward).dot(front.into());
             assert!(towards > 0.5, "{towards} of {front:?}: {view:?}");
             fill(&view, &corners);
         }
@@ -178,13 +168,10 @@ fn camera_does_not_stand_in_a_glowing_bulb() {
             1,
         );
         inner.triangles.iter_mut().for_each(|own| own.swap(0, 1));
-        let view = scene(vec![solid(low, high, 1), inner, floor.clone()], false)
-            .frame(0)
-            .camera;
-        assert!(
-            !inside(view.eye, low, high) && view.eye[1] > 0.0,
-            "{size}: {view:?}"
-        );
+        let primitives = vec![solid(low, high, 1), inner, floor.clone()];
+        let view = scene(primitives, false).frame(0).camera;
+        let is_out = !inside(view.eye, low, high) && view.eye[1] > 0.0;
+        assert!(is_out, "{size}: {view:?}");
     }
 }
 
@@ -196,4 +183,13 @@ fn nothing_to_see_is_no_error() {
         let all = [view.eye, view.right, view.up, view.forward];
         assert!(all.iter().flatten().all(|x| x.is_finite()), "{view:?}");
     }
+}
+
+#[test]
+fn up_along_z_is_turned_to_up_along_y() {
+    let flat = sheet([0.0, 0.0, 11.0], [3.0, 0.0, 0.0], [0.0, 2.0, 0.0], 0);
+    let turned = scene(vec![flat], false).from_z_up().expect("a sound scene");
+    let first = turned.frame(0).triangles[0].p;
+    // The front is above.
+    assert_eq!(first, [[0.0, 11.0, 0.0], [3.0, 11.0, 0.0], [3.0, 11.0, -2.0]]);
 }

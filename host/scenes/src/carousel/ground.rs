@@ -88,8 +88,7 @@ fn booths(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
 
 /// Masts around the ground, joined by strings of bulbs.
 fn masts(b: &mut SceneBuilder, palette: &Palette) {
-    let mut mast = Shape::new();
-    mast.cylinder([0.0; 3], [0.12, 0.08], 7.0, 8);
+    let mast = Shape::of(|s| s.cylinder([0.0; 3], [0.12, 0.08], 7.0, 8));
     let mast = b.mesh("mast", &[(&mast, palette.steel)]);
     let place = |i: u32| {
         let [c, s] = on_circle(f64::from(i) / 18.0);

@@ -14,14 +14,14 @@ pub(super) fn add(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) 
 
 /// A turning platform with a lit canopy; horses rise and fall on poles of bulbs.
 fn merry_go_round(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
-    let mut platform = Shape::new();
-    platform
-        .cylinder([0.0, 0.2, 0.0], [6.6, 6.6], 0.25, 48)
-        .cylinder([0.0, 0.45, 0.0], [1.3, 1.3], 4.6, 24);
-    let mut canopy = Shape::new();
-    canopy
-        .cylinder([0.0, 5.0, 0.0], [6.8, 6.8], 0.5, 48)
-        .cylinder([0.0, 5.5, 0.0], [6.8, 0.4], 1.9, 24);
+    let platform = Shape::of(|s| {
+        s.cylinder([0.0, 0.2, 0.0], [6.6, 6.6], 0.25, 48)
+            .cylinder([0.0, 0.45, 0.0], [1.3, 1.3], 4.6, 24)
+    });
+    let canopy = Shape::of(|s| {
+        s.cylinder([0.0, 5.0, 0.0], [6.8, 6.8], 0.5, 48)
+            .cylinder([0.0, 5.5, 0.0], [6.8, 0.4], 1.9, 24)
+    });
     let body = b.mesh("carousel", &[(&platform, palette.cream), (&canopy, palette.red)]);
     let hub = b.put("carousel", None, [0.0; 3], body);
     b.spin(hub, UP, 1, 300, 0.0);
@@ -81,12 +81,10 @@ fn merry_go_round(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) 
 
 /// Chairs on chains that fly outward around a tilted, lit crown.
 fn swing_ride(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
-    let mut tower = Shape::new();
-    tower.cylinder([0.0; 3], [1.6, 0.7], 9.0, 16);
+    let tower = Shape::of(|s| s.cylinder([0.0; 3], [1.6, 0.7], 9.0, 16));
     let tower = b.mesh("swing tower", &[(&tower, palette.red)]);
     let tower = b.put("swing tower", None, [-15.0, 0.0, -6.0], tower);
-    let mut crown = Shape::new();
-    crown.cylinder([0.0; 3], [0.8, 5.0], 0.9, 32);
+    let crown = Shape::of(|s| s.cylinder([0.0; 3], [0.8, 5.0], 0.9, 32));
     let crown = b.mesh("swing crown", &[(&crown, palette.cream)]);
     let hub = b.put("swing crown", Some(tower), [0.0, 9.0, 0.0], crown);
     b.spin(hub, UP, -1, 150, 0.0);
@@ -139,11 +137,10 @@ fn swing_ride(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
 
 /// Three tables of six cups: cups turn on tables that turn on the floor.
 fn cups(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
-    let mut floor = Shape::new();
-    floor.cylinder([0.0; 3], [2.6, 2.6], 0.2, 32);
-    let floor = b.mesh("cup table", &[(&floor, palette.wood)]);
-    let mut cup = Shape::new();
-    cup.cylinder([0.0, 0.2, 0.0], [0.45, 0.75], 0.8, 16);
+    let floor = b.solid("cup table", palette.wood, |s| {
+        s.cylinder([0.0; 3], [2.6, 2.6], 0.2, 32)
+    });
+    let cup = Shape::of(|s| s.cylinder([0.0, 0.2, 0.0], [0.45, 0.75], 0.8, 16));
     let rim = bulb_circle(0.8, 26, 0.045);
     let meshes = palette.bulbs.map(|glow| b.mesh("cup bulbs", &[(&rim, glow)]));
     let cup = b.mesh("cup body", &[(&cup, palette.cream)]);
@@ -177,8 +174,7 @@ fn gyroscope(b: &mut SceneBuilder, palette: &Palette) {
     for ring in 0..7_u32 {
         let radius = 3.4 - 0.42 * f64::from(ring);
         let count = (radius * 32.0) as u32;
-        let mut tube = Shape::new();
-        tube.torus([0.0; 3], radius - 0.09, 0.05, 40, 4);
+        let tube = Shape::of(|s| s.torus([0.0; 3], radius - 0.09, 0.05, 40, 4));
         // The torus lies around z; the bulbs lie around y.
         let mut flat = Shape::new();
         let half = std::f64::consts::FRAC_1_SQRT_2;

@@ -1,5 +1,7 @@
 //! Accessors, read with every range checked (glTF 2.0, section 3.6.2).
 
+use std::borrow::Cow;
+
 use gltf::json::accessor::{Accessor, ComponentType, GenericComponentType, IndexComponentType};
 use gltf::json::validation::Checked;
 use gltf::json::{self, Index, buffer};
@@ -7,113 +9,149 @@ use gltf::json::{self, Index, buffer};
 use super::super::error::SceneError;
 use super::{DAMAGED, Document};
 
-/// What the elements of an accessor are.
-#[derive(Clone, Copy)]
-struct Shape {
-    components: usize,
+/// The elements of an accessor, or of a part of one.
+struct Elements<'a> {
+    /// From the first element on.
+    bytes: Cow<'a, [u8]>,
+    stride: usize,
+    count: usize,
     component: ComponentType,
+    /// Numbers of an element.
+    numbers: usize,
     normalized: bool,
 }
 
-/// Where the elements of an accessor lie.
-struct Layout<'a> {
-    /// From the first element on; empty for an accessor of zeros.
-    bytes: &'a [u8],
-    stride: usize,
-    shape: Shape,
-    count: usize,
-}
-
 impl Document<'_> {
-    /// Elements of `N` numbers each, integers converted as glTF says.
+    /// Elements of `N` numbers each, integers converted as glTF says: all, or those of `rows`.
     pub(super) fn floats<const N: usize>(
         &self,
         index: Index<Accessor>,
         element: &str,
+        rows: Option<&[u32]>,
     ) -> Result<Vec<[f32; N]>, SceneError> {
-        let read = |of: &Layout<'_>, i| std::array::from_fn(|component| of.float(i, component));
-        self.elements(index, element, read, |shape| match shape.components {
-            own if own == N => Ok(()),
-            own => Err(format!("has {own} numbers per element, expected {N}")),
+        let own = self.elements(index, element, rows.map(<[u32]>::len), |own| match own.numbers {
+            found if found == N => beyond(rows, own.count),
+            found => Err(format!("has {found} numbers per element, expected {N}")),
+        })?;
+        let read = |i: usize| std::array::from_fn(|k| own.float(i, k));
+        Ok(match rows {
+            Some(rows) => rows.iter().map(|&row| read(row as usize)).collect(),
+            None => (0..own.count).map(read).collect(),
         })
+    }
+
+    /// How many elements an accessor has.
+    pub(super) fn count(&self, index: Index<Accessor>, element: &str) -> Result<usize, SceneError> {
+        self.elements(index, element, Some(0), |_| Ok(()))
+            .map(|own| own.count)
     }
 
     /// Vertex indices: one unsigned integer per element.
     pub(super) fn indices(&self, index: Index<Accessor>, element: &str) -> Result<Vec<u32>, SceneError> {
         use ComponentType::{U8, U16, U32};
-        self.elements(
-            index,
-            element,
-            |of, i| of.unsigned(i),
-            |shape| match (shape.components, shape.component) {
-                (1, U8 | U16 | U32) => Ok(()),
-                _ => Err(String::from("is not a list of unsigned integers")),
-            },
-        )
+        let own = self.elements(index, element, None, |own| match (own.numbers, own.component) {
+            (1, U8 | U16 | U32) => Ok(()),
+            _ => Err(String::from("is not a list of unsigned integers")),
+        })?;
+        Ok((0..own.count).map(|i| own.unsigned(i)).collect())
     }
 
-    fn elements<T>(
+    /// Takes memory for all elements, or so many, and replaces those that are sparse.
+    fn elements(
         &self,
         index: Index<Accessor>,
         element: &str,
-        read: fn(&Layout<'_>, usize) -> T,
-        check: impl Fn(Shape) -> Result<(), String>,
-    ) -> Result<Vec<T>, SceneError> {
+        taken: Option<usize>,
+        check: impl Fn(&Elements<'_>) -> Result<(), String>,
+    ) -> Result<Elements<'_>, SceneError> {
         let accessor = self.get(&self.root.accessors, index, "accessor", element)?;
-        let name = format!("accessors[{}] (used by {element})", index.value());
-        let layout = self.layout(accessor, &name)?;
-        check(layout.shape).map_err(|problem| self.malformed(&name, problem, DAMAGED))?;
-        let mut values: Vec<T> = (0..layout.count).map(|i| read(&layout, i)).collect();
-        if let Some(sparse) = &accessor.sparse {
-            self.substitute(&mut values, sparse, layout.shape, read, &name)?;
-        }
-        Ok(values)
-    }
-
-    /// Checks that all elements lie inside the accessor's view, and takes memory for them.
-    fn layout(&self, accessor: &Accessor, name: &str) -> Result<Layout<'_>, SceneError> {
+        let name = &format!("accessors[{}] (used by {element})", index.value());
         let (Checked::Valid(GenericComponentType(component)), Checked::Valid(shape)) =
             (accessor.component_type, accessor.type_)
         else {
             return Err(self.malformed(name, "has an unknown component type or element type", DAMAGED));
         };
-        let shape = Shape {
-            components: shape.multiplicity(),
-            component,
-            normalized: accessor.normalized,
-        };
-        let view = match accessor.buffer_view {
-            Some(view) => self.view(view, name)?,
-            None => (&[][..], None),
-        };
-        let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
-        let count = accessor.count.0;
-        let layout = self.place(name, view, offset, count, shape)?;
-
-        // An accessor without a view holds zeros: of a small file there are few.
-        let all_bytes: u64 = self.buffers.iter().map(|buffer| buffer.len() as u64).sum();
-        if accessor.buffer_view.is_none() && count > all_bytes {
-            let problem = format!(
-                "is {count} zeros without a bufferView, more than the {all_bytes} bytes of all buffers"
-            );
-            return Err(self.malformed(name, problem, "give it a bufferView, or fewer elements"));
-        }
+        let (numbers, count) = (shape.multiplicity(), accessor.count.0);
         // Every number takes four bytes; many primitives may share one accessor.
-        let bytes = count.saturating_mul(4 * shape.components as u64);
-        self.load.take(name, "the list of elements", bytes)?;
-        Ok(layout)
+        let bytes = taken
+            .map_or(count, |taken| taken as u64)
+            .saturating_mul(4 * numbers as u64);
+        let take = || self.load.take(name, "the list of elements", bytes);
+        let mut own = match accessor.buffer_view {
+            Some(view) => {
+                let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
+                let own = self.within(name, view, offset, count, (component, numbers))?;
+                take()?;
+                own
+            }
+            None => {
+                // Of a small file there are few zeros.
+                let all_bytes: u64 = self.buffers.iter().map(|buffer| buffer.len() as u64).sum();
+                if count > all_bytes {
+                    let problem = format!(
+                        "is {count} zeros without a bufferView, more than the {all_bytes} bytes of all buffers"
+                    );
+                    return Err(self.malformed(name, problem, "give it a bufferView, or fewer elements"));
+                }
+                take()?;
+                let stride = component.size() * numbers;
+                Elements {
+                    bytes: vec![0; stride * count as usize].into(),
+                    stride,
+                    count: count as usize,
+                    component,
+                    numbers,
+                    normalized: false,
+                }
+            }
+        };
+        own.normalized = accessor.normalized;
+        check(&own).map_err(|problem| self.malformed(name, problem, DAMAGED))?;
+        if let Some(sparse) = &accessor.sparse {
+            self.substitute(&mut own, sparse, name)?;
+        }
+        Ok(own)
     }
 
-    /// `count` elements from `offset` on, all inside `bytes` unless `bytes` is empty for want of a view.
-    fn place<'b>(
+    /// Replaces single elements (glTF 2.0, section 3.6.2.3).
+    fn substitute(
+        &self,
+        own: &mut Elements<'_>,
+        sparse: &json::accessor::sparse::Sparse,
+        name: &str,
+    ) -> Result<(), SceneError> {
+        let Checked::Valid(IndexComponentType(component)) = sparse.indices.component_type else {
+            return Err(self.malformed(name, "has sparse indices of an unknown type", DAMAGED));
+        };
+        let (indices, values, count) = (&sparse.indices, &sparse.values, sparse.count.0);
+        let offsets = [indices.byte_offset.0, values.byte_offset.0];
+        let at = self.within(name, indices.buffer_view, offsets[0], count, (component, 1))?;
+        let shape = (own.component, own.numbers);
+        let new = self.within(name, values.buffer_view, offsets[1], count, shape)?;
+        let size = own.component.size() * own.numbers;
+        for i in 0..at.count {
+            let target = at.unsigned(i) as usize;
+            if target >= own.count {
+                let problem = format!("substitutes element {target} of {}", own.count);
+                return Err(self.malformed(name, problem, DAMAGED));
+            }
+            let (to, from) = (target * own.stride, i * new.stride);
+            own.bytes.to_mut()[to..to + size].copy_from_slice(&new.bytes[from..from + size]);
+        }
+        Ok(())
+    }
+
+    /// `count` elements of a view from `offset` on, all inside it.
+    fn within(
         &self,
         name: &str,
-        (bytes, stride): (&'b [u8], Option<usize>),
+        view: Index<buffer::View>,
         offset: u64,
         count: u64,
-        shape: Shape,
-    ) -> Result<Layout<'b>, SceneError> {
-        let size = shape.component.size() * shape.components;
+        (component, numbers): (ComponentType, usize),
+    ) -> Result<Elements<'_>, SceneError> {
+        let (bytes, stride) = self.view(view, name)?;
+        let size = component.size() * numbers;
         let stride = stride.unwrap_or(size);
         if stride < size {
             let problem = format!("has elements of {size} bytes at a stride of {stride}");
@@ -124,18 +162,18 @@ impl Document<'_> {
                 .checked_add(size as u64)?
                 .checked_add(offset)
         });
-        let inside = end.is_some_and(|end| end <= bytes.len() as u64);
-        // Zeros of a sparse accessor need no bytes; their count is bounded by the caller.
-        if !inside && !bytes.is_empty() {
+        let Some(_) = end.filter(|&end| end <= bytes.len() as u64) else {
             let length = bytes.len();
             let problem = format!("claims {count} elements from byte {offset}, beyond its {length} bytes");
             return Err(self.malformed(name, problem, DAMAGED));
-        }
-        Ok(Layout {
-            bytes: if inside { &bytes[offset as usize..] } else { &[] },
+        };
+        Ok(Elements {
+            bytes: bytes[offset as usize..].into(),
             stride,
-            shape,
             count: count as usize,
+            component,
+            numbers,
+            normalized: false,
         })
     }
 
@@ -173,54 +211,15 @@ impl Document<'_> {
         };
         Ok(&buffer[start as usize..end as usize])
     }
-
-    /// Replaces single elements (glTF 2.0, section 3.6.2.3).
-    fn substitute<T>(
-        &self,
-        values: &mut [T],
-        sparse: &json::accessor::sparse::Sparse,
-        shape: Shape,
-        read: fn(&Layout<'_>, usize) -> T,
-        name: &str,
-    ) -> Result<(), SceneError> {
-        let Checked::Valid(IndexComponentType(component)) = sparse.indices.component_type else {
-            return Err(self.malformed(name, "has sparse indices of an unknown type", DAMAGED));
-        };
-        let (count, total) = (sparse.count.0, values.len());
-        if count > total as u64 {
-            let problem = format!("substitutes {count} of {total} elements");
-            return Err(self.malformed(name, problem, DAMAGED));
-        }
-        let one = Shape {
-            components: 1,
-            component,
-            normalized: false,
-        };
-        let view = self.view(sparse.indices.buffer_view, name)?;
-        let at = self.place(name, view, sparse.indices.byte_offset.0, count, one)?;
-        let view = self.view(sparse.values.buffer_view, name)?;
-        let new = self.place(name, view, sparse.values.byte_offset.0, count, shape)?;
-        for i in 0..at.count {
-            let target = at.unsigned(i) as usize;
-            let Some(value) = values.get_mut(target) else {
-                let problem = format!("substitutes element {target} of {total}");
-                return Err(self.malformed(name, problem, DAMAGED));
-            };
-            *value = read(&new, i);
-        }
-        Ok(())
-    }
 }
 
-impl Layout<'_> {
-    /// Four little-endian bytes, missing ones zero.
-    fn word(&self, index: usize, component: usize) -> [u8; 4] {
-        let size = self.shape.component.size();
-        let at = index * self.stride + component * size;
+impl Elements<'_> {
+    /// A number in four little-endian bytes.
+    fn word(&self, index: usize, number: usize) -> [u8; 4] {
+        let size = self.component.size();
+        let at = index * self.stride + number * size;
         let mut word = [0; 4];
-        if let Some(bytes) = self.bytes.get(at..at + size) {
-            word[..size].copy_from_slice(bytes);
-        }
+        word[..size].copy_from_slice(&self.bytes[at..at + size]);
         word
     }
 
@@ -228,20 +227,26 @@ impl Layout<'_> {
         u32::from_le_bytes(self.word(index, 0))
     }
 
-    fn float(&self, index: usize, component: usize) -> f32 {
-        let word = self.word(index, component);
-        let value = match self.shape.component {
-            ComponentType::F32 => return f32::from_le_bytes(word),
+    fn float(&self, index: usize, number: usize) -> f32 {
+        let word = self.word(index, number);
+        let value = match self.component {
+            ComponentType::F32 => f32::from_le_bytes(word),
             ComponentType::I8 => f32::from(word[0] as i8),
-            ComponentType::U8 => f32::from(word[0]),
             ComponentType::I16 => f32::from(i16::from_le_bytes([word[0], word[1]])),
-            ComponentType::U16 => f32::from(u16::from_le_bytes([word[0], word[1]])),
-            ComponentType::U32 => u32::from_le_bytes(word) as f32,
+            ComponentType::U8 | ComponentType::U16 | ComponentType::U32 => u32::from_le_bytes(word) as f32,
         };
-        match self.shape.normalized {
-            true => normalized(self.shape.component, value),
+        match self.normalized {
+            true => normalized(self.component, value),
             false => value,
         }
+    }
+}
+
+/// An error if a row is beyond `count` elements.
+pub(super) fn beyond(rows: Option<&[u32]>, count: usize) -> Result<(), String> {
+    match rows.unwrap_or_default().iter().any(|&row| row as usize >= count) {
+        true => Err(format!("has {count} elements, fewer than its positions")),
+        false => Ok(()),
     }
 }
 

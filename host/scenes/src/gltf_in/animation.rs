@@ -55,21 +55,25 @@ fn one(
             return Err(document.malformed(element, "has an unknown interpolation", advice));
         }
     };
-    let times = document.floats::<1>(sampler.input, element)?.into_flattened();
+    let times = document
+        .floats::<1>(sampler.input, element, None)?
+        .into_flattened();
     let three = || {
         document
-            .floats::<3>(sampler.output, element)
+            .floats::<3>(sampler.output, element, None)
             .map(Vec::into_flattened)
     };
     let (property, values) = match channel.target.path {
         Valid(json::animation::Property::Translation) => (Property::Translation, three()?),
         Valid(json::animation::Property::Scale) => (Property::Scale, three()?),
         Valid(json::animation::Property::Rotation) => {
-            let values = document.floats::<4>(sampler.output, element)?;
+            let values = document.floats::<4>(sampler.output, element, None)?;
             (Property::Rotation, values.into_flattened())
         }
         Valid(json::animation::Property::MorphTargetWeights) => {
-            let values = document.floats::<1>(sampler.output, element)?.into_flattened();
+            let values = document
+                .floats::<1>(sampler.output, element, None)?
+                .into_flattened();
             let rows = match interpolation {
                 Interpolation::CubicSpline => 3 * times.len(),
                 _ => times.len(),

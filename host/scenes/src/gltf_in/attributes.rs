@@ -39,17 +39,22 @@ impl<'d, 'a> Attributes<'d, 'a> {
         attributes.get(&Checked::Valid(semantic)).copied()
     }
 
-    /// The values of an attribute, `N` numbers for each vertex; `None` where there is none.
+    /// The values of an attribute for these vertices, `N` numbers each; `None` where there is none.
     pub(super) fn floats<const N: usize>(
         &self,
         semantic: Semantic,
+        rows: &[u32],
     ) -> Result<Option<Vec<[f32; N]>>, SceneError> {
         let name = semantic.to_string();
         let Some(index) = self.accessor(semantic) else {
             return Ok(None);
         };
-        let Some(values) = self.draco.as_ref().and_then(|draco| draco.floats::<N>(&name)) else {
-            return self.document.floats(index, self.element).map(Some);
+        let Some(values) = self
+            .draco
+            .as_ref()
+            .and_then(|draco| draco.floats::<N>(&name, rows))
+        else {
+            return self.document.floats(index, self.element, Some(rows)).map(Some);
         };
         let mut values = values.map_err(|problem| {
             let element = format!("{}: {name} in its Draco stream", self.element);

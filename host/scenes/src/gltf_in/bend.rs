@@ -4,9 +4,8 @@ use glam::Mat4;
 use gltf::json;
 use gltf::json::mesh::Semantic;
 
-use super::super::deform::{Influence, Skin};
 use super::super::error::SceneError;
-use super::super::model::SceneData;
+use super::super::model::{Influence, SceneData, Skin};
 use super::attributes::Attributes;
 use super::{DAMAGED, Document};
 
@@ -17,17 +16,14 @@ const MAX_SETS: u32 = 8;
 pub(super) fn targets(
     document: &Document<'_>,
     primitive: &json::mesh::Primitive,
-    vertices: usize,
+    rows: &[u32],
     element: &str,
 ) -> Result<Vec<Vec<[f32; 3]>>, SceneError> {
     let mut targets = Vec::new();
     for (t, target) in primitive.targets.iter().flatten().enumerate() {
         let element = format!("{element}.targets[{t}]");
         targets.push(match target.positions {
-            Some(index) => {
-                let moved = document.floats::<3>(index, &element)?;
-                of_vertices(moved, vertices, document, &element)?
-            }
+            Some(index) => document.floats(index, &element, Some(rows))?,
             None => Vec::new(),
         });
     }
@@ -42,20 +38,18 @@ pub(super) fn targets(
 pub(super) fn influences(
     document: &Document<'_>,
     attributes: &Attributes<'_, '_>,
-    vertices: usize,
+    rows: &[u32],
 ) -> Result<Vec<Vec<Influence>>, SceneError> {
     let element = attributes.element;
     let mut sets = Vec::new();
     for set in 0..MAX_SETS {
-        let Some(joints) = attributes.floats::<4>(Semantic::Joints(set))? else {
+        let Some(joints) = attributes.floats::<4>(Semantic::Joints(set), rows)? else {
             break;
         };
-        let Some(weights) = attributes.floats::<4>(Semantic::Weights(set))? else {
+        let Some(weights) = attributes.floats::<4>(Semantic::Weights(set), rows)? else {
             let problem = format!("has JOINTS_{set} without WEIGHTS_{set}");
             return Err(document.malformed(element, problem, DAMAGED));
         };
-        let joints = of_vertices(joints, vertices, document, element)?;
-        let weights = of_vertices(weights, vertices, document, element)?;
         let whole = |x: &f32| (0.0..=65535.0).contains(x) && x.fract() == 0.0;
         if let Some(joint) = joints.as_flattened().iter().find(|x| !whole(x)) {
             return Err(document.malformed(element, format!("has {joint} as a joint"), DAMAGED));
@@ -67,19 +61,6 @@ pub(super) fn influences(
         sets.push(pairs.collect());
     }
     Ok(sets)
-}
-
-fn of_vertices<T>(
-    values: Vec<T>,
-    vertices: usize,
-    document: &Document<'_>,
-    element: &str,
-) -> Result<Vec<T>, SceneError> {
-    if values.len() == vertices {
-        return Ok(values);
-    }
-    let problem = format!("has {} entries for {vertices} vertices", values.len());
-    Err(document.malformed(element, problem, DAMAGED))
 }
 
 /// All skins; `place` is where each of the file's nodes went. Nodes whose skin has joints outside of the scene lose it, with a
@@ -125,7 +106,7 @@ fn bind_matrices(
     joints: usize,
     element: &str,
 ) -> Result<Vec<[[f32; 3]; 4]>, SceneError> {
-    let matrices = document.floats::<16>(index, element)?;
+    let matrices = document.floats::<16>(index, element, None)?;
     if matrices.len() < joints {
         let problem = format!("has {} inverse bind matrices for {joints} joints", matrices.len());
         return Err(document.malformed(element, problem, DAMAGED));

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::fmt::Display;
 
+use gltf::binary::Glb;
 use gltf::json::{self, Index};
 use percent_encoding::percent_decode_str;
 use serde_json::Value;
@@ -25,43 +26,21 @@ fn broken(path: &str, problem: impl Display) -> SceneError {
     malformed(path, problem, "export it again as .glb or .gltf")
 }
 
-/// The JSON part and, for `.glb`, the binary part (glTF 2.0, section 4.4).
-pub(super) fn split<'a>(path: &str, bytes: &'a [u8]) -> Result<(&'a [u8], Option<&'a [u8]>), SceneError> {
+/// The JSON part and the binary part of a file.
+pub(super) type Parts<'a> = (Cow<'a, [u8]>, Option<Cow<'a, [u8]>>);
+
+/// The parts of a `.gltf` or `.glb` file (glTF 2.0, section 4.4).
+pub(super) fn split<'a>(path: &str, bytes: &'a [u8]) -> Result<Parts<'a>, SceneError> {
     if !bytes.starts_with(b"glTF") {
-        return Ok((bytes, None));
+        return Ok((bytes.into(), None));
     }
-    let (Some(version), Some(length)) = (word(bytes, 4), word(bytes, 8)) else {
+    // The crate's reader subtracts the header's length from the one that it claims.
+    let claimed = bytes.get(8..).and_then(|rest| rest.first_chunk());
+    if claimed.is_none_or(|claimed| u32::from_le_bytes(*claimed) < 12) {
         return Err(broken(path, "the GLB header is cut off"));
-    };
-    if version != 2 {
-        return Err(broken(path, format!("GLB version {version}, expected 2")));
     }
-    let available = bytes.len();
-    let bytes = bytes.get(..length as usize).ok_or_else(|| {
-        let problem = format!("its header claims {length} bytes, the file has {available}");
-        broken(path, problem)
-    })?;
-    let (kind, text, rest) = chunk(bytes, 12).ok_or_else(|| broken(path, "its first chunk is cut off"))?;
-    if kind != *b"JSON" {
-        return Err(broken(path, "its first chunk is not JSON"));
-    }
-    if rest == bytes.len() {
-        return Ok((text, None));
-    }
-    let (kind, binary, _) = chunk(bytes, rest).ok_or_else(|| broken(path, "its second chunk is cut off"))?;
-    Ok((text, (kind == *b"BIN\0").then_some(binary)))
-}
-
-fn word(bytes: &[u8], at: usize) -> Option<u32> {
-    Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
-}
-
-/// Kind and content of the chunk at `at`, and where the next one starts.
-fn chunk(bytes: &[u8], at: usize) -> Option<([u8; 4], &[u8], usize)> {
-    let length = word(bytes, at)? as usize;
-    let kind = *bytes.get(at + 4..)?.first_chunk()?;
-    let end = (at + 8).checked_add(length)?;
-    Some((kind, bytes.get(at + 8..end)?, end))
+    let parts = Glb::from_slice(bytes).map_err(|error| broken(path, error))?;
+    Ok((parts.json, parts.bin))
 }
 
 /// The JSON part, and how many channels of animations are left out of it: those that name no node, as `KHR_animation_pointer` has
@@ -104,18 +83,18 @@ pub(super) fn parse(path: &str, text: &[u8]) -> Result<(json::Root, usize), Scen
 /// All buffers, each cut to the length that the JSON claims.
 pub(super) fn buffers<'a>(
     document: &Document<'a>,
-    binary: Option<&'a [u8]>,
+    binary: Option<Cow<'a, [u8]>>,
 ) -> Result<Vec<Cow<'a, [u8]>>, SceneError> {
     let mut buffers = Vec::new();
     for (index, buffer) in document.root.buffers.iter().enumerate() {
         let element = format!("buffers[{index}]");
-        let bytes = match (&buffer.uri, binary) {
+        let bytes = match (&buffer.uri, &binary) {
             (Some(uri), _) => {
                 let bytes = fetch(document, uri, &element)?;
                 document.load.take(&element, "the buffer", bytes.len() as u64)?;
                 Cow::Owned(bytes)
             }
-            (None, Some(binary)) if index == 0 => Cow::Borrowed(binary),
+            (None, Some(binary)) if index == 0 => binary.clone(),
             // Nothing is there: all its views are compressed.
             (None, _) if document.is_fallback(buffer) => {
                 buffers.push(Cow::Borrowed(&[][..]));

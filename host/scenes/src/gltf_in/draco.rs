@@ -9,6 +9,7 @@ use serde::Deserialize;
 
 use super::super::error::SceneError;
 use super::Document;
+use super::accessor::beyond;
 
 const NAME: &str = "KHR_draco_mesh_compression";
 
@@ -25,6 +26,8 @@ struct Compressed {
 pub(super) struct Unpacked {
     /// Vertex indices, three for each triangle.
     pub indices: Vec<u32>,
+    /// Number of vertices.
+    pub vertices: usize,
     /// By glTF's names: numbers for each vertex, and all of them; or the number of an attribute that is not there.
     attributes: HashMap<String, Result<(usize, Vec<f32>), u32>>,
 }
@@ -78,6 +81,7 @@ impl Document<'_> {
             (name, values)
         };
         Ok(Unpacked {
+            vertices: mesh.num_points(),
             indices: mesh.faces().iter().flatten().map(|point| point.0).collect(),
             attributes: compressed.attributes.into_iter().map(values).collect(),
         })
@@ -85,10 +89,18 @@ impl Document<'_> {
 }
 
 impl Unpacked {
-    /// The values of an attribute, one for each vertex; `None` where the stream has no such attribute.
-    pub(super) fn floats<const N: usize>(&self, name: &str) -> Option<Result<Vec<[f32; N]>, String>> {
+    /// The values of an attribute for these vertices; `None` where the stream has no such attribute.
+    pub(super) fn floats<const N: usize>(
+        &self,
+        name: &str,
+        rows: &[u32],
+    ) -> Option<Result<Vec<[f32; N]>, String>> {
         Some(match self.attributes.get(name)? {
-            Ok((found, values)) if *found == N => Ok(values.as_chunks::<N>().0.to_vec()),
+            Ok((found, values)) if *found == N => {
+                let values = values.as_chunks::<N>().0;
+                let own = |()| rows.iter().map(|&row| values[row as usize]).collect();
+                beyond(Some(rows), values.len()).map(own)
+            }
             Ok((found, _)) => Err(format!("has {found} numbers for each vertex, expected {N}")),
             Err(number) => Err(format!("attribute {number} is not in the stream")),
         })

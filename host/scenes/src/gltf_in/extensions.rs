@@ -7,22 +7,22 @@ use serde_json::{Map, Value};
 use super::super::error::{SceneError, not_compiled};
 use super::Document;
 
-/// Extensions that are read.
-const READ: [&str; 14] = [
-    "EXT_lights_ies",
-    "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",
-    "EXT_texture_webp",
-    "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_mesh_quantization",
-    "KHR_meshopt_compression",
-    "KHR_texture_basisu",
-    "KHR_texture_transform",
+/// Extensions that are read, and whether the feature `formats` is needed for it.
+const READ: [(&str, bool); 14] = [
+    ("EXT_lights_ies", false),
+    ("EXT_mesh_gpu_instancing", false),
+    ("EXT_meshopt_compression", true),
+    ("EXT_texture_webp", true),
+    ("KHR_draco_mesh_compression", true),
+    ("KHR_lights_punctual", false),
+    ("KHR_materials_emissive_strength", false),
+    ("KHR_materials_pbrSpecularGlossiness", false),
+    ("KHR_materials_transmission", false),
+    ("KHR_materials_unlit", false),
+    ("KHR_mesh_quantization", false),
+    ("KHR_meshopt_compression", true),
+    ("KHR_texture_basisu", true),
+    ("KHR_texture_transform", false),
 ];
 
 /// Extensions that only add what a renderer of lights has no use for: a file that requires one is shown nevertheless.
@@ -33,15 +33,6 @@ const HARMLESS: [&str; 4] = [
     "EXT_mesh_features",
 ];
 
-/// Extensions that this program may be compiled without.
-const OPTIONAL: [&str; 5] = [
-    "EXT_meshopt_compression",
-    "EXT_texture_webp",
-    "KHR_draco_mesh_compression",
-    "KHR_meshopt_compression",
-    "KHR_texture_basisu",
-];
-
 /// What refines surfaces; without it they look plainer.
 const LOOK: &str = "KHR_materials_";
 
@@ -50,17 +41,20 @@ impl Document<'_> {
     pub(super) fn check_extensions(&self) -> Result<(), SceneError> {
         for (index, name) in self.root.extensions_required.iter().enumerate() {
             let name = name.as_str();
-            if OPTIONAL.contains(&name) && !cfg!(feature = "formats") {
-                return Err(not_compiled(self.path, name));
-            }
-            if !READ.contains(&name) && !HARMLESS.contains(&name) && !name.starts_with(LOOK) {
-                let advice = "export the file without this extension";
-                let problem = format!("{name} is not supported");
-                return Err(self.malformed(format!("extensionsRequired[{index}]"), problem, advice));
+            match READ.iter().find(|(read, _)| *read == name) {
+                Some((_, true)) if !cfg!(feature = "formats") => return Err(not_compiled(self.path, name)),
+                None if !HARMLESS.contains(&name) && !name.starts_with(LOOK) => {
+                    let (element, problem) = (
+                        format!("extensionsRequired[{index}]"),
+                        format!("{name} is not supported"),
+                    );
+                    return Err(self.malformed(element, problem, "export the file without this extension"));
+                }
+                _ => {}
             }
         }
         for name in &self.root.extensions_used {
-            if !READ.contains(&name.as_str()) {
+            if !READ.iter().any(|(read, _)| read == name) {
                 self.note("", format!("extension {name} is ignored"));
             }
         }
@@ -80,7 +74,7 @@ impl Document<'_> {
         };
         match T::deserialize(value) {
             Ok(extension) => Ok(Some(extension)),
-            Err(error) if self.requires(name) => {
+            Err(error) if self.root.extensions_required.iter().any(|own| own == name) => {
                 let element = format!("{element}.extensions.{name}");
                 Err(self.malformed(element, error.to_string(), "export the file again"))
             }
@@ -89,13 +83,6 @@ impl Document<'_> {
                 Ok(None)
             }
         }
-    }
-
-    pub(super) fn requires(&self, name: &str) -> bool {
-        self.root
-            .extensions_required
-            .iter()
-            .any(|required| required == name)
     }
 
     /// Whether a buffer without data stands in for compressed views.
@@ -114,7 +101,7 @@ mod tests {
     fn documentation_names_every_extension_that_is_read() {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/scenes.md");
         let text = std::fs::read_to_string(path).expect("docs/scenes.md");
-        for name in READ.iter().chain(&HARMLESS) {
+        for name in READ.iter().map(|(name, _)| name).chain(&HARMLESS) {
             assert!(text.contains(&format!("`{name}`")), "{name}");
         }
     }

@@ -2,7 +2,6 @@
 //! black.
 
 use std::collections::HashMap;
-use std::rc::Rc;
 
 use image::RgbaImage;
 
@@ -16,18 +15,18 @@ use super::{Document, container, ktx2};
 #[derive(Default)]
 pub(super) struct Pictures {
     /// By number in the file; `None` where it cannot be had.
-    decoded: HashMap<usize, Option<Rc<RgbaImage>>>,
+    decoded: HashMap<usize, Option<Picture>>,
     /// Means by picture, and whether its channels are colours.
     pub means: HashMap<(usize, bool), [f32; 4]>,
     /// Those that the scene keeps: their numbers in the file.
-    kept: Vec<usize>,
+    kept: Vec<u32>,
     /// What is known of those that glow.
     pub glows: Glows,
 }
 
 impl Pictures {
     /// Keeps a picture; returns its number in the scene.
-    pub(super) fn keep(&mut self, index: usize) -> u32 {
+    pub(super) fn keep(&mut self, index: u32) -> u32 {
         let known = self.kept.iter().position(|&kept| kept == index);
         let number = known.unwrap_or_else(|| {
             self.kept.push(index);
@@ -38,21 +37,22 @@ impl Pictures {
 
     /// What is kept, by number in the scene.
     pub(super) fn into_kept(mut self) -> Vec<Picture> {
-        let pixels = self.kept.iter().filter_map(|index| self.decoded.remove(index)?);
-        pixels.map(pictures::kept).collect()
+        let kept = self.kept.iter();
+        kept.filter_map(|&index| self.decoded.remove(&(index as usize))?)
+            .collect()
     }
 }
 
 impl Document<'_> {
-    /// The pixels of picture `index`, which must be in the list; `None` where they cannot be had, which is noted.
-    pub(super) fn picture(&self, index: usize) -> Result<Option<Rc<RgbaImage>>, SceneError> {
+    /// Picture `index`, which must be in the list; `None` where it cannot be had, which is noted.
+    pub(super) fn picture(&self, index: usize) -> Result<Option<Picture>, SceneError> {
         if let Some(known) = self.pictures.borrow().decoded.get(&index) {
             return Ok(known.clone());
         }
         let (image, name) = (&self.root.images[index], format!("images[{index}]"));
         let encoded = container::uri_or_view(self, image.uri.as_deref(), image.buffer_view, &name);
-        let pixels = match encoded.and_then(|bytes| self.decode(&name, &bytes)) {
-            Ok(pixels) => Some(Rc::new(pixels)),
+        let picture = match encoded.and_then(|bytes| self.decode(&name, &bytes)) {
+            Ok(pixels) => Some(Picture::from(pixels)),
             Err(error) if error.ends_the_load() => return Err(error),
             Err(error) => {
                 let what = format!(
@@ -62,8 +62,8 @@ impl Document<'_> {
                 None
             }
         };
-        self.pictures.borrow_mut().decoded.insert(index, pixels.clone());
-        Ok(pixels)
+        self.pictures.borrow_mut().decoded.insert(index, picture.clone());
+        Ok(picture)
     }
 
     fn decode(&self, name: &str, bytes: &[u8]) -> Result<RgbaImage, SceneError> {
@@ -72,7 +72,7 @@ impl Document<'_> {
             self.load.check(name, "a picture, decoded,", header.bytes())?;
             header.decode(name, bytes)?
         } else {
-            pictures::decode(self.load, name, bytes, None)?.into_rgba8()
+            pictures::decode_surface(self.load, name, bytes, None)?
         };
         self.load.take(name, "a picture", pixels.as_raw().len() as u64)?;
         Ok(pixels)

@@ -29,22 +29,16 @@ pub(super) fn places(
     let Some(Instancing { attributes }) = found else {
         return Ok(None);
     };
-    let is_lit = ["KHR_lights_punctual", super::IES].map(|name| others.contains_key(name));
-    if is_lit.contains(&true) || node.camera.is_some() {
-        let what =
-            "EXT_mesh_gpu_instancing repeats its mesh alone; its light or camera stands once, at the node";
-        document.note(element, what);
-    }
     let element = format!("{element}.extensions.EXT_mesh_gpu_instancing");
     let index = |name: &str| attributes.get(name).map(|&index| json::Index::new(index));
     let vectors = |name: &str| -> Result<Option<Vec<[f32; 3]>>, SceneError> {
         index(name)
-            .map(|index| document.floats::<3>(index, &element))
+            .map(|index| document.floats::<3>(index, &element, None))
             .transpose()
     };
     let (translations, scales) = (vectors("TRANSLATION")?, vectors("SCALE")?);
     let rotations = index("ROTATION")
-        .map(|index| document.floats::<4>(index, &element))
+        .map(|index| document.floats::<4>(index, &element, None))
         .transpose()?;
     let counts = [
         translations.as_ref().map(Vec::len),

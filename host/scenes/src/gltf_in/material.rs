@@ -6,8 +6,6 @@ use gltf::json;
 use gltf::json::material::AlphaMode;
 use gltf::json::texture::Info;
 use gltf::json::validation::Checked::{Invalid, Valid};
-use serde::Deserialize;
-use serde_json::{Map, Value};
 
 use super::super::error::SceneError;
 use super::super::glow::Glow;
@@ -26,34 +24,6 @@ pub(super) struct Look {
     pub set: u32,
 }
 
-/// `KHR_materials_transmission`.
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct Transmission {
-    #[serde(default)]
-    transmission_factor: f32,
-    transmission_texture: Option<Info>,
-}
-
-/// `KHR_materials_pbrSpecularGlossiness`, which came before metal and roughness.
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct Glossiness {
-    #[serde(default = "ones")]
-    diffuse_factor: [f32; 4],
-    diffuse_texture: Option<Info>,
-    #[serde(default = "one")]
-    glossiness_factor: f32,
-}
-
-fn ones() -> [f32; 4] {
-    [1.0; 4]
-}
-
-fn one() -> f32 {
-    1.0
-}
-
 /// All materials.
 pub(super) fn read(document: &Document<'_>) -> Result<Vec<Look>, SceneError> {
     let materials = document.root.materials.iter().enumerate();
@@ -63,13 +33,11 @@ pub(super) fn read(document: &Document<'_>) -> Result<Vec<Look>, SceneError> {
 }
 
 fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Result<Look, SceneError> {
-    let none = Map::new();
-    let extensions = material.extensions.as_ref();
-    let others = extensions.map_or(&none, |extensions| &extensions.others);
+    let none = json::extensions::material::Material::default();
+    let extensions = material.extensions.as_ref().unwrap_or(&none);
     let pbr = &material.pbr_metallic_roughness;
-    let strength = extensions
-        .and_then(|extensions| extensions.emissive_strength.as_ref())
-        .map_or(1.0, |extension| extension.emissive_strength.0);
+    let strength = extensions.emissive_strength.as_ref();
+    let strength = strength.map_or(1.0, |extension| extension.emissive_strength.0);
     let mut out = Material {
         name: material.name.clone().unwrap_or_default(),
         radiance: material.emissive_factor.0.map(|channel| channel * strength),
@@ -79,12 +47,11 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
         ..Material::default()
     };
     let (mut factor, mut texture) = (pbr.base_color_factor.0, pbr.base_color_texture.as_ref());
-    let glossiness: Option<Glossiness> =
-        document.extension(others, "KHR_materials_pbrSpecularGlossiness", element)?;
+    let glossiness = extensions.pbr_specular_glossiness.as_ref();
     let mut rough = pbr.metallic_roughness_texture.as_ref();
-    if let Some(glossiness) = &glossiness {
-        (factor, texture) = (glossiness.diffuse_factor, glossiness.diffuse_texture.as_ref());
-        (out.metallic, out.roughness) = (0.0, 1.0 - glossiness.glossiness_factor);
+    if let Some(glossiness) = glossiness {
+        (factor, texture) = (glossiness.diffuse_factor.0, glossiness.diffuse_texture.as_ref());
+        (out.metallic, out.roughness) = (0.0, 1.0 - glossiness.glossiness_factor.0);
         rough = None;
     } else if rough.is_some() {
         // A textured metallic factor of 1 (the default) says nothing about the surface; most of such surfaces are not
@@ -130,7 +97,7 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
         ..Paint::PLAIN
     };
     let mut glow = material.emissive_texture.as_ref();
-    let is_unlit = others.contains_key("KHR_materials_unlit");
+    let is_unlit = extensions.unlit.is_some();
     if is_unlit {
         // It shows its colour whatever light falls on it: what glows so, and reflects nothing.
         glow = pbr.base_color_texture.as_ref().filter(|_| glossiness.is_none());
@@ -141,14 +108,16 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
         let shown = 1.0 - out.transmission;
         out.radiance = own.map(|channel| channel * shown);
         (out.base_color, out.metallic) = ([0.0; 3], 1.0);
-        document.note(
-            element,
-            "it is unlit: its colour is emitted, and lights what is near",
-        );
     } else {
         out.base_color = [r, g, b];
     }
-    paint.transmission = transmission(document, others, element)?;
+    if let Some(glass) = &extensions.transmission {
+        let mean = match &glass.transmission_texture {
+            Some(info) => document.mean(info, element, false)?,
+            None => None,
+        };
+        paint.transmission = glass.transmission_factor.0 * mean.map_or(1.0, |mean| mean[0]);
+    }
     out.transmission = out.transmission.max(paint.transmission);
     let mut set = None;
     let mut lie = |placed: Option<Placed>, what: &str, is_color: bool| {
@@ -163,14 +132,7 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
         (own == set).then(|| placed.shown(document, is_color))
     };
     let of = |info: Option<&Info>| match info {
-        Some(info) => {
-            let named = Named {
-                index: info.index,
-                set: info.tex_coord,
-                others: info.extensions.as_ref().map(|extensions| &extensions.others),
-            };
-            document.placed(&named, element)
-        }
+        Some(info) => document.placed(&Named::from(info), element),
         None => Ok(None),
     };
     paint.base_texture = lie(of(texture)?, "base colour", true);
@@ -179,7 +141,10 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
         let named = Named {
             index: normal.index,
             set: normal.tex_coord,
-            others: normal.extensions.as_ref().map(|extensions| &extensions.others),
+            transform: match &normal.extensions {
+                Some(own) => document.extension(&own.others, "KHR_texture_transform", element)?,
+                None => None,
+            },
         };
         paint.bump_texture = lie(document.placed(&named, element)?, "normal", false);
         paint.bump = paint.bump_texture.map_or(0.0, |_| normal.scale);
@@ -187,7 +152,10 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
     // Nothing glows, whatever the texture shows.
     let is_named = glow.is_some();
     let glow = of(glow.filter(|_| paint.radiance != [0.0; 3]))?;
-    let own_glow = glow.as_ref().map(|own| (Rc::new(own.glow(document)), own.set));
+    let own_glow = match &glow {
+        Some(own) => Some((Rc::new(own.glow(document)?), own.set)),
+        None => None,
+    };
     if is_named && own_glow.is_none() && !is_unlit {
         // What is known to glow somewhere is not taken to glow everywhere; unlit surfaces have a colour in any case.
         (out.radiance, paint.radiance) = ([0.0; 3], [0.0; 3]);
@@ -211,19 +179,4 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
         glow: own_glow,
         set: set.unwrap_or(0),
     })
-}
-
-/// The mean share of light that goes through.
-fn transmission(
-    document: &Document<'_>,
-    others: &Map<String, Value>,
-    element: &str,
-) -> Result<f32, SceneError> {
-    let found: Option<Transmission> = document.extension(others, "KHR_materials_transmission", element)?;
-    let Some(found) = found else { return Ok(0.0) };
-    let mean = match &found.transmission_texture {
-        Some(info) => document.mean(info, element, false)?,
-        None => None,
-    };
-    Ok(found.transmission_factor * mean.map_or(1.0, |mean| mean[0]))
 }

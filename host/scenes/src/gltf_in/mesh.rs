@@ -1,35 +1,25 @@
 //! Meshes: indexed triangles.
 
 use std::collections::HashMap;
-use std::rc::Rc;
 
 use gltf::json;
 use gltf::json::mesh::{Mode, Semantic};
 use gltf::json::validation::Checked;
 
-use super::super::check::MAX_TRIANGLES;
-use super::super::error::{SceneError, malformed};
+use super::super::error::SceneError;
 use super::super::model::{Mesh, Primitive};
 use super::attributes::Attributes;
 use super::material::Look;
 use super::{DAMAGED, Document, RADIANCE_ATTRIBUTE, bend};
 
-/// Decoded data that neighbouring primitives often share.
-#[derive(Default)]
-struct Shared {
-    positions: Option<(usize, Rc<Vec<[f32; 3]>>)>,
-    triangles: u64,
-}
-
 /// All meshes. Primitives without a material get one that is appended to `looks`.
 pub(super) fn read(document: &Document<'_>, looks: &mut Vec<Look>) -> Result<Vec<Mesh>, SceneError> {
-    let mut shared = Shared::default();
     let mut meshes = Vec::new();
     for (m, mesh) in document.root.meshes.iter().enumerate() {
         let mut primitives = Vec::new();
         for (p, primitive) in mesh.primitives.iter().enumerate() {
             let element = format!("meshes[{m}].primitives[{p}]");
-            primitives.extend(one(document, primitive, &element, looks, &mut shared)?);
+            primitives.extend(one(document, primitive, &element, looks)?);
         }
         meshes.push(Mesh {
             name: mesh.name.clone().unwrap_or_default(),
@@ -45,7 +35,6 @@ fn one(
     primitive: &json::mesh::Primitive,
     element: &str,
     looks: &mut Vec<Look>,
-    shared: &mut Shared,
 ) -> Result<Option<Primitive>, SceneError> {
     let Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) = primitive.mode
     else {
@@ -66,56 +55,30 @@ fn one(
         }
     };
     let attributes = Attributes::new(document, primitive, element)?;
-    if attributes.accessor(Semantic::Positions).is_none() {
+    let Some(index) = attributes.accessor(Semantic::Positions) else {
         // glTF 2.0, section 3.7.2.1: renderers skip what has no positions.
         document.note(element, "it has no positions, and is left out");
         return Ok(None);
-    }
+    };
     if attributes.accessor(Semantic::Colors(0)).is_some() {
         document.note(element, "its vertex colours are left out");
     }
-    let positions = positions(&attributes, shared)?;
-    let triangles = triangles(document, &attributes, (primitive, mode), positions.len())?;
-    shared.triangles += triangles.len() as u64;
-    if shared.triangles > MAX_TRIANGLES {
-        let problem = format!(
-            "has {} triangles, more than the {MAX_TRIANGLES} that fit",
-            shared.triangles
-        );
-        return Err(malformed(document.path, problem, "split the scene"));
-    }
-    let coordinates = coordinates(document, &attributes, &looks[material], positions.len())?;
-    let radiance = radiance(document, &attributes, &looks[material], &triangles)?;
-    let targets = bend::targets(document, primitive, positions.len(), element)?;
-    let influences = bend::influences(document, &attributes, positions.len())?;
-    let (kept, triangles) = compact(positions.len(), triangles);
-    let kept = kept.as_deref();
+    let vertices = match &attributes.draco {
+        Some(draco) => draco.vertices,
+        None => document.count(index, element)?,
+    };
+    let mut triangles = triangles(document, &attributes, (primitive, mode), vertices)?;
+    let rows = &compact(&mut triangles);
+    let look = &looks[material];
     Ok(Some(Primitive {
-        positions: pick(&positions, kept),
-        triangles,
+        positions: attributes.floats(Semantic::Positions, rows)?.unwrap_or_default(),
         material: material as u32,
-        radiance,
-        coordinates: coordinates.map(|all| pick(&all, kept)),
-        targets: targets.iter().map(|target| pick(target, kept)).collect(),
-        influences: influences.iter().map(|set| pick(set, kept)).collect(),
+        radiance: radiance(document, &attributes, look, &triangles, rows)?,
+        coordinates: coordinates(document, &attributes, look, rows)?,
+        targets: bend::targets(document, primitive, rows, element)?,
+        influences: bend::influences(document, &attributes, rows)?,
+        triangles,
     }))
-}
-
-fn positions(attributes: &Attributes<'_, '_>, shared: &mut Shared) -> Result<Rc<Vec<[f32; 3]>>, SceneError> {
-    let index = attributes
-        .accessor(Semantic::Positions)
-        .map(|index| index.value());
-    match &shared.positions {
-        Some((of, positions)) if Some(*of) == index && attributes.draco.is_none() => {
-            return Ok(Rc::clone(positions));
-        }
-        _ => {}
-    }
-    let positions = Rc::new(attributes.floats::<3>(Semantic::Positions)?.unwrap_or_default());
-    if attributes.draco.is_none() {
-        shared.positions = index.map(|index| (index, Rc::clone(&positions)));
-    }
-    Ok(positions)
 }
 
 /// Where the vertices lie on the textures of a material; `None` where it has none, or the primitive does not say.
@@ -123,25 +86,19 @@ fn coordinates(
     document: &Document<'_>,
     attributes: &Attributes<'_, '_>,
     look: &Look,
-    vertices: usize,
+    rows: &[u32],
 ) -> Result<Option<Vec<[f32; 2]>>, SceneError> {
     let paint = look.material.paint.as_ref();
     if paint.is_none_or(|paint| paint.textures().next().is_none()) {
         return Ok(None);
     }
     let (element, set) = (attributes.element, look.set);
-    let Some(mut values) = attributes.floats::<2>(Semantic::TexCoords(set))? else {
+    let values = attributes.floats::<2>(Semantic::TexCoords(set), rows)?;
+    if values.is_none() {
         let what = format!("its textures are replaced by their means, as TEXCOORD_{set} is missing");
         document.note(element, what);
-        return Ok(None);
-    };
-    // What is missing, or no number, lies at the origin.
-    if values.len() < vertices {
-        let what = format!("TEXCOORD_{set} has fewer entries than POSITION, and what is missing counts as 0");
-        document.note(element, what);
     }
-    values.resize(vertices, [0.0; 2]);
-    Ok(Some(values))
+    Ok(values)
 }
 
 /// Radiance of each triangle where a texture or an attribute makes them differ; `None` where the material's holds for all of them.
@@ -150,21 +107,10 @@ fn radiance(
     attributes: &Attributes<'_, '_>,
     look: &Look,
     triangles: &[[u32; 3]],
+    rows: &[u32],
 ) -> Result<Option<Vec<[f32; 3]>>, SceneError> {
-    let element = attributes.element;
-    let check = |count: usize| {
-        let problem = || format!("has an attribute of {count} elements, fewer than its positions");
-        match triangles
-            .as_flattened()
-            .iter()
-            .any(|&vertex| vertex as usize >= count)
-        {
-            true => Err(document.malformed(element, problem(), DAMAGED)),
-            false => Ok(()),
-        }
-    };
-    if let Some(values) = attributes.floats::<3>(Semantic::Extras(RADIANCE_ATTRIBUTE.to_owned()))? {
-        check(values.len())?;
+    let own = Semantic::Extras(RADIANCE_ATTRIBUTE.to_owned());
+    if let Some(values) = attributes.floats::<3>(own, rows)? {
         let first = |&[a, _, _]: &[u32; 3]| values[a as usize];
         return Ok(Some(triangles.iter().map(first).collect()));
     }
@@ -172,12 +118,11 @@ fn radiance(
     let Some((glow, set)) = look.glow.as_ref().filter(|_| factor != [0.0; 3]) else {
         return Ok(None);
     };
-    let Some(coordinates) = attributes.floats::<2>(Semantic::TexCoords(*set))? else {
+    let Some(coordinates) = attributes.floats::<2>(Semantic::TexCoords(*set), rows)? else {
         let what = format!("its emissive texture is ignored, as TEXCOORD_{set} is missing");
-        document.note(element, what);
+        document.note(attributes.element, what);
         return Ok(None);
     };
-    check(coordinates.len())?;
     Ok(Some(glow.radiance(triangles, &coordinates, factor)))
 }
 
@@ -217,14 +162,9 @@ fn triangles(
     })
 }
 
-/// Which vertices are kept, in their new order: those in use, where most are not, as when many primitives share one list.
-/// `None` keeps all of them.
-fn compact(vertices: usize, mut triangles: Vec<[u32; 3]>) -> (Option<Vec<u32>>, Vec<[u32; 3]>) {
-    if vertices <= 3 * triangles.len() {
-        return (None, triangles);
-    }
-    let mut place = HashMap::new();
-    let mut used = Vec::new();
+/// The vertices in use, in the order that triangles then name them in: many primitives may share one list.
+fn compact(triangles: &mut [[u32; 3]]) -> Vec<u32> {
+    let (mut place, mut used) = (HashMap::new(), Vec::new());
     for vertex in triangles.as_flattened_mut() {
         let old = *vertex;
         *vertex = *place.entry(old).or_insert_with(|| {
@@ -232,13 +172,5 @@ fn compact(vertices: usize, mut triangles: Vec<[u32; 3]>) -> (Option<Vec<u32>>, 
             used.len() as u32 - 1
         });
     }
-    (Some(used), triangles)
-}
-
-/// The values of the vertices that are kept; none where there are none.
-fn pick<T: Copy>(values: &[T], kept: Option<&[u32]>) -> Vec<T> {
-    match kept.filter(|_| !values.is_empty()) {
-        None => values.to_vec(),
-        Some(kept) => kept.iter().map(|&vertex| values[vertex as usize]).collect(),
-    }
+    used
 }

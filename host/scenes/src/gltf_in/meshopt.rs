@@ -24,28 +24,9 @@ struct Compressed {
     byte_length: u64,
     byte_stride: u64,
     count: u64,
-    mode: Mode,
+    mode: String,
     #[serde(default)]
-    filter: Filter,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "UPPERCASE")]
-enum Mode {
-    Attributes,
-    Triangles,
-    Indices,
-}
-
-#[derive(Clone, Copy, Default, Deserialize)]
-#[serde(rename_all = "UPPERCASE")]
-enum Filter {
-    #[default]
-    None,
-    Octahedral,
-    Quaternion,
-    Exponential,
-    Color,
+    filter: String,
 }
 
 impl Document<'_> {
@@ -93,7 +74,7 @@ impl Document<'_> {
 }
 
 #[cfg(feature = "formats")]
-fn decode(view: &Compressed, source: &[u8]) -> Result<Vec<u8>, meshoptimizer_rs::Error> {
+fn decode(view: &Compressed, source: &[u8]) -> Result<Vec<u8>, String> {
     use meshoptimizer_rs::codec::{
         decode_filter_color, decode_filter_exp, decode_filter_oct, decode_filter_quat, decode_index_buffer,
         decode_index_sequence, decode_vertex_buffer,
@@ -104,17 +85,21 @@ fn decode(view: &Compressed, source: &[u8]) -> Result<Vec<u8>, meshoptimizer_rs:
         max_bytes: count.saturating_mul(stride),
         ..Limits::default()
     });
-    let mut bytes = match view.mode {
-        Mode::Attributes => decode_vertex_buffer(count, stride, source, workspace)?,
-        Mode::Triangles => decode_index_buffer(count, stride, source, workspace)?,
-        Mode::Indices => decode_index_sequence(count, stride, source, workspace)?,
+    let decoded = match view.mode.as_str() {
+        "ATTRIBUTES" => decode_vertex_buffer(count, stride, source, workspace),
+        "TRIANGLES" => decode_index_buffer(count, stride, source, workspace),
+        "INDICES" => decode_index_sequence(count, stride, source, workspace),
+        mode => return Err(format!("mode `{mode}` is not known")),
     };
-    match view.filter {
-        Filter::None => {}
-        Filter::Octahedral => decode_filter_oct(&mut bytes, count, stride, workspace)?,
-        Filter::Quaternion => decode_filter_quat(&mut bytes, count, stride, workspace)?,
-        Filter::Exponential => decode_filter_exp(&mut bytes, count, stride, workspace)?,
-        Filter::Color => decode_filter_color(&mut bytes, count, stride, workspace)?,
-    }
+    let mut bytes = decoded.map_err(|error| error.to_string())?;
+    let filtered = match view.filter.as_str() {
+        "" | "NONE" => Ok(()),
+        "OCTAHEDRAL" => decode_filter_oct(&mut bytes, count, stride, workspace),
+        "QUATERNION" => decode_filter_quat(&mut bytes, count, stride, workspace),
+        "EXPONENTIAL" => decode_filter_exp(&mut bytes, count, stride, workspace),
+        "COLOR" => decode_filter_color(&mut bytes, count, stride, workspace),
+        filter => return Err(format!("filter `{filter}` is not known")),
+    };
+    filtered.map_err(|error| error.to_string())?;
     Ok(bytes)
 }

@@ -1,7 +1,7 @@
 //! glTF 2.0 in: `.gltf` with external or embedded buffers, and `.glb`.
 //!
-//! The `gltf` crate gives the JSON model only. Its own readers index buffers by numbers from the file and panic on
-//! hostile ones, so buffers are read here, every range checked before it is used and every count before anything is
+//! The `gltf` crate gives the JSON model and the parts of `.glb`. Its other readers index buffers by numbers from the file and
+//! panic on hostile ones, so buffers are read here, every range checked before it is used and every count before anything is
 //! allocated for it.
 //!
 //! Read:
@@ -20,7 +20,7 @@
 //!   ([`super::Material::is_clear`]);
 //! - `KHR_materials_unlit`: the colour is emitted, so that it is seen as it is, and nothing is reflected. It lights what is near;
 //! - `EXT_lights_ies`: photometric files (ANSI/IES LM-63, types A, B and C) become lights of the tree with a profile.
-//! - `KHR_lights_punctual`: points and spots are lights of the tree, suns stand beside it. Ranges are not applied, which is said.
+//! - `KHR_lights_punctual`: points and spots are lights of the tree, suns stand next to it.
 //!
 //! Radiance is taken as W/(m² sr) where glTF says nits; only the exposure differs. The rest is left out with a note in
 //! [`super::SceneData::warnings`], or refused by name where the file says that it is required; of required extensions that only
@@ -52,8 +52,9 @@ use gltf::json;
 
 use super::error::{SceneError, malformed};
 use super::files::{Limits, Load};
-use super::model::{Scene, SceneData};
+use super::model::SceneData;
 use super::notes::Notes;
+use super::scene::Scene;
 
 /// Attribute of vertices, without the underscore: radiance of the triangle that the vertex belongs to. Written by
 /// [`super::glb_out`] for emission that differs from triangle to triangle; glTF leaves names with `_` to applications.
@@ -80,7 +81,7 @@ impl Scene {
 
     pub(super) fn read_gltf(name: &str, bytes: &[u8], load: &Load) -> Result<Self, SceneError> {
         let (text, binary) = container::split(name, bytes)?;
-        let (root, pointers) = container::parse(name, text)?;
+        let (root, pointers) = container::parse(name, &text)?;
         let mut document = Document {
             path: name,
             load,
@@ -105,7 +106,7 @@ impl Scene {
         data.materials = looks.into_iter().map(|look| look.material).collect();
         let order = node::read(&document, &mut data)?;
         bend::skins(&document, &order, &mut data)?;
-        light::punctual(&document, &order, &mut data)?;
+        light::punctual(&document, &order, &mut data);
         light::measured(&document, &order, &mut data)?;
         (data.animations, data.idle) = animation::read(&document, &order)?;
         data.pictures = document.pictures.take().into_kept();

@@ -12,60 +12,39 @@ use super::bend::columns;
 use super::{BACKGROUND_EXTRA, Document, instancing};
 
 /// Fills nodes, cameras and background; gives the place of each of the file's nodes, `None` where the scene does not
-/// use it.
+/// use it. Lowest index first among nodes whose parent is placed: files that are in order keep their order.
 pub(super) fn read(document: &Document<'_>, data: &mut SceneData) -> Result<Vec<Option<u32>>, SceneError> {
     let nodes = &document.root.nodes;
     let parents = parents(document)?;
-    let [roots, listed] = roots(document, &parents, data)?;
-    let mut placing = Placing {
-        document,
-        parents: &parents,
-        place: vec![None; nodes.len()],
-        cameras: Vec::new(),
-    };
-    placing.tree(roots, data)?;
-    // Some exporters list nodes that have a parent. Where the parent is in the scene they stay its children, else they are roots.
-    for node in listed {
-        let what = "is listed, but has a parent: it stays with it where that is in the scene";
-        document.note(&format!("scene.nodes: node {node}"), what);
-        placing.tree(vec![node], data)?;
+    let listed = listed(document, &parents, data)?;
+    let children = |node: usize| nodes[node].children.iter().flatten().map(|child| child.value());
+    let (mut used, mut next) = (vec![false; nodes.len()], listed.clone());
+    while let Some(node) = next.pop() {
+        if !std::mem::replace(&mut used[node], true) {
+            next.extend(children(node));
+        }
     }
-    let Placing {
-        place, mut cameras, ..
-    } = placing;
+    // Some exporters list nodes that have a parent. If the parent is in the scene they stay its children.
+    let is_root = |node: &usize| parents[*node].is_none_or(|parent| !used[parent]);
+    let roots = listed.iter().copied().filter(is_root);
+    let mut ready: BinaryHeap<Reverse<usize>> = roots.map(Reverse).collect();
+    let (mut place, mut cameras) = (vec![None; nodes.len()], Vec::new());
+    while let Some(Reverse(node)) = ready.pop() {
+        if place[node].is_none() {
+            place[node] = Some(data.nodes.len() as u32);
+            let parent = parents[node].and_then(|parent| place[parent]);
+            add(document, node, parent, data, &mut cameras)?;
+            ready.extend(children(node).map(Reverse));
+        }
+    }
+    if let Some(node) = listed.iter().find(|&&node| place[node].is_none()) {
+        let problem = format!("node {node} is below itself");
+        return Err(document.malformed("scene.nodes", problem, "give each node one parent"));
+    }
     // The file's first camera is the one to see from, wherever its node stands.
     cameras.sort_by_key(|&(index, _)| index);
     data.cameras = cameras.into_iter().map(|(_, camera)| camera).collect();
     Ok(place)
-}
-
-/// Nodes on their way into the scene.
-struct Placing<'d, 'a> {
-    document: &'d Document<'a>,
-    parents: &'d [Option<usize>],
-    /// Where each of the file's nodes went.
-    place: Vec<Option<u32>>,
-    /// With their index in the file.
-    cameras: Vec<(usize, Camera)>,
-}
-
-impl Placing<'_, '_> {
-    /// Places nodes and all below them that are not placed yet: lowest index first among those whose parent is placed, so that
-    /// files that are in order keep their order.
-    fn tree(&mut self, roots: Vec<usize>, data: &mut SceneData) -> Result<(), SceneError> {
-        let mut ready: BinaryHeap<Reverse<usize>> = roots.into_iter().map(Reverse).collect();
-        while let Some(Reverse(index)) = ready.pop() {
-            if self.place[index].is_some() {
-                continue;
-            }
-            self.place[index] = Some(data.nodes.len() as u32);
-            let parent = self.parents[index].and_then(|parent| self.place[parent]);
-            add(self.document, index, parent, data, &mut self.cameras)?;
-            let children = self.document.root.nodes[index].children.iter().flatten();
-            ready.extend(children.map(|child| Reverse(child.value())));
-        }
-        Ok(())
-    }
 }
 
 /// The parent of each node; refuses nodes with two (glTF 2.0, section 3.5.1: node hierarchies are trees).
@@ -85,32 +64,25 @@ fn parents(document: &Document<'_>) -> Result<Vec<Option<usize>>, SceneError> {
     Ok(parents)
 }
 
-/// Roots of the default scene, or all roots where the file has no scene; and children that it lists.
-fn roots(
+/// The nodes that the default scene lists, or all without a parent where the file has no scene.
+fn listed(
     document: &Document<'_>,
     parents: &[Option<usize>],
     data: &mut SceneData,
-) -> Result<[Vec<usize>; 2], SceneError> {
+) -> Result<Vec<usize>, SceneError> {
     let scene = match document.root.scene {
         Some(index) => Some(document.get(&document.root.scenes, index, "scene", "scene")?),
         None => document.root.scenes.first(),
     };
     let Some(scene) = scene else {
-        let roots = (0..parents.len()).filter(|&node| parents[node].is_none());
-        return Ok([roots.collect(), Vec::new()]);
+        return Ok((0..parents.len())
+            .filter(|&node| parents[node].is_none())
+            .collect());
     };
     data.background = background(document, scene)?;
-    let (mut roots, mut listed) = (Vec::new(), Vec::new());
-    for &node in &scene.nodes {
-        document.get(&document.root.nodes, node, "node", "scene.nodes")?;
-        let list = if parents[node.value()].is_some() {
-            &mut listed
-        } else {
-            &mut roots
-        };
-        list.push(node.value());
-    }
-    Ok([roots, listed])
+    let check = |&node| document.get(&document.root.nodes, node, "node", "scene.nodes");
+    scene.nodes.iter().try_for_each(|node| check(node).map(|_| ()))?;
+    Ok(scene.nodes.iter().map(|node| node.value()).collect())
 }
 
 /// Appends a node; its camera goes to `cameras`, with the camera's index in the file.
@@ -136,15 +108,9 @@ fn add(
     let weights = node.weights.clone().or(of_mesh).unwrap_or_default();
     if let Some(index) = node.camera {
         let camera = document.get(&document.root.cameras, index, "camera", &element)?;
-        let index = index.value();
-        match &camera.perspective {
-            Some(perspective) => {
-                let place = Camera {
-                    node: data.nodes.len() as u32,
-                    yfov: perspective.yfov,
-                };
-                cameras.push((index, place));
-            }
+        let node = data.nodes.len() as u32;
+        match camera.perspective.as_ref().map(|own| own.yfov) {
+            Some(yfov) => cameras.push((index.value(), Camera { node, yfov })),
             None => document.note(&element, "its camera is not perspective and is ignored"),
         }
     }
@@ -154,24 +120,32 @@ fn add(
         Some(_) => instancing::places(document, node, &element)?,
         None => None,
     };
-    data.nodes.push(Node {
-        name: name.clone(),
+    let is_repeated = instances.is_some();
+    let node = Node {
+        name,
         parent,
         transform: transform(node),
-        mesh: mesh.filter(|_| instances.is_none()),
+        mesh,
         skin,
-        weights: weights.clone(),
-    });
-    for (i, transform) in instances.into_iter().flatten().enumerate() {
-        data.nodes.push(Node {
-            name: format!("{name} {i}"),
+        weights,
+    };
+    let repeated = instances
+        .into_iter()
+        .flatten()
+        .enumerate()
+        .map(|(i, transform)| Node {
+            name: format!("{} {i}", node.name),
             parent: Some(own),
             transform,
-            mesh,
             skin: None,
-            weights: weights.clone(),
+            ..node.clone()
         });
-    }
+    let repeated: Vec<Node> = repeated.collect();
+    data.nodes.push(Node {
+        mesh: mesh.filter(|_| !is_repeated),
+        ..node
+    });
+    data.nodes.extend(repeated);
     Ok(())
 }
 

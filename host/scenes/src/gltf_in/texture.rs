@@ -1,36 +1,40 @@
 //! Textures: a picture with its wrapping and its place on the surface, and means.
 
-use std::rc::Rc;
-
 use gltf::json;
+use gltf::json::extensions::texture::TextureTransform;
 use gltf::json::texture::{Info, MagFilter, WrappingMode};
 use gltf::json::validation::Checked::Valid;
-use image::RgbaImage;
 use serde::Deserialize;
-use serde_json::{Map, Value};
 
 use super::super::error::SceneError;
 use super::super::glow::Glow;
-use super::super::paint::{Texture, Wrap};
+use super::super::paint::{IN_PLACE, Picture, Texture, Wrap};
 use super::super::pictures::mean_of;
 use super::Document;
 
 /// A texture as a material names it.
-pub(super) struct Named<'a> {
+pub(super) struct Named {
     pub index: json::Index<json::Texture>,
     pub set: u32,
-    pub others: Option<&'a Map<String, Value>>,
+    pub transform: Option<TextureTransform>,
 }
 
-/// A texture with its picture, and where it lies.
+impl From<&Info> for Named {
+    fn from(info: &Info) -> Self {
+        let extensions = info.extensions.as_ref();
+        Self {
+            index: info.index,
+            set: info.tex_coord,
+            transform: extensions.and_then(|own| own.texture_transform.clone()),
+        }
+    }
+}
+
+/// A texture with its picture, and which set of coordinates it lies by.
 pub(super) struct Placed {
-    /// The picture's number in the file.
-    picture: usize,
-    pixels: Rc<RgbaImage>,
-    wrap: [Wrap; 2],
-    is_nearest: bool,
-    transform: [[f32; 2]; 3],
-    /// Which set of coordinates.
+    /// With the number of its picture in the file.
+    texture: Texture,
+    picture: Picture,
     pub set: u32,
 }
 
@@ -38,50 +42,24 @@ impl Placed {
     /// As the renderer shows it; the scene keeps its picture.
     pub(super) fn shown(&self, document: &Document<'_>, is_color: bool) -> Texture {
         Texture {
-            picture: document.pictures.borrow_mut().keep(self.picture),
+            picture: document.pictures.borrow_mut().keep(self.texture.picture),
             is_color,
-            is_nearest: self.is_nearest,
-            wrap: self.wrap,
-            transform: self.transform,
+            ..self.texture
         }
     }
 
-    pub(super) fn glow(&self, document: &Document<'_>) -> Glow {
-        let picture = (self.picture, Rc::clone(&self.pixels));
+    pub(super) fn glow(&self, document: &Document<'_>) -> Result<Glow, SceneError> {
         let glows = &document.pictures.borrow().glows;
-        Glow::new(picture, self.wrap, self.is_nearest, self.transform, glows)
+        Glow::new(document.load, glows, self.texture, &self.picture)
     }
 }
 
-/// `KHR_texture_transform`: scaled, then turned, then moved.
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase", default)]
-struct Transform {
-    offset: [f32; 2],
-    rotation: f32,
-    scale: [f32; 2],
-    tex_coord: Option<u32>,
-}
-
-impl Transform {
-    /// The effect of each coordinate, and where the origin goes. A rotation is against the clock as seen: the second axis
-    /// points down.
-    fn columns(&self) -> [[f32; 2]; 3] {
-        let angle = f64::from(self.rotation);
-        let (sine, cosine, [x, y]) = (libm::sin(angle) as f32, libm::cos(angle) as f32, self.scale);
-        [[cosine * x, -sine * x], [sine * y, cosine * y], self.offset]
-    }
-}
-
-impl Default for Transform {
-    fn default() -> Self {
-        Self {
-            offset: [0.0; 2],
-            rotation: 0.0,
-            scale: [1.0; 2],
-            tex_coord: None,
-        }
-    }
+/// `KHR_texture_transform`: scaled, then turned, then moved. A rotation is against the clock as seen: the second axis points
+/// down.
+fn columns(given: &TextureTransform) -> [[f32; 2]; 3] {
+    let angle = f64::from(given.rotation.0);
+    let (sine, cosine, [x, y]) = (libm::sin(angle) as f32, libm::cos(angle) as f32, given.scale.0);
+    [[cosine * x, -sine * x], [sine * y, cosine * y], given.offset.0]
 }
 
 /// Another picture of a texture.
@@ -95,8 +73,8 @@ const SOURCES: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 
 impl Document<'_> {
     /// The texture that a material names; `None` where its picture cannot be had, which is noted.
-    pub(super) fn placed(&self, named: &Named<'_>, element: &str) -> Result<Option<Placed>, SceneError> {
-        let Some((picture, pixels)) = self.pixels_of(named.index, element)? else {
+    pub(super) fn placed(&self, named: &Named, element: &str) -> Result<Option<Placed>, SceneError> {
+        let Some((number, picture)) = self.picture_of(named.index, element)? else {
             return Ok(None);
         };
         let texture = self.get(&self.root.textures, named.index, "texture", element)?;
@@ -110,18 +88,20 @@ impl Document<'_> {
                 _ => Wrap::Repeat,
             });
         }
-        let given: Option<Transform> = match named.others {
-            Some(others) => self.extension(others, "KHR_texture_transform", element)?,
-            None => None,
-        };
-        let given = given.unwrap_or_default();
         Ok(Some(Placed {
+            texture: Texture {
+                picture: number as u32,
+                is_color: true,
+                is_nearest,
+                wrap,
+                transform: named.transform.as_ref().map_or(IN_PLACE, columns),
+            },
             picture,
-            pixels,
-            wrap,
-            is_nearest,
-            transform: given.columns(),
-            set: given.tex_coord.unwrap_or(named.set),
+            set: named
+                .transform
+                .as_ref()
+                .and_then(|own| own.tex_coord)
+                .unwrap_or(named.set),
         }))
     }
 
@@ -132,21 +112,21 @@ impl Document<'_> {
         element: &str,
         is_color: bool,
     ) -> Result<Option<[f32; 4]>, SceneError> {
-        let Some((picture, pixels)) = self.pixels_of(info.index, element)? else {
+        let Some((number, picture)) = self.picture_of(info.index, element)? else {
             return Ok(None);
         };
         // Many materials share a picture.
         let mut pictures = self.pictures.borrow_mut();
-        let mean = pictures.means.entry((picture, is_color));
-        Ok(Some(*mean.or_insert_with(|| mean_of(&pixels, is_color))))
+        let mean = pictures.means.entry((number, is_color));
+        Ok(Some(*mean.or_insert_with(|| mean_of(&picture, is_color))))
     }
 
     /// The first picture of a texture that can be decoded, with its number.
-    fn pixels_of(
+    fn picture_of(
         &self,
         index: json::Index<json::Texture>,
         element: &str,
-    ) -> Result<Option<(usize, Rc<RgbaImage>)>, SceneError> {
+    ) -> Result<Option<(usize, Picture)>, SceneError> {
         let texture = self.get(&self.root.textures, index, "texture", element)?;
         let name = format!("textures[{}]", index.value());
         let mut pictures = Vec::new();
@@ -162,10 +142,9 @@ impl Document<'_> {
         for &picture in &pictures {
             self.get(&self.root.images, json::Index::new(picture), "image", &name)?;
         }
-        for &picture in &pictures {
-            let picture = picture as usize;
-            if let Some(pixels) = self.picture(picture)? {
-                return Ok(Some((picture, pixels)));
+        for &number in &pictures {
+            if let Some(picture) = self.picture(number as usize)? {
+                return Ok(Some((number as usize, picture)));
             }
         }
         if pictures.is_empty() {

@@ -1,5 +1,7 @@
 use super::*;
 use crate::Profile;
+use crate::profile::{OVER_DIRECTIONS, towards};
+use crate::shown::Shown;
 
 /// A file of type `kind` with these angles, whose candela values are `value` of both angles.
 fn file(kind: u32, vertical: &[f64], horizontal: &[f64], value: impl Fn(f64, f64) -> f64) -> Vec<u8> {
@@ -26,10 +28,8 @@ fn luminaire(vertical: f64, horizontal: f64) -> [f64; 3] {
 }
 
 fn near(found: f64, expected: f64) {
-    assert!(
-        (found - expected).abs() < 1.0e-6 * expected.abs().max(1.0),
-        "{found}, expected {expected}"
-    );
+    let is_near = (found - expected).abs() < 1.0e-6 * expected.abs().max(1.0);
+    assert!(is_near, "{found}, expected {expected}");
 }
 
 fn steps(from: f64, to: f64, count: usize) -> Vec<f64> {
@@ -48,37 +48,34 @@ fn angles_of_luminaires_name_directions() {
     let (all, quarter) = (steps(0.0, 180.0, 19), steps(0.0, 90.0, 10));
     let circle = steps(0.0, 360.0, 13);
     // All around; a quadrant and a half, of which the rest is an image; one angle for all; a half from 90 to 270 degrees; up.
-    let (right, old) = (steps(0.0, 180.0, 4), steps(90.0, 270.0, 7));
-    let cases = [
+    let (right, first, one) = (steps(0.0, 180.0, 4), steps(0.0, 90.0, 4), vec![0.0]);
+    let (old, up) = (steps(90.0, 270.0, 7), steps(90.0, 180.0, 10));
+    for (vertical, horizontal, [v, h], [own_v, own_h]) in [
         (&all, &circle, [35.0, 100.0], [35.0, 100.0]),
         (&all, &circle, [90.0, 270.0], [90.0, 270.0]),
         (&all, &circle, [171.0, 359.0], [171.0, 359.0]),
-        (&quarter, &steps(0.0, 90.0, 4), [50.0, 20.0], [50.0, 20.0]),
-        (&quarter, &steps(0.0, 90.0, 4), [50.0, 160.0], [50.0, 20.0]),
-        (&quarter, &steps(0.0, 90.0, 4), [50.0, 200.0], [50.0, 20.0]),
-        (&quarter, &steps(0.0, 90.0, 4), [50.0, 340.0], [50.0, 20.0]),
+        (&quarter, &first, [50.0, 20.0], [50.0, 20.0]),
+        (&quarter, &first, [50.0, 160.0], [50.0, 20.0]),
+        (&quarter, &first, [50.0, 200.0], [50.0, 20.0]),
+        (&quarter, &first, [50.0, 340.0], [50.0, 20.0]),
         (&quarter, &right, [50.0, 130.0], [50.0, 130.0]),
         (&quarter, &right, [50.0, 230.0], [50.0, 130.0]),
-        (&quarter, &vec![0.0], [50.0, 230.0], [50.0, 0.0]),
+        (&quarter, &one, [50.0, 230.0], [50.0, 0.0]),
         (&quarter, &old, [50.0, 200.0], [50.0, 200.0]),
         (&quarter, &old, [50.0, 340.0], [50.0, 200.0]),
         (&quarter, &old, [50.0, 30.0], [50.0, 150.0]),
-        (&steps(90.0, 180.0, 10), &vec![0.0], [120.0, 0.0], [120.0, 0.0]),
-    ];
-    for (vertical, horizontal, [v, h], [own_v, own_h]) in cases {
+        (&up, &one, [120.0, 0.0], [120.0, 0.0]),
+        // Where all planes meet, one value.
+        (&all, &circle, [0.0, 0.0], [0.0, 0.0]),
+    ] {
         let table = table(1, vertical, horizontal, value);
         near(table.candela(luminaire(v, h)), value(own_v, own_h));
     }
-    // Beyond the table there is nothing; where all planes meet, one value.
-    assert_eq!(
-        table(1, &quarter, &right, value).candela(luminaire(95.0, 0.0)),
-        0.0
-    );
-    assert_eq!(
-        table(1, &steps(90.0, 180.0, 10), &[0.0], value).candela(luminaire(60.0, 0.0)),
-        0.0
-    );
-    near(table(1, &all, &circle, value).candela([0.0, 0.0, 1.0]), 100.0);
+    // Beyond the table there is nothing.
+    for (vertical, v) in [(&quarter, 95.0), (&up, 60.0)] {
+        let beyond = table(1, vertical, &right, value).candela(luminaire(v, 0.0));
+        assert_eq!(beyond, 0.0);
+    }
 }
 
 #[test]
@@ -86,23 +83,14 @@ fn angles_of_floodlights_and_headlamps_name_directions() {
     let value = |v: f64, h: f64| 200.0 + v + 0.1 * h;
     let (v, h) = (20.0_f64.to_radians(), 30.0_f64.to_radians());
     let b = table(2, &steps(-90.0, 90.0, 19), &steps(-90.0, 90.0, 19), value);
-    near(
-        b.candela([h.sin(), h.cos() * v.sin(), h.cos() * v.cos()]),
-        value(20.0, 30.0),
-    );
-    near(
-        b.candela([-h.sin(), -h.cos() * v.sin(), h.cos() * v.cos()]),
-        value(-20.0, -30.0),
-    );
     let a = table(3, &steps(-90.0, 90.0, 19), &steps(0.0, 90.0, 10), value);
-    near(
-        a.candela([v.cos() * h.sin(), v.sin(), v.cos() * h.cos()]),
-        value(20.0, 30.0),
-    );
-    near(
-        a.candela([-v.cos() * h.sin(), v.sin(), v.cos() * h.cos()]),
-        value(20.0, 30.0),
-    );
+    for side in [1.0, -1.0] {
+        let own = [side * h.sin(), side * h.cos() * v.sin(), h.cos() * v.cos()];
+        near(b.candela(own), value(side * 20.0, side * 30.0));
+        // The half that is not there is an image.
+        let own = [side * v.cos() * h.sin(), v.sin(), v.cos() * h.cos()];
+        near(a.candela(own), value(20.0, 30.0));
+    }
 }
 
 /// Flux, mean cosine and cone of the picture against integrals of what the file says.
@@ -121,6 +109,8 @@ fn pictures_have_the_flux_of_their_tables() {
         let bytes = file(1, &vertical, &horizontal, value);
         let table = Photometry::read(&bytes).expect("sound");
         let profile = Profile::read(name.into(), bytes).expect("sound");
+        let [width, height] = [profile.picture.width, profile.picture.height];
+        let picture = Shown::new([width, height], &profile.picture.texels, &OVER_DIRECTIONS);
         // By rings, as no octahedron has them.
         let (mut flux, mut first, mut shown) = (0.0, 0.0, 0.0);
         let rings = 720;
@@ -132,29 +122,23 @@ fn pictures_have_the_flux_of_their_tables() {
                 let d = luminaire(v, 5.0 * f64::from(k) + 2.5);
                 flux += table.candela(d) * solid / 72.0;
                 first += table.candela(d) * d[2] * solid / 72.0;
-                let seen = profile.shown(d.map(|x| x as f32));
-                shown += f64::from(seen) * f64::from(profile.peak) * solid / 72.0;
-                if seen > 0.0 {
-                    assert!(
-                        d[2] as f32 >= profile.cos_outer,
-                        "{name}: {} beyond {}",
-                        d[2],
-                        profile.cos_outer
-                    );
-                }
+                let seen = towards(&picture, d.map(|x| x as f32));
+                shown += f64::from(seen) * f64::from(profile.sent.peak) * solid / 72.0;
+                assert!(
+                    seen <= 0.0 || d[2] as f32 >= profile.sent.cos_outer,
+                    "{name}: {}",
+                    d[2]
+                );
             }
         }
-        let whole = f64::from(profile.whole) * std::f64::consts::TAU * f64::from(profile.peak);
-        println!(
-            "{name}: {flux} lm, shown {shown}, told {whole}, cone {}",
-            profile.cos_outer
-        );
-        assert!((shown / flux - 1.0).abs() < 0.005, "{name}: {shown} of {flux}");
-        assert!((whole / flux - 1.0).abs() < 0.005, "{name}: {whole} of {flux}");
-        assert!(
-            (f64::from(profile.mean_cosine) - first / flux).abs() < 0.005,
-            "{name}"
-        );
+        let whole = f64::from(profile.sent.whole) * std::f64::consts::TAU * f64::from(profile.sent.peak);
+        for share in [
+            shown / flux,
+            whole / flux,
+            1.0 + f64::from(profile.sent.mean_cosine) - first / flux,
+        ] {
+            assert!((share - 1.0).abs() < 0.005, "{name}: {shown}, {whole} of {flux}");
+        }
     }
 }
 
@@ -164,12 +148,10 @@ fn broken_files_are_named_and_never_panic() {
     assert!(Photometry::read(&sound).is_ok());
     let text = String::from_utf8_lossy(&sound).into_owned();
     let with = |from: &str, to: &str| text.replace(from, to);
+    let cut = String::from("TILT=NONE\n1 2 3");
     for (text, part) in [
         (String::new(), "no line `TILT=`"),
-        (
-            String::from("TILT=NONE\n1 2 3"),
-            "ends before its number of vertical angles",
-        ),
+        (cut, "ends before its number of vertical angles"),
         (with("2.0 3 1 1", "2.0 0 1 1"), "0 vertical angles"),
         (with("2.0 3 1 1", "2.0 4096 4096 1"), "more than"),
         (with("2.0 3 1 1", "2.0 3 1 7"), "photometric type is 7"),
@@ -178,7 +160,7 @@ fn broken_files_are_named_and_never_panic() {
         (with("0 45 90", "0 90 45"), "do not ascend"),
         (with("100 100 100", "100 1e400 100"), "expected a number"),
         (with("100 100 100", "0 -5 0"), "no light in any direction"),
-        (with("100 100 100", "100 100"), "ends before its candela value"),
+        (with("100 100 100", "100 100"), "before its candela value"),
     ] {
         let problem = Profile::read(String::new(), text.clone().into_bytes()).expect_err(&text);
         assert!(problem.contains(part), "{problem}");
@@ -199,9 +181,8 @@ fn broken_files_are_named_and_never_panic() {
 #[test]
 fn a_circle_that_is_not_closed_is_closed() {
     for (last, count) in [(345.0, 24), (270.0, 4), (350.0, 36)] {
-        let table = table(1, &steps(0.0, 90.0, 10), &steps(0.0, last, count), |_, h| {
-            100.0 + h
-        });
+        let (vertical, horizontal) = (steps(0.0, 90.0, 10), steps(0.0, last, count));
+        let table = table(1, &vertical, &horizontal, |_, h| 100.0 + h);
         near(table.candela(luminaire(30.0, last)), 100.0 + last);
         let between = 0.5 * (last + 360.0);
         near(table.candela(luminaire(30.0, between)), 100.0 + 0.5 * last);

@@ -22,28 +22,31 @@ use std::path::{Path, PathBuf};
 
 use super::error::{SceneError, malformed};
 use super::files::{Limits, Load, without_mark};
-use super::frame::emits;
-use super::model::{Material, Mesh, Node, Primitive, Scene, SceneData};
+use super::glow::Glow;
+use super::model::{Material, Mesh, Node, Primitive, SceneData, emits};
 use super::notes::Notes;
 use super::polygon::Cutter;
+use super::scene::Scene;
 use crate::vector::{dot, normal};
 use mtl::Library;
 
 const REPAIR: &str = "repair the line, or export the file again";
 
-/// A triangle.
-struct Face {
-    vertices: [u32; 3],
-    /// Texture coordinates of each; [`NONE`] for a corner without.
-    coordinates: [u32; 3],
-    /// The sum of its normals where all its corners have one.
-    normal: Option<[f32; 3]>,
+/// What a group has of a material.
+#[derive(Default)]
+struct Part {
+    group: String,
+    material: String,
+    primitive: Primitive,
+    /// Vertices by their numbers of a position and of texture coordinates.
+    known: HashMap<(u32, Option<u32>), u32>,
+    coordinates: Vec<[f32; 2]>,
+    has_coordinates: bool,
+    /// By triangle: whether the normals of its corners face away from its front.
+    faces_away: Vec<bool>,
 }
 
-/// No texture coordinates.
-const NONE: u32 = u32::MAX;
-
-/// What a file has said so far.
+/// A file so far.
 struct Reading<'a> {
     file: &'a str,
     load: &'a Load,
@@ -51,8 +54,8 @@ struct Reading<'a> {
     positions: Vec<[f32; 3]>,
     normals: Vec<[f32; 3]>,
     coordinates: Vec<[f32; 2]>,
-    /// Faces by group and material, in the order of their first face.
-    parts: Vec<((String, String), Vec<Face>)>,
+    /// In the order of their first face.
+    parts: Vec<Part>,
     by_names: HashMap<(String, String), usize>,
     cutter: Cutter,
 }
@@ -162,11 +165,17 @@ impl Reading<'_> {
             ("", group) => group.to_owned(),
             (object, group) => format!("{object}/{group}"),
         };
-        let names = (group, material.to_owned());
-        let next = self.parts.len();
-        let part = *self.by_names.entry(names.clone()).or_insert(next);
+        let (next, material) = (self.parts.len(), material.to_owned());
+        let part = *self
+            .by_names
+            .entry((group.clone(), material.clone()))
+            .or_insert(next);
         if part == next {
-            self.parts.push((names, Vec::new()));
+            self.parts.push(Part {
+                group,
+                material,
+                ..Part::default()
+            });
         }
         part
     }
@@ -191,22 +200,30 @@ impl Reading<'_> {
         }
         let places = corners.iter().map(|corner| self.positions[corner.0 as usize]);
         let places: Vec<[f32; 3]> = places.collect();
-        let faces = &mut self.parts[part].1;
+        let part = &mut self.parts[part];
         let cut = self.cutter.cut(&places, |triangle| {
-            let triangle = triangle.map(|k| corners[k]);
-            let normals = triangle.map(|corner| corner.2.map(|n| self.normals[n as usize]));
-            let normal = match normals {
-                [Some(a), Some(b), Some(c)] => Some([0, 1, 2].map(|i| a[i] + b[i] + c[i])),
-                _ => None,
-            };
-            faces.push(Face {
-                vertices: triangle.map(|corner| corner.0),
-                coordinates: triangle.map(|corner| corner.1.unwrap_or(NONE)),
-                normal,
+            let front = normal(triangle.map(|k| places[k]));
+            let normals = triangle.map(|k| corners[k].2.map(|n| self.normals[n as usize]));
+            part.faces_away.push(match normals {
+                [Some(a), Some(b), Some(c)] => {
+                    dot(front, [0, 1, 2].map(|i| f64::from(a[i] + b[i] + c[i]))) < 0.0
+                }
+                _ => false,
             });
+            let triangle = triangle.map(|k| {
+                let (position, texture, _) = corners[k];
+                *part.known.entry((position, texture)).or_insert_with(|| {
+                    let lies = texture.map(|texture| self.coordinates[texture as usize]);
+                    part.has_coordinates |= lies.is_some();
+                    part.coordinates.push(lies.unwrap_or_default());
+                    part.primitive.positions.push(places[k]);
+                    part.primitive.positions.len() as u32 - 1
+                })
+            });
+            part.primitive.triangles.push(triangle);
         });
         cut.map_err(wrong)?;
-        let bytes = (size_of::<Face>() * corners.len()) as u64;
+        let bytes = (size_of::<[[u32; 3]; 6]>() * corners.len()) as u64;
         self.load.take(self.file, "the list of triangles", bytes)
     }
 
@@ -217,110 +234,71 @@ impl Reading<'_> {
             ..SceneData::default()
         };
         let (mut groups, mut materials) = (HashMap::new(), HashMap::new());
-        for ((group, material), _) in &self.parts {
-            let next = data.meshes.len() as u32;
-            if *groups.entry(group.as_str()).or_insert(next) == next {
+        let parts = std::mem::take(&mut self.parts);
+        // The mesh and the material of each part.
+        let mut numbers = Vec::new();
+        for Part { group, material, .. } in &parts {
+            let mesh = *groups.entry(group).or_insert_with(|| {
                 data.nodes.push(Node {
                     name: group.clone(),
-                    mesh: Some(next),
+                    mesh: Some(data.meshes.len() as u32),
                     ..Node::default()
                 });
                 data.meshes.push(Mesh {
                     name: group.clone(),
                     primitives: Vec::new(),
                 });
-            }
-            let next = data.materials.len() as u32;
-            if *materials.entry(material.as_str()).or_insert(next) < next {
-                continue;
-            }
-            let found = library.materials.get(material);
-            if found.is_none() && !material.is_empty() {
-                let what = format!(
-                    "material `{}` is in no library, and taken as grey",
-                    shown(material)
-                );
-                self.notes.add(self.file, what);
-            }
-            data.materials.push(match found {
-                Some((found, _)) => found.clone(),
-                None => Material {
+                data.meshes.len() - 1
+            });
+            let number = *materials.entry(material).or_insert_with(|| {
+                let found = library.materials.get(material);
+                if found.is_none() && !material.is_empty() {
+                    let name = shown(material);
+                    let what = format!("material `{name}` is in no library, and taken as grey");
+                    self.notes.add(self.file, what);
+                }
+                let grey = || Material {
                     name: material.clone(),
                     base_color: [0.5; 3],
                     ..Material::default()
-                },
+                };
+                data.materials
+                    .push(found.map_or_else(grey, |(found, _)| found.clone()));
+                data.materials.len() as u32 - 1
             });
+            numbers.push((mesh, number));
         }
         // Programs write `d 0` for what a picture's alpha cuts out.
-        let is_left_out = |own: &Material| own.is_clear() && !emits(own.radiance);
-        if data.materials.iter().all(is_left_out) {
-            for material in &mut data.materials {
-                material.transmission = 0.0;
-                let what = "all surfaces let half of the light through or more: they are taken as opaque";
-                self.notes.add(self.file, what);
+        if data
+            .materials
+            .iter()
+            .all(|own| own.is_clear() && !emits(own.radiance))
+        {
+            data.materials.iter_mut().for_each(|own| own.transmission = 0.0);
+        }
+        for (part, (mesh, material)) in parts.into_iter().zip(numbers) {
+            let (mut primitive, coordinates) = (part.primitive, part.coordinates);
+            primitive.material = material;
+            let own = &data.materials[material as usize];
+            let glow = library.materials.get(&part.material);
+            let glow = glow.and_then(|(_, glow)| glow.as_ref());
+            // Normals say which side emits.
+            if emits(own.radiance) || glow.is_some() {
+                let away = primitive.triangles.iter_mut().zip(part.faces_away);
+                away.filter(|(_, away)| *away)
+                    .for_each(|(triangle, _)| triangle.swap(1, 2));
             }
-        }
-        if data.materials.iter().any(is_left_out) {
-            let what = "surfaces that let half of the light through or more are left out";
-            self.notes.add(self.file, what);
-        }
-        for ((group, material), faces) in &self.parts {
-            let number = materials[material.as_str()];
-            let primitive = self.primitive(number, &data.materials[number as usize], faces, &library);
-            data.meshes[groups[group.as_str()] as usize]
-                .primitives
-                .push(primitive);
+            if let Some(paint) = own.paint.filter(|_| part.has_coordinates) {
+                let radiance =
+                    |glow: &Glow| glow.radiance(&primitive.triangles, &coordinates, paint.radiance);
+                primitive.radiance = glow.map(radiance);
+                primitive.coordinates = Some(coordinates);
+            }
+            data.meshes[mesh].primitives.push(primitive);
         }
         data.pictures = library.into_pictures();
         data.warnings = self.notes.into_warnings();
         data
-    }
-
-    fn primitive(&self, material: u32, own: &Material, faces: &[Face], library: &Library<'_>) -> Primitive {
-        let glow = library
-            .materials
-            .get(&own.name)
-            .and_then(|(_, glow)| glow.as_ref());
-        let lights = emits(own.radiance) || glow.is_some();
-        let mut primitive = Primitive {
-            material,
-            ..Primitive::default()
-        };
-        // Equal corners once; of parts that are painted, those with texture coordinates of their own.
-        let (mut known, mut used) = (HashMap::new(), Vec::new());
-        for face in faces {
-            let mut order = [0, 1, 2];
-            let front = normal(face.vertices.map(|vertex| self.positions[vertex as usize]));
-            let faces_away = |normal: [f32; 3]| dot(front, normal.map(f64::from)) < 0.0;
-            if lights && face.normal.is_some_and(faces_away) {
-                order.swap(1, 2);
-            }
-            primitive.triangles.push(order.map(|k| {
-                let texture = if own.paint.is_some() {
-                    face.coordinates[k]
-                } else {
-                    NONE
-                };
-                let corner = (face.vertices[k], texture);
-                *known.entry(corner).or_insert_with(|| {
-                    used.push(corner);
-                    used.len() as u32 - 1
-                })
-            }));
-        }
-        let at = |&(vertex, _): &(u32, u32)| self.positions[vertex as usize];
-        primitive.positions = used.iter().map(at).collect();
-        if let Some(paint) = own
-            .paint
-            .filter(|_| used.iter().any(|&(_, texture)| texture != NONE))
-        {
-            let lies = |&(_, texture): &(u32, u32)| self.coordinates.get(texture as usize).copied();
-            let coordinates: Vec<_> = used.iter().map(|own| lies(own).unwrap_or_default()).collect();
-            primitive.radiance =
-                glow.map(|glow| glow.radiance(&primitive.triangles, &coordinates, paint.radiance));
-            primitive.coordinates = Some(coordinates);
-        }
-        primitive
     }
 }
 

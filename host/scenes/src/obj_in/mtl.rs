@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
 
 use image::RgbaImage;
 
@@ -22,15 +21,9 @@ type Entry = HashMap<String, (u32, String)>;
 #[derive(Clone)]
 struct Kept {
     number: u32,
-    pixels: Rc<RgbaImage>,
+    picture: Picture,
     mean: [f32; 3],
     has_shape: bool,
-}
-
-/// A picture, and where it lies.
-struct Map {
-    texture: Texture,
-    kept: Kept,
 }
 
 /// Materials by name, and the pictures that they share.
@@ -63,10 +56,9 @@ impl<'a> Library<'a> {
 
     /// All pictures, by number.
     pub fn into_pictures(self) -> Vec<Picture> {
-        drop(self.materials);
         let mut kept: Vec<Kept> = self.kept.into_values().collect();
         kept.sort_by_key(|own| own.number);
-        kept.into_iter().map(|own| pictures::kept(own.pixels)).collect()
+        kept.into_iter().map(|own| own.picture).collect()
     }
 
     /// Adds the materials of a file; the first one of a name stays.
@@ -133,7 +125,12 @@ impl Reading<'_, '_> {
     }
 
     /// A map by a word; `opacity` is the word of another one, which says where it is.
-    fn map(&mut self, entry: &Entry, word: &str, opacity: &str) -> Result<Option<Map>, SceneError> {
+    fn map(
+        &mut self,
+        entry: &Entry,
+        word: &str,
+        opacity: &str,
+    ) -> Result<Option<(Texture, Kept)>, SceneError> {
         let Some((line, rest)) = entry.get(word) else {
             return Ok(None);
         };
@@ -142,16 +139,14 @@ impl Reading<'_, '_> {
             .get(opacity)
             .map(|(_, rest)| self.file_of(map_options(rest).2));
         let kept = self.kept(*line, (self.file_of(name), opacity))?;
-        Ok(kept.map(|kept| {
-            let texture = Texture {
-                picture: kept.number,
-                is_color: true,
-                is_nearest: false,
-                wrap,
-                transform,
-            };
-            Map { texture, kept }
-        }))
+        let texture = |kept: &Kept| Texture {
+            picture: kept.number,
+            is_color: true,
+            is_nearest: false,
+            wrap,
+            transform,
+        };
+        Ok(kept.map(|kept| (texture(&kept), kept)))
     }
 
     /// The picture of a file, with the alpha of another one, or its red if that is opaque.
@@ -184,10 +179,11 @@ impl Reading<'_, '_> {
                 }
             }
         }
-        let [r, g, b, _] = pictures::mean_of(&pixels, true);
+        let picture = Picture::from(pixels);
+        let [r, g, b, _] = pictures::mean_of(&picture, true);
         let kept = Kept {
             number: self.library.kept.len() as u32,
-            pixels: Rc::new(pixels),
+            picture,
             mean: [r, g, b],
             has_shape: other.is_some(),
         };
@@ -198,9 +194,10 @@ impl Reading<'_, '_> {
     /// The pixels of a file; `None` where they cannot be had, which is noted.
     fn decode(&mut self, line: u32, path: &Path) -> Result<Option<RgbaImage>, SceneError> {
         let load = self.library.load;
-        let bytes = load.read(path);
-        match bytes.and_then(|bytes| pictures::decode_light(load, bytes, path)) {
-            Ok(picture) => Ok(Some(picture.into_rgba8())),
+        let name = path.display().to_string();
+        let pixels = load.read(path);
+        match pixels.and_then(|bytes| pictures::decode_surface(load, &name, &bytes, Some(path))) {
+            Ok(pixels) => Ok(Some(pixels)),
             Err(error) if error.ends_the_load() => Err(error),
             Err(error) => {
                 let what = format!("a picture counts as white, and where it is what glows as black: {error}");
@@ -220,12 +217,12 @@ impl Reading<'_, '_> {
         let illumination = self.number(&entry, "illum")?;
         let is_one_of = |models: &[f32]| illumination.is_some_and(|own| models.contains(&own));
         let unit = |x: f32| x.clamp(0.0, 1.0);
-        let times = |color: [f32; 3], map: &Option<Map>| match map {
-            Some(map) => [0, 1, 2].map(|i| color[i] * map.kept.mean[i]),
+        let times = |color: [f32; 3], map: &Option<(Texture, Kept)>| match map {
+            Some((_, kept)) => [0, 1, 2].map(|i| color[i] * kept.mean[i]),
             None => color,
         };
         // Exporters write black beside a map that says all.
-        let or_one = |color: [f32; 3], map: &Option<Map>| match map {
+        let or_one = |color: [f32; 3], map: &Option<(Texture, Kept)>| match map {
             Some(_) if color == [0.0; 3] => [1.0; 3],
             _ => color,
         };
@@ -274,20 +271,20 @@ impl Reading<'_, '_> {
             radiance,
             ..Paint::PLAIN
         };
-        if let Some(map) = diffuse_map.filter(|_| !is_mirror) {
+        if let Some((texture, kept)) = diffuse_map.filter(|_| !is_mirror) {
             let [r, g, b] = factor.map(unit);
-            (paint.base, paint.base_texture) = ([r, g, b, 1.0], Some(map.texture));
-            if map.kept.has_shape {
+            (paint.base, paint.base_texture) = ([r, g, b, 1.0], Some(texture));
+            if kept.has_shape {
                 paint.opacity = Opacity::Cut(0.5);
                 material.masked = !material.is_clear();
             }
         }
-        let glow = emission_map.filter(|_| radiance != [0.0; 3]).map(|map| {
-            paint.glow_texture = Some(map.texture);
-            let picture = (map.kept.number as usize, map.kept.pixels);
-            let Texture { wrap, transform, .. } = map.texture;
-            Glow::new(picture, wrap, false, transform, &self.library.glows)
-        });
+        let mut glow = None;
+        if let Some((texture, kept)) = emission_map.filter(|_| radiance != [0.0; 3]) {
+            paint.glow_texture = Some(texture);
+            let Library { load, glows, .. } = &*self.library;
+            glow = Some(Glow::new(load, glows, texture, &kept.picture)?);
+        }
         // Glass is left out as a whole.
         material.paint = Some(paint).filter(|paint| paint.is_seen() && !material.is_clear());
         self.library.materials.insert(name, (material, glow));

@@ -25,13 +25,14 @@ pub(super) fn add(b: &mut SceneBuilder, random: &mut Random) {
         [0.45, 0.62, 0.95],
         [1.2, 0.55, 0.2],
     ];
-    let mut pane = Shape::new();
-    pane.quad([
-        [-0.7, -0.9, 0.0],
-        [0.7, -0.9, 0.0],
-        [0.7, 0.9, 0.0],
-        [-0.7, 0.9, 0.0],
-    ]);
+    let pane = Shape::of(|s| {
+        s.quad([
+            [-0.7, -0.9, 0.0],
+            [0.7, -0.9, 0.0],
+            [0.7, 0.9, 0.0],
+            [-0.7, 0.9, 0.0],
+        ])
+    });
     let lit = colors.map(|radiance| {
         let glow = b.glow("lit window", radiance);
         b.mesh("window", &[(&pane, glow)])
@@ -51,15 +52,15 @@ pub(super) fn add(b: &mut SceneBuilder, random: &mut Random) {
             let bays = 5 + random.pick(4);
             let width = bays as f64 * BAY;
             let floors = 4 + random.pick(5);
-            let mut body = Shape::new();
-            body.block(
-                [0.0, 0.5 * (floors as f64 * FLOOR + 1.0), -7.0],
-                [width - 0.4, floors as f64 * FLOOR + 1.0, 14.0],
-            );
+            let body = Shape::of(|s| {
+                s.block(
+                    [0.0, 0.5 * (floors as f64 * FLOOR + 1.0), -7.0],
+                    [width - 0.4, floors as f64 * FLOOR + 1.0, 14.0],
+                )
+            });
             let middle = x + 0.5 * width;
             bodies[random.pick(4)].place(&body, turned([middle, 0.0, -FRONTS]), heading);
-            let mut cornice = Shape::new();
-            cornice.block([0.0, 0.0, 0.15], [width - 0.2, 0.4, 0.6]);
+            let cornice = Shape::of(|s| s.block([0.0, 0.0, 0.15], [width - 0.2, 0.4, 0.6]));
             trim.place(
                 &cornice,
                 turned([middle, floors as f64 * FLOOR + 0.8, -FRONTS]),
@@ -72,8 +73,7 @@ pub(super) fn add(b: &mut SceneBuilder, random: &mut Random) {
                         floor as f64 * FLOOR + 2.2,
                         -FRONTS + 0.03,
                     ];
-                    let mut sill = Shape::new();
-                    sill.block([0.0, -1.0, 0.1], [1.7, 0.12, 0.24]);
+                    let sill = Shape::of(|s| s.block([0.0, -1.0, 0.1], [1.7, 0.12, 0.24]));
                     trim.place(&sill, turned(at), heading);
                     if random.unit() < 0.36 {
                         let turn = super::super::shapes::rotation([0.0, 1.0, 0.0], heading);

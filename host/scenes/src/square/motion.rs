@@ -33,9 +33,10 @@ fn cars(b: &mut SceneBuilder, random: &mut Random, iron: u32) {
         [0.4, 0.4, 0.42],
         [0.05, 0.05, 0.05],
     ];
-    let mut body = Shape::new();
-    body.block([0.0, 0.62, 0.0], [1.8, 0.6, 4.2])
-        .block([0.0, 1.2, -0.3], [1.6, 0.6, 2.2]);
+    let body = Shape::of(|s| {
+        s.block([0.0, 0.62, 0.0], [1.8, 0.6, 4.2])
+            .block([0.0, 1.2, -0.3], [1.6, 0.6, 2.2])
+    });
     let mut wheels = Shape::new();
     for x in [-0.85, 0.85] {
         for z in [-1.3, 1.3] {
@@ -47,20 +48,22 @@ fn cars(b: &mut SceneBuilder, random: &mut Random, iron: u32) {
         b.mesh("car", &[(&body, paint), (&wheels, iron)])
     });
     // One-sided panes: the light goes ahead, or behind.
-    let mut ahead = Shape::new();
-    ahead.quad([
-        [-0.14, -0.09, 0.0],
-        [0.14, -0.09, 0.0],
-        [0.14, 0.09, 0.0],
-        [-0.14, 0.09, 0.0],
-    ]);
-    let mut behind = Shape::new();
-    behind.quad([
-        [0.14, -0.07, 0.0],
-        [-0.14, -0.07, 0.0],
-        [-0.14, 0.07, 0.0],
-        [0.14, 0.07, 0.0],
-    ]);
+    let ahead = Shape::of(|s| {
+        s.quad([
+            [-0.14, -0.09, 0.0],
+            [0.14, -0.09, 0.0],
+            [0.14, 0.09, 0.0],
+            [-0.14, 0.09, 0.0],
+        ])
+    });
+    let behind = Shape::of(|s| {
+        s.quad([
+            [0.14, -0.07, 0.0],
+            [-0.14, -0.07, 0.0],
+            [-0.14, 0.07, 0.0],
+            [0.14, 0.07, 0.0],
+        ])
+    });
     let head_glow = b.glow("headlamp", [300.0, 290.0, 260.0]);
     let tail_glow = b.glow("tail lamp", [60.0, 3.0, 2.0]);
     let head = b.mesh("headlamp", &[(&ahead, head_glow)]);
@@ -94,11 +97,11 @@ fn drones(b: &mut SceneBuilder, random: &mut Random, iron: u32) {
         [180.0, 520.0, 110.0],
         [560.0, 340.0, 60.0],
     ];
-    let mut body = Shape::new();
-    body.block([0.0; 3], [0.5, 0.08, 0.08])
-        .block([0.0; 3], [0.08, 0.08, 0.5]);
-    let mut lamp = Shape::new();
-    lamp.octahedron([0.0, -0.16, 0.0], 0.10);
+    let body = Shape::of(|s| {
+        s.block([0.0; 3], [0.5, 0.08, 0.08])
+            .block([0.0; 3], [0.08, 0.08, 0.5])
+    });
+    let lamp = Shape::of(|s| s.octahedron([0.0, -0.16, 0.0], 0.10));
     for ((radius, height, count, turns), radiance) in DRONE_RINGS.into_iter().zip(glows) {
         let glow = b.glow("drone", radiance);
         let drone = b.mesh("drone", &[(&lamp, glow), (&body, iron)]);
@@ -118,8 +121,7 @@ fn drones(b: &mut SceneBuilder, random: &mut Random, iron: u32) {
 fn fireflies(b: &mut SceneBuilder, random: &mut Random) {
     let glows = [[170.0, 260.0, 30.0], [250.0, 220.0, 40.0]].map(|radiance| b.glow("firefly", radiance));
     let meshes = glows.map(|glow| {
-        let mut body = Shape::new();
-        body.octahedron([0.0; 3], 0.035);
+        let body = Shape::of(|s| s.octahedron([0.0; 3], 0.035));
         b.mesh("firefly", &[(&body, glow)])
     });
     for _ in 0..FIREFLIES {

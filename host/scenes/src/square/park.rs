@@ -25,8 +25,7 @@ fn trees(b: &mut SceneBuilder, random: &mut Random) {
         .iter()
         .zip([1.0, 1.25, 0.8])
         .map(|(&leaf, size)| {
-            let mut trunk = Shape::new();
-            trunk.cylinder([0.0; 3], [0.22 * size, 0.14 * size], 3.0 * size, 7);
+            let trunk = Shape::of(|s| s.cylinder([0.0; 3], [0.22 * size, 0.14 * size], 3.0 * size, 7));
             let mut crown = Shape::new();
             for _ in 0..2 {
                 let at = [
@@ -44,8 +43,7 @@ fn trees(b: &mut SceneBuilder, random: &mut Random) {
     let glows =
         [[260.0, 170.0, 85.0], [280.0, 100.0, 36.0], [80.0, 130.0, 260.0]].map(|c| b.glow("fairy light", c));
     let lights = glows.map(|glow| {
-        let mut bulb = Shape::new();
-        bulb.octahedron([0.0; 3], 0.05);
+        let bulb = Shape::of(|s| s.octahedron([0.0; 3], 0.05));
         b.mesh("fairy light", &[(&bulb, glow)])
     });
     for _ in 0..TREES {
@@ -80,11 +78,11 @@ fn trees(b: &mut SceneBuilder, random: &mut Random) {
 
 /// Along both crossing paths, round the middle and along the park's edge.
 fn path_lamps(b: &mut SceneBuilder, iron: u32) {
-    let mut post = Shape::new();
-    post.cylinder([0.0; 3], [0.07, 0.05], 3.0, 6)
-        .cylinder([0.0, 3.32, 0.0], [0.28, 0.05], 0.15, 8);
-    let mut globe = Shape::new();
-    globe.icosphere([0.0, 3.16, 0.0], [0.15; 3], 0);
+    let post = Shape::of(|s| {
+        s.cylinder([0.0; 3], [0.07, 0.05], 3.0, 6)
+            .cylinder([0.0, 3.32, 0.0], [0.28, 0.05], 0.15, 8)
+    });
+    let globe = Shape::of(|s| s.icosphere([0.0, 3.16, 0.0], [0.15; 3], 0));
     let glow = b.glow("path lamp", [150.0, 112.0, 62.0]);
     let lamp = b.mesh("path lamp", &[(&globe, glow), (&post, iron)]);
     let mut places = Vec::new();
@@ -114,9 +112,7 @@ fn fountain(b: &mut SceneBuilder) {
     let stone = b.matte("fountain stone", [0.6, 0.58, 0.54], 0.6);
     let glow = b.glow("fountain light", [40.0, 100.0, 140.0]);
     let mut basins = Shape::new();
-    let mut bulb = Shape::new();
-    bulb.octahedron([0.0; 3], 0.07);
-    let bulb = b.mesh("fountain light", &[(&bulb, glow)]);
+    let bulb = b.solid("fountain light", glow, |s| s.octahedron([0.0; 3], 0.07));
     for (radius, y, lights) in [(5.0, 0.0, 32), (2.6, 1.3, 20), (1.2, 2.4, 12)] {
         basins.cylinder([0.0, y, 0.0], [0.6 * radius, radius], 0.6, 24);
         basins.cylinder([0.0, y, 0.0], [0.3, 0.3], 1.4, 10);

@@ -162,8 +162,7 @@ fn add_panes(b: &mut SceneBuilder, random: &mut Random, houses: &Houses) {
         (&houses.shop_fronts, [2.2, 2.0], "shop front"),
     ] {
         let sides = [-1.0, 1.0].map(|side| {
-            let mut pane = Shape::new();
-            pane.quad(pane_corners([0.0; 3], side, size));
+            let pane = Shape::of(|s| s.quad(pane_corners([0.0; 3], side, size)));
             if name == "window" {
                 glows.map(|glow| b.mesh(name, &[(&pane, glow)]))
             } else {
@@ -192,8 +191,7 @@ fn add_tables(b: &mut SceneBuilder, houses: &Houses, palette: &Palette) {
     }
     let table = b.mesh("table", &[(&wood, palette.wood)]);
     let flame = b.glow("candle", [90.0, 48.0, 16.0]);
-    let mut candle = Shape::new();
-    candle.octahedron([0.0, 0.82, 0.0], 0.05);
+    let candle = Shape::of(|s| s.octahedron([0.0, 0.82, 0.0], 0.05));
     let candle = b.mesh("candle", &[(&candle, flame)]);
     for &at in &houses.tables {
         b.put("table", None, at, table);

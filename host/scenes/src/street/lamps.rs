@@ -31,9 +31,7 @@ fn street_lamps(b: &mut SceneBuilder, palette: &Palette) {
     }
     let post = b.mesh("lamp post", &[(&iron, palette.iron)]);
     let glow = b.glow("lamp", [95.0, 62.0, 30.0]);
-    let mut bulb = Shape::new();
-    bulb.icosphere([0.0; 3], [0.13, 0.15, 0.13], 0);
-    let bulb = b.mesh("lamp", &[(&bulb, glow)]);
+    let bulb = b.solid("lamp", glow, |s| s.icosphere([0.0; 3], [0.13, 0.15, 0.13], 0));
     let count = (2.0 * HALF_LENGTH / 8.0) as i32;
     for i in 0..count {
         for side in [-1.0, 1.0] {
@@ -89,12 +87,11 @@ fn lanterns(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     let mut cord = Shape::new();
     cord.beam([0.0, -0.7, 0.0], [0.0, 0.0, 0.0], 0.02);
     cord.cylinder([0.0, -0.76, 0.0], [0.12, 0.10], 0.08, 8);
-    let mut paper = Shape::new();
-    paper.icosphere([0.0, -1.0, 0.0], [0.26, 0.24, 0.26], 1);
+    let paper = Shape::of(|s| s.icosphere([0.0, -1.0, 0.0], [0.26, 0.24, 0.26], 1));
     let meshes = glows.map(|glow| b.mesh("paper lantern", &[(&paper, glow), (&cord, palette.iron)]));
-    let mut span = Shape::new();
-    span.beam([-FACADE, 0.0, 0.0], [FACADE, 0.0, 0.0], 0.015);
-    let span = b.mesh("cord", &[(&span, palette.iron)]);
+    let span = b.solid("cord", palette.iron, |s| {
+        s.beam([-FACADE, 0.0, 0.0], [FACADE, 0.0, 0.0], 0.015)
+    });
     let mut z = -HALF_LENGTH + 6.0;
     while z < HALF_LENGTH {
         let span = b.put("cord", None, [0.0, 5.9, z], span);
@@ -118,10 +115,8 @@ fn signs(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     ];
     let glows = colors.map(|radiance| b.glow("neon", radiance));
     let tubes = [sign_frame(), sign_ring(), sign_arrow()];
-    let mut board = Shape::new();
-    board.block([0.0, -0.85, 0.0], [1.0, 1.5, 0.06]);
-    let mut bracket = Shape::new();
-    bracket.beam([-0.7, 0.0, 0.0], [0.9, 0.0, 0.0], 0.05);
+    let board = Shape::of(|s| s.block([0.0, -0.85, 0.0], [1.0, 1.5, 0.06]));
+    let bracket = Shape::of(|s| s.beam([-0.7, 0.0, 0.0], [0.9, 0.0, 0.0], 0.05));
     let bracket = b.mesh("bracket", &[(&bracket, palette.iron)]);
     let meshes: Vec<[u32; 5]> = tubes
         .iter()

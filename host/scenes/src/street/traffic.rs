@@ -25,15 +25,15 @@ fn carts(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
         for z in [-0.8, 0.8] {
             wood.beam([x, 1.0, z], [x, 2.1, z], 0.06);
             // A wheel is a cylinder on its side.
-            let mut wheel = Shape::new();
-            wheel.cylinder([0.0; 3], [0.35, 0.35], 0.08, 12);
+            let wheel = Shape::of(|s| s.cylinder([0.0; 3], [0.35, 0.35], 0.08, 12));
             let half = std::f64::consts::FRAC_1_SQRT_2;
             wood.append(&wheel, [x * 1.1 + 0.04, 0.35, z * 0.7], [0.0, 0.0, half, half]);
         }
     }
-    let mut roof = Shape::new();
-    roof.block([0.0, 2.15, 0.0], [1.3, 0.08, 2.0])
-        .block([0.0, 2.25, 0.0], [0.9, 0.12, 1.6]);
+    let roof = Shape::of(|s| {
+        s.block([0.0, 2.15, 0.0], [1.3, 0.08, 2.0])
+            .block([0.0, 2.25, 0.0], [0.9, 0.12, 1.6])
+    });
     let carts = cloths.map(|cloth| b.mesh("cart", &[(&wood, palette.wood), (&roof, cloth)]));
 
     let bulbs = {
@@ -48,10 +48,8 @@ fn carts(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     };
     let lantern = {
         let glow = b.glow("cart lantern", [48.0, 22.0, 7.0]);
-        let mut lamp = Shape::new();
-        lamp.icosphere([0.0, -0.35, 0.0], [0.12, 0.15, 0.12], 0);
-        let mut cord = Shape::new();
-        cord.beam([0.0, -0.22, 0.0], [0.0, 0.0, 0.0], 0.02);
+        let lamp = Shape::of(|s| s.icosphere([0.0, -0.35, 0.0], [0.12, 0.15, 0.12], 0));
+        let cord = Shape::of(|s| s.beam([0.0, -0.22, 0.0], [0.0, 0.0, 0.0], 0.02));
         b.mesh("cart lantern", &[(&lamp, glow), (&cord, palette.iron)])
     };
     let track = Track {
@@ -95,25 +93,21 @@ fn bicycles(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
         .beam([-0.28, 1.0, 0.38], [0.28, 1.0, 0.38], 0.03)
         .block([0.0, 0.95, -0.22], [0.14, 0.05, 0.25]);
     for [_, y, z] in [rear, front] {
-        let mut wheel = Shape::new();
-        wheel.torus([0.0; 3], 0.32, 0.025, 16, 4);
+        let wheel = Shape::of(|s| s.torus([0.0; 3], 0.32, 0.025, 16, 4));
         let half = std::f64::consts::FRAC_1_SQRT_2;
         frame.append(&wheel, [0.0, y, z], [0.0, half, 0.0, half]);
     }
-    let mut rider = Shape::new();
-    rider.icosphere([0.0, 1.25, 0.0], [0.2, 0.38, 0.18], 1).icosphere(
-        [0.0, 1.72, 0.1],
-        [0.12, 0.14, 0.12],
-        1,
-    );
+    let rider = Shape::of(|s| {
+        s.icosphere([0.0, 1.25, 0.0], [0.2, 0.38, 0.18], 1)
+            .icosphere([0.0, 1.72, 0.1], [0.12, 0.14, 0.12], 1)
+    });
     let cloth = b.matte("coat", [0.16, 0.20, 0.30], 0.9);
     let bicycle = b.mesh("bicycle", &[(&frame, palette.iron), (&rider, cloth)]);
 
     // One-sided discs, facing ahead and back.
     let disc = |z: f64, radius: f64, y: f64| {
         let mut disc = Shape::new();
-        let mut lamp = Shape::new();
-        lamp.cylinder([0.0; 3], [radius, radius], 0.04, 8);
+        let lamp = Shape::of(|s| s.cylinder([0.0; 3], [radius, radius], 0.04, 8));
         let half = std::f64::consts::FRAC_1_SQRT_2;
         let turn = if z > 0.0 {
             [half, 0.0, 0.0, half]

@@ -1,0 +1,128 @@
+//! A checked scene, and where it is seen from.
+
+use std::sync::{Arc, OnceLock};
+
+use super::camera::{View, place_of, towards};
+use super::error::SceneError;
+use super::model::{Camera, Node, SceneData};
+use super::skin_words;
+use super::transform::Transform;
+
+/// A scene that passed every check of [`Scene::new`]: finite, in range, references whole.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    pub(super) data: SceneData,
+    /// Camera for scenes that bring none, made from frame 0 when it is asked for.
+    pub(super) default_camera: OnceLock<View>,
+    /// What is painted on it, made when it is asked for.
+    paint: OnceLock<Arc<Vec<u32>>>,
+    pub(super) counts: Counts,
+}
+
+/// Sizes of every frame of a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Counts {
+    pub triangles: usize,
+    /// Of clear glass that does not emit.
+    pub clear: usize,
+    pub emissive: usize,
+    pub mesh_lights: usize,
+    pub analytic: usize,
+    pub suns: usize,
+}
+
+impl Scene {
+    /// Wraps data that [`Scene::new`] found sound.
+    pub(super) fn from_checked(data: SceneData, counts: Counts) -> Self {
+        Self {
+            data,
+            default_camera: OnceLock::new(),
+            paint: OnceLock::new(),
+            counts,
+        }
+    }
+
+    /// Built-in name or path of the file.
+    pub fn name(&self) -> &str {
+        &self.data.name
+    }
+
+    /// What the scene is made of.
+    pub fn data(&self) -> &SceneData {
+        &self.data
+    }
+
+    /// Gives the parts back, for changes; [`Scene::new`] checks them again.
+    pub fn into_data(self) -> SceneData {
+        self.data
+    }
+
+    /// What the loader left out, one sentence each.
+    pub fn warnings(&self) -> &[String] {
+        &self.data.warnings
+    }
+
+    /// The scene with means in place of all that is painted on it.
+    pub fn unpainted(mut self) -> Self {
+        for material in &mut self.data.materials {
+            material.paint = None;
+        }
+        self.data.pictures.clear();
+        self.paint = OnceLock::new();
+        self
+    }
+
+    /// The words of [`SkinArrays`](super::SkinArrays).
+    pub(super) fn paint_words(&self) -> Arc<Vec<u32>> {
+        Arc::clone(self.paint.get_or_init(|| Arc::new(skin_words::words(&self.data))))
+    }
+
+    /// Triangles of every frame.
+    pub fn triangle_count(&self) -> usize {
+        self.counts.triangles
+    }
+
+    /// Where the frames are seen from of a scene that brings no camera, once a frame has been made: eye, a place that it looks
+    /// at, both metres, and the vertical field of view in radians; what [`seen_from`](Self::seen_from) takes.
+    pub fn chosen_camera(&self) -> Option<([f32; 3], [f32; 3], f32)> {
+        let view = self.default_camera.get()?;
+        // As far away as keeps the direction where the eye is far from the origin.
+        let far = view.eye.iter().fold(1.0_f32, |far, x| far.max(x.abs()));
+        let target = [0, 1, 2].map(|axis| view.eye[axis] + far * view.forward[axis]);
+        Some((view.eye, target, view.yfov))
+    }
+
+    /// The scene as a camera at `eye` sees it that looks at `target`, both metres, with a vertical field of view of `yfov`
+    /// radians; +Y is up. Its own cameras are gone. Where both are one place it looks along −Z.
+    ///
+    /// # Errors
+    /// As [`Scene::new`]: places beyond 2^40 m, fields of view that are none.
+    pub fn seen_from(self, eye: [f32; 3], target: [f32; 3], yfov: f32) -> Result<Self, SceneError> {
+        let mut data = self.into_data();
+        let view = towards(eye.map(f64::from), target.map(f64::from), yfov);
+        data.cameras = vec![Camera {
+            node: data.nodes.len() as u32,
+            yfov,
+        }];
+        data.nodes.push(Node {
+            name: String::from("camera"),
+            transform: place_of(&view),
+            ..Node::default()
+        });
+        Self::new(data)
+    }
+
+    /// The scene of a file whose +Z is up, turned so that +Y is: (x, y, z) lies at (x, z, −y) then. For scenes whose roots are
+    /// not animated, as OBJ's and PLY's are.
+    ///
+    /// # Errors
+    /// As [`Scene::new`].
+    pub fn from_z_up(self) -> Result<Self, SceneError> {
+        let mut data = self.into_data();
+        for node in data.nodes.iter_mut().filter(|node| node.parent.is_none()) {
+            let columns = node.transform.affine().to_cols_array_2d();
+            node.transform = Transform::Matrix(columns.map(|[x, y, z]| [x as f32, z as f32, -y as f32]));
+        }
+        Self::new(data)
+    }
+}
