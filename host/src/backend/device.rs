@@ -1,6 +1,5 @@
 //! The passes on a Vulkan device.
 
-use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::{bytes_of, pod_collect_to_vec};
@@ -17,7 +16,7 @@ use super::device_arrays::{HeldScene, choosing, device_time};
 use super::follow::DeviceTree;
 use super::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, node_record};
 use crate::scene::SceneLight;
-use crate::vulkan::{Device, Kernel, Pass};
+use crate::vulkan::{Device, Pass};
 use crate::words::Record;
 
 /// Queries per dispatch: 28 MiB of them, within the smallest storage buffer range seen (128 MiB).
@@ -93,16 +92,6 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         queries: &[Query],
     ) -> Result<Timed<Vec<T>>, BackendError> {
         let kernel = self.device.kernel(&format!("{kernel}{}", C::SUFFIX))?;
-        self.query_by(&kernel, queries)
-    }
-
-    /// Answers queries pass by pass, by a kernel that takes what `sample` takes.
-    #[doc(hidden)]
-    pub fn query_by<T: bytemuck::Pod>(
-        &mut self,
-        kernel: &Arc<Kernel>,
-        queries: &[Query],
-    ) -> Result<Timed<Vec<T>>, BackendError> {
         let mut all = Timed {
             value: Vec::with_capacity(queries.len()),
             time: Duration::ZERO,
@@ -117,7 +106,7 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
             let mut bindings = self.tree.bindings().to_vec();
             bindings.extend([input.bind(), output.bind()]);
             let mut pass = Pass::new();
-            pass.dispatch(kernel, &bindings, bytes_of(&push), push.count);
+            pass.dispatch(&kernel, &bindings, bytes_of(&push), push.count);
             all.time += device_time(&self.device.run(&pass)?);
             all.value.extend(output.read()?);
         }

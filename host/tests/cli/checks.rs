@@ -10,7 +10,7 @@ fn verify_compares_words_on_every_device() {
         return;
     }
     let report =
-        json("verify --json --queries 3000 --scene street --seed 7 --frames 0..3 --frame-queries 64");
+        json("verify --json --queries 3000 --scene street --seed 7 --frames 0..3");
     assert_eq!(report["different"], 0);
     assert_eq!(report["cpu_different"], 0);
     assert_eq!(report["frames"], serde_json::json!({ "start": 0, "end": 3 }));
@@ -18,10 +18,8 @@ fn verify_compares_words_on_every_device() {
     for device in report["devices"].as_array().expect("devices") {
         assert_eq!(device["different"], 0, "{device}");
         assert_eq!(device["exact"], true, "{device}");
-        // Six methods with a light BVH over three frames.
-        let queries = 3000 + 6 * 3 * 64;
-        assert!(device["samples"].as_u64() >= Some(queries));
-        assert!(device["pmfs"].as_u64() >= Some(queries));
+        assert!(device["samples"].as_u64() >= Some(3000));
+        assert!(device["pmfs"].as_u64() >= Some(3000));
         let words = device["words"].as_object().expect("words by kind");
         for kind in ["nodes", "samples", "pmfs", "pixels"] {
             assert!(words[kind]["compared"].as_u64() > Some(0), "{kind}: {device}");
@@ -97,33 +95,6 @@ fn trade_measures_each_choice() {
     }
 }
 
-/// More time, less error; less error, more time.
-#[test]
-fn trade_picks_within_a_budget() {
-    let pick = |budget: &str| {
-        let line = format!("trade --json --scene street --axes candidates --size 48x27 --frame 3 {budget}");
-        let report = json(&line);
-        let pick = &report["pick"][0];
-        assert_eq!(pick["scene"], "street");
-        assert!(pick["config"]["importance"].is_string(), "{pick}");
-        assert!(pick["sentence"].is_string());
-        ["frame_ms", "error"].map(|figure| pick[figure].as_f64().expect("a figure"))
-    };
-    // The machine says itself what several images take: in milliseconds that are the same everywhere, a fast one reaches the most
-    // images that are tried by both budgets, and what is left between them is noise.
-    let wanted = 0.06;
-    let [time, reached] = pick(&format!("--error {wanted}"));
-    assert_eq!(reached, wanted);
-    let [little, coarse] = pick(&format!("--time {}", 2.0 * time));
-    let [_, fine] = pick(&format!("--time {}", 50.0 * time));
-    assert!(
-        little <= 2.0 * time && fine < coarse,
-        "{time} ms: {little} ms, {coarse} {fine}"
-    );
-    let none = json("trade --json --scene street --axes builder --size 48x27 --frame 3 --time 1e-6");
-    assert!(none["pick"][0].is_null(), "{none}");
-}
-
 #[test]
 fn bench_reports_every_case() {
     let report = json("bench --json --lights 2000 --queries 5000");
@@ -154,11 +125,11 @@ fn bench_reports_every_case() {
 /// With or without a device.
 #[test]
 fn verify_finds_the_trees_valid() {
-    let report = json("verify --json --queries 64 --frames 0..1 --frame-queries 8");
+    let report = json("verify --json --queries 64 --frames 0..1");
     assert_eq!(report["valid"], true, "{report}");
     let rows = report["rows"].as_array().expect("rows");
-    // Three scenes, two importances, two structures, three frames.
-    assert_eq!(rows.len(), 3 * 2 * 2 * 3);
+    // Three scenes, six methods with a light BVH.
+    assert_eq!(rows.len(), 3 * 6);
     for row in rows {
         assert_eq!(row["valid"], true, "{row}");
         assert!(

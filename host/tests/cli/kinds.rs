@@ -46,7 +46,7 @@ fn scenes_of_points_and_spots_are_verified_and_inspected() {
     ));
     assert_eq!(found["valid"], true);
     let rows = found["rows"].as_array().expect("rows");
-    assert_eq!(rows.len(), 6);
+    assert_eq!(rows.len(), 2);
     assert!(rows.iter().all(|row| row["lights"] == 3), "{rows:?}");
 
     let found = report(&format!("inspect {path} --points 40 --json"));

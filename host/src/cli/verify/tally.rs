@@ -8,7 +8,7 @@ use lightbvh::exact::hash;
 use lightbvh_kernels::query::Query;
 use serde::Serialize;
 
-use super::structures::Tree;
+use super::frames::Tree;
 use crate::backend::{Backend, BackendError, PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD};
 use crate::error::HostError;
 use crate::scene::SceneLight;
