@@ -204,7 +204,7 @@ impl MethodLight for AnyLight {
         match recipe.importance {
             Importance::Moments => recipe.runner_by::<Kinds, WIDTH>(first, target),
             Importance::Eq4 => Err(HostError::Usage {
-                option: "--importance eq4 (and samplers by it)",
+                option: "a --sampler by the paper's importance",
                 needs: "a scene of emissive triangles alone; this one has other lights, or textures or glass, which the renderer shows with moments only",
             }),
         }

@@ -12,7 +12,7 @@ use super::cases::scattered;
 use super::checks::{all_pmfs, relative_deviation};
 use super::random::Random;
 use super::row::{Check, Row};
-use super::walked;
+use super::subject::Subject;
 use crate::backend::{Bvh, Sampler};
 use crate::error::HostError;
 use crate::workload;
@@ -96,7 +96,7 @@ impl Scene {
             lights = validated("invariance", self.lights.clone())?;
             bvh.follow(&lights).expect("as many lights");
         }
-        let tree = walked(&bvh, &lights);
+        let tree = Subject::new(&bvh, &lights);
         let squares: Vec<f64> = self
             .points
             .par_iter()

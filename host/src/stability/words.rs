@@ -5,7 +5,7 @@ use lightbvh::{INVALID, Lights, Random64, ShadingPoint};
 use lightbvh_kernels::bvh::WIDTH;
 use lightbvh_kernels::query::Query;
 
-use super::random::{Random, adversarial};
+use super::random::{ENDS, Random};
 use super::row::{Check, Row};
 use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, PMF_RECORD, SAMPLED_RECORD};
 use crate::error::HostError;
@@ -13,10 +13,8 @@ use crate::vulkan::Device;
 use crate::words::{Record, compare_words};
 use crate::workload::words_in_use;
 
-/// Random numbers per point, beside the adversarial ones.
+/// Random numbers per point, next to the ends of their range.
 const NUMBERS: u32 = 96;
-/// Levels for which adversarial random numbers are made.
-const ADVERSARIAL_LEVELS: u32 = 4;
 
 /// Compares refit, samples and probabilities over a BVH that is refitted.
 pub fn compare(
@@ -94,13 +92,10 @@ fn queries(points: &[ShadingPoint]) -> Vec<Query> {
     let random = &mut Random::new(77);
     let mut out = Vec::new();
     for &point in points {
-        let numbers = (0..NUMBERS)
-            .map(|_| random.bits())
-            .chain(adversarial(ADVERSARIAL_LEVELS));
-        out.extend(numbers.map(|random| {
-            let number = Random64::from(random);
-            let words = [number.high, number.low];
-            Query { point, words }
+        let numbers = (0..NUMBERS).map(|_| Random64::from(random.bits()));
+        out.extend(numbers.chain(ENDS).map(|number| Query {
+            point,
+            words: [number.high, number.low],
         }));
     }
     out

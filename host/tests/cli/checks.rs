@@ -9,8 +9,7 @@ fn verify_compares_words_on_every_device() {
     if !has_device() {
         return;
     }
-    let report =
-        json("verify --json --queries 3000 --scene street --seed 7 --frames 0..3");
+    let report = json("verify --json --queries 3000 --scene street --seed 7 --frames 0..3");
     assert_eq!(report["different"], 0);
     assert_eq!(report["cpu_different"], 0);
     assert_eq!(report["frames"], serde_json::json!({ "start": 0, "end": 3 }));

@@ -23,7 +23,6 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
             "render street --integrator path --bounces 65",
             ["--bounces", "65 is not in 1..=64"],
         ),
-        ("render street --candidates 257", ["257 is not in 1..=256", ""]),
         ("render street --sampler best", ["best", ""]),
         ("render street --exposure NaN", [finite, ""]),
         // Options without effect.

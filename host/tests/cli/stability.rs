@@ -5,7 +5,8 @@ use std::process::Command;
 use lightbvh::{BuildParams, LightBvh, Lights, Node};
 use lightbvh_host::stability::cases::scattered;
 use lightbvh_host::stability::row::{Check, Row};
-use lightbvh_host::stability::{case, checks, walked};
+use lightbvh_host::stability::subject::Subject;
+use lightbvh_host::stability::{case, checks};
 use serde_json::Value;
 
 #[test]
@@ -37,7 +38,7 @@ fn rows(break_it: impl Fn(&mut LightBvh)) -> Vec<Row> {
     let mut bvh = LightBvh::single_level(&lights, &BuildParams::default());
     break_it(&mut bvh);
     let points = case::Case::new("", lights.triangles().to_vec()).points;
-    let tree = walked(&bvh, &lights);
+    let tree = Subject::new(&bvh, &lights);
     checks::check("broken", "single-level", &tree, &points, 20_000)
 }
 
