@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use lightbvh::bvh::NoTrails;
 use lightbvh::exact::hash;
 use lightbvh::importance::DefaultImportance;
 use lightbvh::refit::Instance;
 use lightbvh::requirements::{Layout, Model, Requirements, TransformKind, Updates};
 use lightbvh::{
-    BuildParams, Bvh, ImportanceModel, LightNode, Lights, MomentLayout, MomentNode, Moments, SampledLight,
-    ShadingPoint, TwoSidedMomentNode,
+    BuildParams, Bvh, LightNode, Lights, MomentLayout, MomentNode, Moments, SampledLight, ShadingPoint,
+    TwoSidedMomentNode,
 };
 use lightbvh_kernels::bvh::WIDTH;
 use rayon::prelude::*;
@@ -144,68 +143,29 @@ impl Subject {
             }),
         }
     }
+}
 
-    /// With trails, and what `updates` need.
-    fn traced<N, I>(bvh: Bvh<N, I, WIDTH>, updates: Updates) -> Self
-    where
-        N: LightNode<WIDTH> + 'static,
-        I: ImportanceModel<N, WIDTH> + Send + Sync + 'static,
-    {
-        match updates {
+/// A light BVH without what `$updates` do not need; `$pmf` evaluates its probabilities.
+macro_rules! subject {
+    ($bvh:expr, $updates:expr, $pmf:expr) => {
+        match $updates {
             Updates::Nothing => {
-                let bvh = bvh.into_static();
+                let bvh = $bvh.into_static();
                 let bytes = [bvh.bytes(); 2];
-                Self::new(
-                    bvh,
-                    bytes,
-                    |b, p, n| b.sample(p, n),
-                    Some(|b, p, l, i| b.pmf(p, l, i)),
-                )
+                Subject::new(bvh, bytes, |b, p, n| b.sample(p, n), $pmf)
             }
             Updates::Instances => {
-                let bvh = bvh.into_static_meshes();
+                let bvh = $bvh.into_static_meshes();
                 let bytes = [bvh.bytes(), bvh.memory()];
-                Self::new(
-                    bvh,
-                    bytes,
-                    |b, p, n| b.sample(p, n),
-                    Some(|b, p, l, i| b.pmf(p, l, i)),
-                )
+                Subject::new(bvh, bytes, |b, p, n| b.sample(p, n), $pmf)
             }
             Updates::Meshes => {
+                let bvh = $bvh;
                 let bytes = [bvh.bytes(), bvh.memory()];
-                Self::new(
-                    bvh,
-                    bytes,
-                    |b, p, n| b.sample(p, n),
-                    Some(|b, p, l, i| b.pmf(p, l, i)),
-                )
+                Subject::new(bvh, bytes, |b, p, n| b.sample(p, n), $pmf)
             }
         }
-    }
-
-    /// The same without trails.
-    fn untraced<N>(bvh: Bvh<N, Moments, WIDTH, NoTrails>, updates: Updates) -> Self
-    where
-        N: MomentLayout<WIDTH> + LightNode<WIDTH> + 'static,
-    {
-        match updates {
-            Updates::Nothing => {
-                let bvh = bvh.into_static();
-                let bytes = [bvh.bytes(); 2];
-                Self::new(bvh, bytes, |b, p, n| b.sample(p, n), None)
-            }
-            Updates::Instances => {
-                let bvh = bvh.into_static_meshes();
-                let bytes = [bvh.bytes(), bvh.memory()];
-                Self::new(bvh, bytes, |b, p, n| b.sample(p, n), None)
-            }
-            Updates::Meshes => {
-                let bytes = [bvh.bytes(), bvh.memory()];
-                Self::new(bvh, bytes, |b, p, n| b.sample(p, n), None)
-            }
-        }
-    }
+    };
 }
 
 /// A scene's lights in the frame that trees are looked at in, and the light that they send to its points.
@@ -231,9 +191,18 @@ impl Source<'_> {
         N: MomentLayout<WIDTH> + LightNode<WIDTH> + 'static,
     {
         Ok(match (model.uniform_halvings, model.trails) {
-            (0, false) => Subject::untraced(self.bvh::<N, Moments>(model)?.without_trails(), model.updates),
-            (0, true) => Subject::traced(self.bvh::<N, Moments>(model)?, model.updates),
-            _ => Subject::traced(self.bvh::<N, DefaultImportance>(model)?, model.updates),
+            (0, false) => {
+                let bvh = self.bvh::<N, Moments>(model)?.without_trails();
+                subject!(bvh, model.updates, None)
+            }
+            (0, true) => {
+                let bvh = self.bvh::<N, Moments>(model)?;
+                subject!(bvh, model.updates, Some(|b, p, l, i| b.pmf(p, l, i)))
+            }
+            _ => {
+                let bvh = self.bvh::<N, DefaultImportance>(model)?;
+                subject!(bvh, model.updates, Some(|b, p, l, i| b.pmf(p, l, i)))
+            }
         })
     }
 
@@ -429,7 +398,7 @@ mod tests {
     #[test]
     fn points_without_light_have_no_figure() {
         for is_lit in [false, true] {
-            let scene = room(is_lit, None);
+            let scene = room(is_lit);
             let lights: Lights = lights_at(&scene, 0).expect("lights");
             let (bvh, _) =
                 Instances::new::<Node, DefaultImportance, WIDTH>(&scene, 0, BuildParams::default())

@@ -106,18 +106,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         "scene": scene.name(), "frame": frames[0], "checked_frame": frames[1],
         "motion": motion, "animations": animations(&scene), "surfaces": surfaces,
     });
-    let mut about = vec![
-        line("masks", &surfaces.masks()),
-        line("animation", &motion.said()),
-    ];
+    let about = line("masks", &surfaces.masks()) + &line("animation", &motion.said());
     if others_alone {
-        return kinds::run(
-            context,
-            args,
-            &scene,
-            (frames, declared),
-            (report, &about.concat()),
-        );
+        return without_triangles(context, &scene, (args.frame, declared), (report, &about));
     }
     if let Some(left_out) = scene.unknown_in_figures() {
         news!("{}: {left_out}", scene.name());
@@ -128,7 +119,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let requirements = Requirements::of(&bvh, declared);
     let chosen = requirements.model();
     let lights = lights_at(&scene, frames[1])?;
-    let count = args.points_for(lights.triangles().len());
+    let most = MOST_PROBABILITIES / lights.triangles().len().max(1);
+    let count = args.points.min(most.max(1) as u32);
     let points = points::on_surfaces(&scene, frames[1], count);
     let checked = check(&requirements, &scene, frames, &lights, &points)?;
     let kernels = KernelSet::of(&checked.model)
@@ -173,13 +165,13 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             .iter()
             .map(|fact| line(fact.name, &format!("{}: {}", fact.found, fact.reason))),
     );
-    text.extend(about.drain(..));
+    text += &about;
     text += &format!("\nthe smallest model that is sufficient: {chosen}\n");
     text.extend(reasons.iter().map(|reason| format!("  {reason}\n")));
     if let Some(kinds) = &kinds {
         text += &format!(
-            "a tree over its lights of all kinds: Bvh<{}, Defensive<Moments, 6>, {WIDTH}>\n  lights: {}\n",
-            kinds.node_type(WIDTH),
+            "a tree over its lights of all kinds: {}\n  lights: {}\n",
+            kinds.tree(),
             kinds.cones()
         );
     }
@@ -200,12 +192,50 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::good_if(checked.holds()))
 }
 
-impl Args {
-    /// Points for so many lights.
-    fn points_for(&self, lights: usize) -> u32 {
-        self.points
-            .min(((MOST_PROBABILITIES / lights.max(1)) as u32).max(1))
+/// A scene that no triangle lights: its kinds of light, and the tree over all of them, which `verify` checks.
+fn without_triangles(
+    context: &Context,
+    scene: &Scene,
+    (frame, declared): (u32, Declared),
+    (mut report, about): (Value, &str),
+) -> Result<Outcome, HostError> {
+    let lights = lights_of::<AnyLight>(scene, frame)?;
+    let count = lights.triangles().len();
+    let kinds = LightKinds::of(lights.triangles());
+    let has_sky = scene.sun_count() > 0 || scene.data().environment.is_some();
+    let tree = (count > 0).then(|| kinds.tree());
+    if context.json {
+        report["lights"] = count.into();
+        report["kinds"] = kinds.json();
+        report["suns"] = scene.sun_count().into();
+        report["environment"] = scene.data().environment.is_some().into();
+        report["tree"] = tree.into();
+        table::print_json(&report)?;
+        return Ok(Outcome::Good);
     }
+    let mut text = format!(
+        "{} in frame {frame}, lit by {}\n\nwhat it requires\n",
+        scene.name(),
+        scene.other_lights()
+    );
+    text += &match count {
+        0 => line("lights of a tree", "none; the sky and suns stand next to trees"),
+        _ => line("lights of a tree", &kinds.cones()),
+    };
+    if has_sky {
+        text += &line(
+            "next to it",
+            "suns and environment maps (lightbvh::light::infinite)",
+        );
+    }
+    text += &line("changes", &yes(!changes(&declared).is_empty()));
+    text += &line("pmf of given lights", &yes(declared.pmf));
+    text += about;
+    if let Some(tree) = tree {
+        text += &format!("\na tree over its lights: {tree}, two levels\n");
+    }
+    table::print_text(&text)?;
+    Ok(Outcome::Good)
 }
 
 /// All animations of the file, by their numbers.

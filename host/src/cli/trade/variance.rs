@@ -101,8 +101,7 @@ mod tests {
     #[test]
     fn what_is_not_measured_has_no_figure() {
         for is_lit in [false, true] {
-            for row in of_scene(&room(is_lit, None), 0, 32, |axis| axis == Axis::Importance).expect("lights")
-            {
+            for row in of_scene(&room(is_lit), 0, 32, |axis| axis == Axis::Importance).expect("lights") {
                 let figures = [row.variances.variance, row.variances.variance_median];
                 assert_eq!(figures.map(|figure| figure.is_some()), [is_lit; 2], "{row:?}");
             }
