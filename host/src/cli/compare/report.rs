@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::plan::Plan;
+use super::plan::Args;
 use super::summary::{Average, Errors, Row};
 use crate::method::Method;
 
@@ -82,7 +82,7 @@ fn cell(errors: &Errors, name: &str, decimals: Option<usize>) -> String {
 }
 
 /// All tables.
-pub(super) fn markdown(plan: &Plan, report: &Report) -> String {
+pub(super) fn markdown(plan: &Args, report: &Report) -> String {
     let mut out = String::new();
     // Writing to a string does not fail.
     let mut line = |text: String| {
@@ -135,7 +135,7 @@ fn backends(report: &Report, scene: &SceneReport) -> Vec<String> {
     backends
 }
 
-fn errors(plan: &Plan, report: &Report, scene: &SceneReport, backend: &str) -> String {
+fn errors(plan: &Args, report: &Report, scene: &SceneReport, backend: &str) -> String {
     let frames: Vec<String> = plan.frames.iter().map(u32::to_string).collect();
     let mut out = format!(
         "On {backend}:\n\n| measure | method | {} | average |\n",
@@ -143,7 +143,7 @@ fn errors(plan: &Plan, report: &Report, scene: &SceneReport, backend: &str) -> S
     );
     out += &format!("|---|---|{}---|\n", "---|".repeat(frames.len()));
     for (title, name, decimals) in MEASURES {
-        for &method in &plan.methods {
+        for &method in &plan.method {
             let of_frame = |frame: u32| {
                 let is_it = |row: &&Row| {
                     row.scene == scene.scene

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::measure::Results;
-use super::plan::Plan;
+use super::plan::Args;
 use crate::method::Method;
 use crate::metrics::{Estimate, Quality};
 
@@ -111,7 +111,7 @@ impl Errors {
 
 /// Rows and averages of one scene on one backend.
 pub(super) fn summarize(
-    plan: &Plan,
+    plan: &Args,
     scene: &str,
     backend: &str,
     results: &Results,
@@ -121,7 +121,7 @@ pub(super) fn summarize(
         qualities.entry((method, frame)).or_default().push(quality);
     }
     let (mut rows, mut averages) = (Vec::new(), Vec::new());
-    for &method in &plan.methods {
+    for &method in &plan.method {
         let times = times(results, method);
         for &frame in &plan.frames {
             let Some(errors) = Errors::of(&by_seed(&qualities, method, &[frame])) else {
@@ -170,12 +170,12 @@ fn mean(qualities: &[Quality], measure: impl Fn(&Quality) -> f64) -> f64 {
     qualities.iter().map(measure).sum::<f64>() / qualities.len() as f64
 }
 
-fn changes(plan: &Plan, qualities: &BTreeMap<(Method, u32), Vec<Quality>>, method: Method) -> Vec<Change> {
+fn changes(plan: &Args, qualities: &BTreeMap<(Method, u32), Vec<Quality>>, method: Method) -> Vec<Change> {
     let moving: Vec<u32> = plan.frames.iter().copied().filter(|&frame| frame > 0).collect();
     let own = by_seed(qualities, method, &moving);
     let against = BASELINES
         .into_iter()
-        .filter(|&from| from != method && plan.methods.contains(&from));
+        .filter(|&from| from != method && plan.method.contains(&from));
     against
         .filter_map(|from| {
             let theirs = by_seed(qualities, from, &moving);
