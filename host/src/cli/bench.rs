@@ -9,7 +9,7 @@ mod worst;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use lightbvh::{BuildParams, LightBvh, Lights};
+use lightbvh::{BuildParams, LightBvh};
 use serde::Serialize;
 use serde_json::json;
 
@@ -113,23 +113,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 copies: median / copy,
             });
         };
-        for (preset, params) in PRESETS {
-            news!("{} {preset} build", structure.name());
-            let mut times = |threads, times: &[Duration]| {
-                push(
-                    ("build", [None, None, Some(preset)]),
-                    "cpu",
-                    threads,
-                    times,
-                    args.lights,
-                );
-            };
-            times(1, &one.install(|| builds(&lights, structure, &params)));
-            if all > 1 {
-                times(all, &builds(&lights, structure, &params));
-            }
-        }
         let measured = || {
+            let built = measure(|| {
+                black_box::<LightBvh>(build(&lights, structure, &BuildParams::BALANCED));
+            });
             let mut cpu: CpuBackend = CpuBackend::new(bvh.clone());
             let refit = |cpu: &mut CpuBackend| {
                 let start = Instant::now();
@@ -137,13 +124,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 Ok(start.elapsed())
             };
             let times = passes(&mut cpu, refit, &queries)?;
-            Ok::<_, HostError>((times, batches(&bvh, &queries)))
+            Ok::<_, HostError>((built, times, batches(&bvh, &queries)))
         };
         let mut results = vec![(1, one.install(measured)?)];
         if all > 1 {
             results.push((all, measured()?));
         }
-        for (threads, (times, batch)) in &results {
+        for (threads, (built, times, batch)) in &results {
+            push(BUILD, "cpu", *threads, built, args.lights);
             push(REFIT, "cpu", *threads, &times.refit, args.lights);
             push(SAMPLE, "cpu", *threads, &times.sample, args.queries);
             push(BATCH, "cpu", *threads, batch, args.queries);
@@ -167,23 +155,13 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::Good)
 }
 
-/// The builders' presets.
-const PRESETS: [(&str, BuildParams); 1] = [("balanced", BuildParams::BALANCED)];
-
 /// A measurement: the pass, and which of its passes, variants or presets.
 type What = (&'static str, [Option<&'static str>; 3]);
+const BUILD: What = ("build", [None, None, Some("balanced")]);
 const REFIT: What = ("refit", [Some("levels"), None, None]);
 const SAMPLE: What = ("sample", [None, Some("one"), None]);
 const BATCH: What = ("sample", [None, Some("batch"), None]);
 const PMF: What = ("pmf", [None; 3]);
-
-/// Times of builds by the threads of the current pool.
-fn builds(lights: &Lights, structure: Sampler, params: &BuildParams) -> Vec<Duration> {
-    measure(|| {
-        let bvh: LightBvh = build(lights, structure, params);
-        black_box(&bvh);
-    })
-}
 
 fn run_dynamic(context: &Context, is_quick: bool) -> Result<Outcome, HostError> {
     let scenes = dynamic::rows(is_quick)?;
