@@ -3,7 +3,6 @@
 use ash::vk;
 use lightbvh_gpu::FloatEnvironment;
 use lightbvh_gpu::spirv::ModuleError;
-use std::time::Duration;
 
 /// A failure on the Vulkan side: each variant is one cause and says what, where, and what to do about it.
 #[allow(missing_docs, reason = "the messages name the fields")]
@@ -51,16 +50,6 @@ pub enum VulkanError {
     /// The device was lost; nothing it holds can be used any more.
     #[error("{device} was lost in {call}; open it again, and look into the system log if it happens again")]
     DeviceLost { call: &'static str, device: String },
-    /// Submitted work did not end in time.
-    #[error("{device} did not finish within {after:?} ({work}); give it less work or a longer time limit")]
-    Timeout {
-        device: String,
-        after: Duration,
-        work: String,
-    },
-    /// Earlier work that hit its time limit is still running.
-    #[error("{device} is still busy with work that ran into its time limit; wait, or open another device")]
-    Busy { device: String },
     /// The device memory manager refused.
     #[error(
         "no memory for {bytes} bytes on {device} ({reserved} bytes reserved): {reason}; use a smaller scene or fewer queries"

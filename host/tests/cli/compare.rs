@@ -10,8 +10,7 @@ fn report(folder: &Folder, options: &str) -> Value {
 
 const SMALL: &str =
     "--scene street --width 32 --height 18 --samples 1 --seeds 2 --reference-samples 4 --frames 9,0";
-const TWO_METHODS: &str =
-    "--method single-level-refit --method two-level-saoh --backend cpu";
+const TWO_METHODS: &str = "--method single-level-refit --method two-level-saoh --backend cpu";
 
 fn rows(report: &Value) -> &Vec<Value> {
     report["rows"].as_array().expect("rows")
