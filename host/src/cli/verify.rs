@@ -188,10 +188,6 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
             &report.devices,
             &[
                 ("device", |d| d.name.clone()),
-                ("nodes", |d| d.tally.nodes.to_string()),
-                ("samples", |d| d.tally.samples.to_string()),
-                ("pmfs", |d| d.tally.pmfs.to_string()),
-                ("pixels", |d| d.tally.pixels.to_string()),
                 ("words compared", |d| d.tally.compared.to_string()),
                 ("words different", |d| d.tally.different.to_string()),
                 ("exact", |d| table::yes(d.exact)),
@@ -201,10 +197,11 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
     for device in &report.devices {
         for (kind, words) in &device.tally.words {
             say!(
-                "{}: {} words of {}, {} different",
+                "{}: {} {}, {} words, {} different",
                 device.name,
-                words.compared,
+                device.tally.records[kind],
                 kind.name(),
+                words.compared,
                 words.different
             )?;
         }

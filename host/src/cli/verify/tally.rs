@@ -23,6 +23,8 @@ pub(in crate::cli) enum Kind {
     Samples,
     Pmfs,
     Pixels,
+    /// Whole arrays of a light BVH.
+    Arrays,
 }
 
 impl Kind {
@@ -39,15 +41,14 @@ pub(in crate::cli) struct Words {
     pub different: u64,
 }
 
-/// Counts of one device. Nodes, samples, pmfs and pixels are counted as such, the others in words.
+/// Counts of one device.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub(in crate::cli) struct Tally {
     pub compared: u64,
     pub different: u64,
-    pub nodes: u64,
-    pub samples: u64,
-    pub pmfs: u64,
-    pub pixels: u64,
+    /// Nodes, samples, pmfs and pixels, each counted as such.
+    #[serde(flatten)]
+    pub records: BTreeMap<Kind, u64>,
     /// Words by kind; together `compared` and `different`.
     pub words: BTreeMap<Kind, Words>,
     /// Scene, method, frame and kernel, then record, index, field and both words.
@@ -74,13 +75,7 @@ impl Tally {
         device: &[u32],
     ) -> Result<(), HostError> {
         let comparison = compare_words(record, cpu, device)?;
-        let records = (cpu.len() / record.words().max(1)) as u64;
-        match kind {
-            Kind::Nodes => self.nodes += records,
-            Kind::Samples => self.samples += records,
-            Kind::Pmfs => self.pmfs += records,
-            Kind::Pixels => self.pixels += records,
-        }
+        *self.records.entry(kind).or_default() += (cpu.len() / record.words().max(1)) as u64;
         self.compared += comparison.compared;
         self.different += comparison.different;
         let words = self.words.entry(kind).or_default();
@@ -277,7 +272,7 @@ mod tests {
             assert_eq!(tallies.cpu.different, 0);
             let tally = &tallies.devices[0];
             let words: u64 = tally.words.values().map(|words| words.compared).sum();
-            assert_eq!((words, tally.pixels), (tally.compared, 16 * 9));
+            assert_eq!((words, tally.records[&Kind::Pixels]), (tally.compared, 16 * 9));
             assert_eq!(tally.different, u64::from(wrong.is_some()), "{wrong:?}");
             if let Some(kind) = wrong {
                 assert_eq!(tally.words[&kind].different, 1);
