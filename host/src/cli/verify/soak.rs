@@ -500,7 +500,8 @@ fn compare(
     let mut take = |name, words: usize, expected: &[u32], found: &[u32], indices: &[u32]| {
         let of = |all: &[u32]| -> Vec<u32> {
             let each = indices.iter().map(|&index| index as usize * words);
-            each.flat_map(|at| all[at..at + words].to_vec()).collect()
+            each.flat_map(|at| all.get(at..at + words).unwrap_or_default().to_vec())
+                .collect()
         };
         let what = format!("frame {frame} {name}");
         tally.take(Kind::Arrays, &what, &WORD, &of(expected), &of(found))
@@ -567,25 +568,9 @@ pub(super) fn print(report: &Report) -> Result<(), HostError> {
             ("most", |r| format!("{:.1}", r.us.most)),
         ],
     )?;
-    let edits = &report.edits;
-    say!(
-        "\n{} frames, {} instances and {} lights at the end: {} added, {} removed, {} moved, {} dimmed; meshes: {} deformed, {} \
-         exchanged, {} rebuilt; {} top levels swapped in; frames that waited for a build: {}, that built: {}; valid at {} checks",
-        report.frames,
-        report.instances,
-        report.lights,
-        edits.added,
-        edits.removed,
-        edits.moved,
-        edits.dimmed,
-        edits.deformed,
-        edits.exchanged,
-        edits.rebuilt,
-        edits.swapped,
-        edits.waited,
-        edits.inline,
-        edits.checked
-    )?;
+    let edits = serde_json::to_value(report.edits).map_err(std::io::Error::from)?;
+    let (frames, instances, lights) = (report.frames, report.instances, report.lights);
+    say!("\n{frames} frames, {instances} instances and {lights} lights at the end; edits: {edits}")?;
     for (what, means) in [("scene", &report.memory), ("process", &report.process)] {
         say!(
             "memory of the {what}: {:.2} MB in the second quarter, {:.2} MB in the last: {}",
