@@ -44,16 +44,9 @@ fn trade_measures_each_choice() {
     assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
     let written = std::fs::read(folder.file("trade.json")).expect("JSON");
     let mut written: serde_json::Value = serde_json::from_slice(&written).expect("JSON");
-    let made = written
-        .as_object_mut()
-        .and_then(|all| all.remove("made"))
-        .expect("the machine");
-    assert!(
-        made["command"]
-            .as_str()
-            .is_some_and(|line| line.starts_with("lightbvh trade ")),
-        "{made}"
-    );
+    let made = written.as_object_mut().and_then(|all| all.remove("made"));
+    let made = made.expect("the machine");
+    assert!(made["command"].to_string().contains("lightbvh trade "), "{made}");
     assert_eq!(written, report);
     let points = report["points"].as_array().expect("points");
     assert_eq!(points.len(), 2);

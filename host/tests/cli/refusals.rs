@@ -37,6 +37,8 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
         ("bench --lights 0", ["--lights", "0 is not in"]),
         ("bench --queries 0", ["--queries", "0 is not in"]),
         ("verify --queries many", ["many", ""]),
+        ("inspect street --static --changes radiance", ["--changes", ""]),
+        ("inspect street --points 0", ["--points", ""]),
     ] {
         let line = line.replace("REPORT", &report).replace("IMAGES", &images);
         let line = match line.starts_with("render") {
@@ -48,18 +50,11 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
     }
     assert!(!Path::new(&image).exists() && !Path::new(&images).exists());
 
-    for output in [folder.file("no/such/folder/image.png"), folder.file("image.gif")] {
-        let said = refused(&format!(
-            "render street -o {output} --width 16 --height 9 --spp 1"
-        ));
-        assert!(said.contains(&output), "{said}");
-    }
     // Before the scene is read, which is not there.
     std::fs::create_dir_all(folder.file("folder.png")).expect("a folder");
     std::fs::create_dir_all(folder.file("folder.glb")).expect("a folder");
     for (name, said_of) in [
         ("image.jpg", ".png or .exr"),
-        ("image", ".png or .exr"),
         ("no/such/image.png", "folder"),
         ("file/image.png", "folder"),
         ("folder.png", "folder"),
@@ -67,8 +62,6 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
         let output = folder.file(name);
         let said = refused(&format!("render no/such.glb -o {output}"));
         assert!(said.contains(&output) && said.contains(said_of), "{said}");
-        let said = refused(&format!("render no/such.glb --animate 0..3 -o {output}"));
-        assert!(name == "folder.png" || said.contains(said_of), "{said}");
     }
     for (name, said_of) in [
         ("a.gltf", "that ends in .glb"),
@@ -78,7 +71,6 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
         let output = folder.file(name);
         let said = refused(&format!("export no/such.glb -o {output}"));
         assert!(said.contains(&output) && said.contains(said_of), "{said}");
-        assert!(!said.contains("names nothing"), "{said}");
     }
     if has_device() {
         let said = refused("verify --queries 1 --device no-such-device");

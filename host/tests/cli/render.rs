@@ -73,34 +73,22 @@ fn a_full_standard_output_is_an_error() {
 fn a_camera_of_ones_own() {
     let folder = Folder::new("look");
     let small = "--width 48 --height 27 --spp 2 --backend cpu";
-    let mut images = Vec::new();
-    for look in [
-        "",
-        "--look-from 0,3,12 --look-at 0,1,0",
-        "--look-from -6,3,12 --look-at 0,1,-2.5 --fov 30",
-    ] {
-        let file = folder.file(&format!("{}.exr", images.len()));
-        let output = run(&format!("render street {look} -o {file} {small}"));
-        assert!(
-            output.status.success(),
-            "{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
-        images.push(std::fs::read(&file).expect("an image"));
-    }
-    assert!(images[0] != images[1] && images[1] != images[2]);
+    let image = |options: &str| {
+        let file = folder.file("image.exr");
+        let output = run(&format!("render street {options} -o {file} {small}"));
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(output.status.success(), "{options}");
+        (std::fs::read(&file).expect("an image"), said)
+    };
+    let own = image("").0;
+    let looked = image("--look-from -6,3,12 --look-at 0,1,-2.5 --fov 30").0;
     // One that is chosen for what is lit in place of the scene's.
-    let file = folder.file("auto.exr");
-    let output = run(&format!("render street --camera auto -o {file} {small}"));
-    let said = String::from_utf8_lossy(&output.stdout);
-    assert!(output.status.success() && said.contains("--look-from"), "{said}");
-    assert!(std::fs::read(&file).expect("an image") != images[0]);
+    let (auto, said) = image("--camera auto");
+    assert!(said.contains("--look-from"), "{said}");
+    assert!(own != looked && own != auto && auto != looked);
     for wrong in [
         "--look-from 1,2,3",
-        "--look-at 1,2,3",
         "--look-from 1,2 --look-at 1,2,3",
-        "--look-from 1,2,x --look-at 1,2,3",
-        "--look-from 1,2,3 --look-at 1,2,3,4",
         "--look-from 1,2,3 --look-at 0,0,0 --camera 0",
         "--fov 40",
         "--camera first",
