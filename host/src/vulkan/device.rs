@@ -199,18 +199,3 @@ fn create(instance: &Instance, candidate: &Candidate, options: Options) -> Resul
     unsafe { instance.raw.create_device(candidate.physical, &info, None) }
         .during("vkCreateDevice", &candidate.probe.name)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_empty_list_says_why() {
-        let list = DeviceList {
-            devices: Vec::new(),
-            notes: vec!["no loader".into()],
-        };
-        let error = list.select("0").unwrap_err().to_string();
-        assert!(error.contains("no loader"), "{error}");
-    }
-}
