@@ -21,20 +21,21 @@ pub struct Kernel {
 #[derive(Default)]
 pub(crate) struct Kernels {
     /// By name and specialisation constant 0.
-    pub(super) built_in: HashMap<(&'static str, u32), Arc<Kernel>>,
-    pub(super) others: Vec<Arc<Kernel>>,
-    /// Words that stand in for those of built-in kernels.
-    pub(super) replaced: HashMap<&'static str, Vec<u32>>,
+    pub(super) made: HashMap<(String, u32), Arc<Kernel>>,
+    /// Those that others of the same name replaced.
+    pub(super) old: Vec<Arc<Kernel>>,
+    /// Words of kernels that are not built in.
+    pub(super) words: HashMap<String, Vec<u32>>,
 }
 
 impl Kernels {
     /// Destroys the pipelines. Nothing that uses them may be running.
     pub(crate) fn destroy(&mut self, device: &ash::Device) {
         for kernel in self
-            .built_in
+            .made
             .drain()
             .map(|(_, kernel)| kernel)
-            .chain(self.others.drain(..))
+            .chain(self.old.drain(..))
         {
             kernel.destroy(device);
         }

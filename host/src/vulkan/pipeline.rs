@@ -21,46 +21,37 @@ impl Device {
 
     /// [`kernel`](Self::kernel) with `constant` for specialisation constant 0, where it has one.
     pub fn kernel_with(&self, name: &str, constant: u32) -> Result<Arc<Kernel>, VulkanError> {
-        let module = built_in(name)?;
         let mut kernels = self.shared.kernels();
-        if let Some(kernel) = kernels.built_in.get(&(module.name, constant)) {
+        let key = (name.to_owned(), constant);
+        if let Some(kernel) = kernels.made.get(&key) {
             return Ok(Arc::clone(kernel));
         }
-        let replaced = kernels.replaced.get(name).cloned();
-        let words = replaced.unwrap_or_else(|| module.words());
+        let words = match kernels.words.get(name) {
+            Some(words) => words.clone(),
+            None => built_in(name)?.words(),
+        };
         let kernel = Arc::new(Kernel::new(&self.shared, name, &words, constant)?);
-        kernels
-            .built_in
-            .insert((module.name, constant), Arc::clone(&kernel));
+        kernels.made.insert(key, Arc::clone(&kernel));
         drop(kernels);
         self.shared.check_validation()?;
         Ok(kernel)
     }
 
-    /// Puts a module of the caller's in the place of the built-in kernel of that name, for all that this device runs from now
-    /// on. Tests run deliberately broken kernels by it, to see that the self-test and every comparison find them.
-    #[doc(hidden)]
-    pub fn replace_kernel(&self, name: &str, words: &[u32]) -> Result<(), VulkanError> {
-        let module = built_in(name)?;
-        let kernel = Arc::new(Kernel::new(&self.shared, name, words, 0)?);
-        let mut guard = self.shared.kernels();
-        let kernels = &mut *guard;
-        // A pass may still name an old one's pipeline; it goes when the device does.
-        let old = kernels.built_in.extract_if(|(of, _), _| *of == name);
-        kernels.others.extend(old.map(|(_, kernel)| kernel));
-        kernels.built_in.insert((module.name, 0), kernel);
-        kernels.replaced.insert(module.name, words.to_vec());
-        drop(guard);
-        self.shared.check_validation()
-    }
-
-    /// A kernel from a SPIR-V module with one compute entry point; `name` is for messages.
+    /// A kernel from a SPIR-V module with one compute entry point. [`kernel`](Self::kernel) returns it from now on, also in the
+    /// place of a built-in one of that name.
     ///
     /// Float-control execution modes are set as the device reports them. The module's instructions are trusted like
     /// any program: Vulkan does not promise to catch an invalid one.
     pub fn kernel_from_words(&self, name: &str, words: &[u32]) -> Result<Arc<Kernel>, VulkanError> {
         let kernel = Arc::new(Kernel::new(&self.shared, name, words, 0)?);
-        self.shared.kernels().others.push(Arc::clone(&kernel));
+        let mut guard = self.shared.kernels();
+        let kernels = &mut *guard;
+        // A pass may still name an old one's pipeline; it goes when the device does.
+        let old = kernels.made.extract_if(|(of, _), _| of == name);
+        kernels.old.extend(old.map(|(_, kernel)| kernel));
+        kernels.made.insert((name.to_owned(), 0), Arc::clone(&kernel));
+        kernels.words.insert(name.to_owned(), words.to_vec());
+        drop(guard);
         self.shared.check_validation()?;
         Ok(kernel)
     }

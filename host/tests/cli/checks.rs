@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::program::{Folder, has_device, json};
+use crate::program::{Folder, has_device, json, json_on_cpu};
 
 #[test]
 fn verify_compares_words_on_every_device() {
@@ -89,7 +89,7 @@ fn trade_measures_each_choice() {
 
 #[test]
 fn bench_reports_every_case() {
-    let report = json("bench --json --lights 2000 --queries 5000");
+    let report = json_on_cpu("bench --json --lights 2000 --queries 5000");
     let cases = report["cases"].as_array().expect("cases");
     for structure in ["single-level", "two-level"] {
         for what in ["build", "refit", "sample", "pmf"] {
@@ -114,10 +114,9 @@ fn bench_reports_every_case() {
     }
 }
 
-/// With or without a device.
 #[test]
 fn verify_finds_the_trees_valid() {
-    let report = json("verify --json --queries 64 --frames 0..1");
+    let report = json_on_cpu("verify --json --queries 64 --frames 0..1");
     assert_eq!(report["valid"], true, "{report}");
     let rows = report["rows"].as_array().expect("rows");
     // Three scenes, six methods with a light BVH.

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::model::{self, FLOOR};
-use crate::program::{Folder, json as report, refused, run};
+use crate::program::{Folder, json_on_cpu as report, refused, run};
 
 const NAME: &str = "KHR_lights_punctual";
 
