@@ -13,7 +13,7 @@ use lightbvh::{BuildParams, LightBvh};
 use serde::Serialize;
 use serde_json::json;
 
-use super::measure::times::{Spread, ms, spread_ms};
+use super::measure::times::{ms, quantiles, spread_ms};
 use super::{Context, Outcome, devices, table};
 use crate::backend::{Bvh, CpuBackend, DeviceBackend, Follow, Sampler};
 use crate::cli::table::news;
@@ -94,8 +94,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                         threads,
                         times: &[Duration],
                         items: u32| {
-            let Spread { median, most, .. } = spread_ms(times);
-            let least = times.iter().copied().min().unwrap_or_default();
+            let [least, median, most] = quantiles(times.iter().copied().map(ms), [0.0, 0.5, 1.0]);
             let ns = |ms: f64| 1e6 * ms / f64::from(items);
             cases.push(Case {
                 what,
@@ -107,7 +106,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 backend: backend.to_owned(),
                 threads,
                 ns_per_item: ns(median),
-                ns_least: ns(ms(least)),
+                ns_least: ns(least),
                 ns_most: ns(most),
                 bytes_per_light: bvh.bytes() as f64 / f64::from(args.lights),
                 copies: median / copy,

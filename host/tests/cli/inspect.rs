@@ -209,7 +209,7 @@ fn words_are_for_people() {
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{said}");
     for words in [
-        "24 of 24 triangles shine from both sides",
+        "of 24 triangles 0 shine from one side",
         "  layout: ",
         "  levels: one, because one mesh",
         "  trails: kept",

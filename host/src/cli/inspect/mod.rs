@@ -384,54 +384,45 @@ fn facts(found: &Requirements, surfaces: &Surfaces) -> Vec<Fact> {
     ];
     let counts = kinds.iter().zip(found.transforms).filter(|(_, count)| *count > 0);
     let counts: Vec<String> = counts.map(|(kind, count)| format!("{count} {kind}")).collect();
+    let fact = |name, found: &str, reason: String| Fact {
+        name,
+        found: found.to_owned(),
+        reason,
+    };
+    let is = |is| if is { "yes" } else { "no" };
     let orientation = if one_sided > 0 { "present" } else { "absent" };
-    let facts = [
-        (
-            "orientation",
-            orientation.to_owned(),
-            format!("{one_sided} of {triangles} triangles shine from one side"),
-        ),
-        (
-            "two-sided only",
-            yes(one_sided == 0 && triangles > 0),
-            format!(
-                "{} of {triangles} triangles shine from both sides",
-                triangles - one_sided
-            ),
-        ),
-        (
-            "one mesh",
-            yes(found.is_one_mesh()),
-            format!(
-                "meshes: {}, instances: {}, at most {} of a mesh",
-                found.meshes, found.instances, found.most_instances
-            ),
-        ),
-        (
+    let sides = format!("of {triangles} triangles {one_sided} shine from one side, the others from both");
+    let meshes = format!(
+        "meshes: {}, instances: {}, at most {} of a mesh",
+        found.meshes, found.instances, found.most_instances
+    );
+    let transform = kinds[found.transform() as usize];
+    vec![
+        fact("orientation", orientation, sides.clone()),
+        fact("two-sided only", is(one_sided == 0 && triangles > 0), sides),
+        fact("one mesh", is(found.is_one_mesh()), meshes),
+        fact(
             "dark lights",
-            yes(found.dark > 0),
+            is(found.dark > 0),
             format!("{} of {} have no flux", found.dark, found.lights),
         ),
-        (
+        fact(
             "transforms",
-            kinds[found.transform() as usize].to_owned(),
+            transform,
             format!("instances: {}; {dimmed} dimmed", counts.join(", ")),
         ),
-        (
+        fact(
             "changes",
-            yes(!changes.is_empty()),
+            is(!changes.is_empty()),
             format!("{changed}, as declared"),
         ),
-        ("glossy receivers", yes(surfaces.glossy > 0), surfaces.gloss()),
-        (
+        fact("glossy receivers", is(surfaces.glossy > 0), surfaces.gloss()),
+        fact(
             "pmf of given lights",
-            yes(found.declared.pmf),
+            is(found.declared.pmf),
             "multiple importance sampling asks for them; as declared".to_owned(),
         ),
-    ];
-    let all = facts.into_iter();
-    all.map(|(name, found, reason)| Fact { name, found, reason })
-        .collect()
+    ]
 }
 
 /// Why each part of the smallest model is what it is: a sentence for each that begins with its name.
