@@ -85,7 +85,6 @@ fn commands_for_triangles_say_which_commands_take_other_lights() {
     for command in [
         format!("trade --quick --scene {path}"),
         format!("compare --quick --scene {path} --out {out}"),
-        format!("trade --variance --scene {path}"),
     ] {
         let said = refused(&command);
         for part in ["3 lights of other kinds", "`lightbvh render`", "`inspect`"] {

@@ -7,7 +7,6 @@ mod image;
 pub(super) mod report;
 mod structure;
 mod subject;
-mod variance;
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -48,12 +47,6 @@ pub(super) struct Args {
     /// One scene, fewer turns, smaller images: within a minute; everything takes about half an hour.
     #[arg(long)]
     quick: bool,
-    /// Only the exact variance of one sample, at --points points on surfaces: no images, no times.
-    #[arg(long, conflicts_with = "out")]
-    variance: bool,
-    /// Points of --variance on the surfaces of each scene.
-    #[arg(long, requires = "variance", default_value_t = 400, value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    points: u32,
 }
 
 impl Args {
@@ -70,9 +63,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         ([], false) => ["street", "square", "carousel"].map(String::from).into(),
         (named, _) => named.to_vec(),
     };
-    if args.variance {
-        return variance::run(context, args, &named);
-    }
     let mut all_points = Vec::new();
     let mut all_steps = Vec::new();
     let mut report = args
