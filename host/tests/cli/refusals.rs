@@ -108,6 +108,11 @@ fn options_are_taken_where_they_apply() {
         ("export street -o street.glb --json", "--json"),
         ("bench --dynamic --device 0", "--device"),
         ("trade --validation", "--validation"),
+        ("verify --soak 0", "0 is not in 100..="),
+        ("verify --soak 100 --instances 0", "--instances"),
+        ("verify --soak 100 --mesh-triangles 0", "--mesh-triangles"),
+        ("verify --instances 10", "--soak"),
+        ("verify --soak 100 --queries 5", "cannot be used with"),
     ] {
         let said = refused(line);
         assert!(said.contains(option), "{line}: {said}");

@@ -81,13 +81,11 @@ struct Motion {
     bending: usize,
 }
 
-/// Materials by what matters to the choice of a light: `masked` ones are cut out by alpha.
+/// Materials by what matters to the choice of a light.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Surfaces {
     materials: usize,
     glossy: usize,
-    masked: usize,
-    masked_lights: usize,
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
@@ -106,7 +104,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         "scene": scene.name(), "frame": frames[0], "checked_frame": frames[1],
         "motion": motion, "animations": animations(&scene), "surfaces": surfaces,
     });
-    let about = line("masks", &surfaces.masks()) + &line("animation", &motion.said());
+    let about = line("animation", &motion.said());
     if others_alone {
         return without_triangles(context, &scene, (args.frame, declared), (report, &about));
     }
@@ -320,37 +318,15 @@ impl Motion {
 impl Surfaces {
     fn of(data: &SceneData) -> Self {
         let materials = &data.materials;
-        let masked = || materials.iter().filter(|material| material.masked);
-        let emits = |rgb: [f32; 3]| rgb.iter().any(|&channel| channel > 0.0);
         Self {
             materials: materials.len(),
             glossy: materials.iter().filter(|own| own.roughness <= GLOSSY).count(),
-            masked: masked().count(),
-            masked_lights: masked().filter(|own| emits(own.radiance)).count(),
         }
     }
 
     fn gloss(&self) -> String {
-        let Self {
-            materials, glossy, ..
-        } = self;
+        let Self { materials, glossy } = self;
         format!("of {materials} materials {glossy} have a roughness of {GLOSSY} or less")
-    }
-
-    fn masks(&self) -> String {
-        let Self {
-            materials,
-            masked,
-            masked_lights,
-            ..
-        } = self;
-        match masked {
-            0 => format!("no: of {materials} materials none is cut out by alpha"),
-            _ => format!(
-                "yes: {masked} of {materials} materials, taken as opaque; emitting: {masked_lights}; what is cut out of a light keeps its \
-                 probability, which costs variance and no bias where the shader masks it"
-            ),
-        }
     }
 }
 

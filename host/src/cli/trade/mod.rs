@@ -136,8 +136,7 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
     news!("{name}: times and variances of samples");
     let lights = lights_at(scene, last)?;
     let points = points::on_surfaces(scene, last, budget.points);
-    let arrays = arrays_at(scene, last, budget.width, budget.height)?;
-    let arriving = Arriving::new(&lights, &points, &arrays.rays.surfaces());
+    let arriving = Arriving::new(&lights, &points);
     let structures = structures(&subjects, &Step::new(scene, last, &lights), &arriving, budget)?;
     let (images, judge) = measured.finish();
     let all = subjects.iter().zip(structures.into_iter().zip(images));
