@@ -33,9 +33,6 @@ pub(super) struct Args {
     /// Measure frames of moving lights instead: time, variance relative to a fresh build, bytes.
     #[arg(long, conflicts_with_all = ["device", "validation"])]
     dynamic: bool,
-    /// Measure fewer frames and points, and no largest scenes: under a minute.
-    #[arg(long, requires = "dynamic")]
-    quick: bool,
     /// Count nodes and time of single samples and pmfs in adversarial scenes instead.
     #[arg(long, conflicts_with_all = ["dynamic", "device", "validation"])]
     worst: bool,
@@ -69,7 +66,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         return worst::run(context);
     }
     if args.dynamic {
-        return run_dynamic(context, args.quick);
+        return dynamic::run(context);
     }
     let opened = devices::open(context)?;
     let lights = random_lights(args.lights);
@@ -161,16 +158,6 @@ const REFIT: What = ("refit", [Some("levels"), None, None]);
 const SAMPLE: What = ("sample", [None, Some("one"), None]);
 const BATCH: What = ("sample", [None, Some("batch"), None]);
 const PMF: What = ("pmf", [None; 3]);
-
-fn run_dynamic(context: &Context, is_quick: bool) -> Result<Outcome, HostError> {
-    let scenes = dynamic::rows(is_quick)?;
-    if context.json {
-        table::print_json(&json!({ "scenes": scenes }))?;
-    } else {
-        dynamic::print(&scenes)?;
-    }
-    Ok(Outcome::Good)
-}
 
 fn print(context: &Context, cases: &[Case]) -> Result<(), HostError> {
     if context.json {

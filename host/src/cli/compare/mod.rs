@@ -110,7 +110,7 @@ fn compare(
             progress,
         };
         let results = job.run()?;
-        let (rows, averages) = summarize(plan, scene.name(), target.name(), &results);
+        let [rows, averages] = summarize(plan, scene.name(), target.name(), &results);
         report.rows.extend(rows);
         report.averages.extend(averages);
         report.different += results.different_from(first.get_or_insert(results.clone()));
