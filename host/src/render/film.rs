@@ -16,21 +16,17 @@ pub const MAX_AUTO_EXPOSURE: f32 = 1000.0;
 #[allow(missing_docs, reason = "the messages name the fields")]
 #[derive(Debug, thiserror::Error)]
 pub enum FilmError {
-    /// The number of pixels does not fit the size.
     #[error(
         "an image of {width} x {height} has not {pixels} pixels; give width times height of them, at least one"
     )]
     Size { width: u32, height: u32, pixels: usize },
-    /// The extension is neither `.png` nor `.exr`.
     #[error("{}: unknown image format; name a file that ends in .png or .exr", .path.display())]
     Format { path: PathBuf },
-    /// The encoder refuses the image.
     #[error("{}: cannot encode the image: {source}; try the other format", .path.display())]
     Encode {
         path: PathBuf,
         source: image::ImageError,
     },
-    /// The file cannot be written.
     #[error("{}: cannot write the image: {source}; check that its folder exists, may be written to and has room", .path.display())]
     Write { path: PathBuf, source: std::io::Error },
 }
