@@ -11,7 +11,7 @@ use serde_json::json;
 use super::measure::times::{ms, spread_ms};
 use super::verify::tally::{Kind, Tally};
 use super::{Context, Outcome, devices, table, target};
-use crate::backend::{SAMPLED_RECORD, Timed};
+use crate::backend::{PIXEL_RECORD, SAMPLED_RECORD, Timed};
 use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::method::{Method, Runner, Step, Target};
@@ -109,7 +109,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 tally.take(Kind::Nodes, "refit", &record, nodes, &found.0)?;
                 let (expected, found_samples) = (cast_slice(sampled), cast_slice(&found.1));
                 tally.take(Kind::Samples, "sample", &SAMPLED_RECORD, expected, found_samples)?;
-                tally.take_pixels("render", image, &found.2)?;
+                let (expected, found) = (cast_slice(image), cast_slice(&found.2));
+                tally.take(Kind::Pixels, "render", &PIXEL_RECORD, expected, found)?;
             }
         }
         let image = expected.map(|(_, _, image)| image).unwrap_or_default();

@@ -80,9 +80,6 @@ struct OnDevices<A: clap::Args> {
     /// Use only the Vulkan device of this index or name (a part of it is enough).
     #[arg(long, value_name = "INDEX|NAME")]
     device: Option<String>,
-    /// Run devices under the Khronos validation layer; any message of it is an error.
-    #[arg(long)]
-    validation: bool,
 }
 
 /// No options of its own.
@@ -94,7 +91,6 @@ struct Nothing {}
 struct Context {
     json: bool,
     device: Option<String>,
-    validation: bool,
 }
 
 /// How a command that ran to its end went.
@@ -130,7 +126,6 @@ impl<A: clap::Args> OnDevices<A> {
         let context = Context {
             json: self.own.json,
             device: self.device,
-            validation: self.validation,
         };
         (context.json, run(&context, &self.own.own))
     }

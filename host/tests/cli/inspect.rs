@@ -5,68 +5,16 @@ use serde_json::{Value, json};
 use crate::model::{self, Clip, Keys, LAMP};
 use crate::program::{Folder, json as report, refused, run};
 
-/// A floor of two triangles, and lamps of two triangles each above it.
-struct Room {
-    lamps: usize,
-    /// Whether the last of them shines from one side; it is a primitive, so a mesh light, of its own.
-    has_one_sided: bool,
-    /// Whether the lamps' node shears.
-    has_shear: bool,
-    /// Whether the lamps' node moves.
-    moves: bool,
-    emits: f32,
-}
-
-impl Default for Room {
-    fn default() -> Self {
-        Self {
-            lamps: 12,
-            has_one_sided: false,
-            has_shear: false,
-            moves: false,
-            emits: 1.0,
-        }
-    }
-}
-
-impl Room {
-    /// Writes the room as glTF and returns its path.
-    fn write(&self, folder: &Folder, name: &str) -> String {
-        let clips = match self.moves {
-            true => vec![moving("")],
-            false => Vec::new(),
-        };
-        self.write_with(folder, name, &clips)
-    }
-
-    fn write_with(&self, folder: &Folder, name: &str, clips: &[Clip]) -> String {
-        model::write_lamps(folder, name, self.lamps, clips, |root| {
-            root["scenes"][0]["nodes"] = json!([0, 1]);
-            root["nodes"][0]["translation"] = json!([0, -3, 0]);
-            root["nodes"][1] = json!({ "mesh": 1, "name": "lamps" });
-            if self.has_shear {
-                root["nodes"][1]["matrix"] = json!([1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
-            }
-            let emissive = [self.emits; 3];
-            root["materials"][1] = json!({ "emissiveFactor": emissive, "doubleSided": true });
-            if self.has_one_sided {
-                let mut last = root["accessors"][1].clone();
-                root["accessors"][1]["count"] = json!(6 * (self.lamps - 1));
-                // Behind the floor and the other lamps, 72 bytes each.
-                last["byteOffset"] = json!(72 * self.lamps);
-                last["count"] = json!(6);
-                let accessors = root["accessors"].as_array_mut().expect("a list");
-                accessors.push(last);
-                let primitive = json!({ "attributes": { "POSITION": accessors.len() - 1 }, "material": 2 });
-                let primitives = root["meshes"][1]["primitives"].as_array_mut();
-                primitives.expect("a list").push(primitive);
-                let materials = root["materials"].as_array_mut();
-                materials
-                    .expect("a list")
-                    .push(json!({ "emissiveFactor": emissive }));
-            }
-        })
-    }
+/// Writes a floor of two triangles and twelve lamps of two triangles each above it, which emit so much on both sides; returns the
+/// path.
+fn room(folder: &Folder, name: &str, emits: f32, clips: &[Clip]) -> String {
+    model::write_lamps(folder, name, 12, clips, |root| {
+        root["scenes"][0]["nodes"] = json!([0, 1]);
+        root["nodes"][0]["translation"] = json!([0, -3, 0]);
+        root["nodes"][1] = json!({ "mesh": 1, "name": "lamps" });
+        let emissive = [emits; 3];
+        root["materials"][1] = json!({ "emissiveFactor": emissive, "doubleSided": true });
+    })
 }
 
 /// A clip that moves the lamps for a second.
@@ -138,7 +86,7 @@ fn built_in_scenes_keep_no_triangles_of_meshes_that_stay() {
 #[test]
 fn one_mesh_of_two_sided_lamps_needs_neither_normals_nor_a_top_level() {
     let folder = Folder::new("inspect");
-    let path = Room::default().write(&folder, "room");
+    let path = room(&folder, "room", 1.0, &[]);
     let found = report(&format!("inspect {path} --json"));
     assert_sound(&found);
     assert_eq!(fact(&found, "two-sided only"), "yes");
@@ -163,48 +111,9 @@ fn one_mesh_of_two_sided_lamps_needs_neither_normals_nor_a_top_level() {
 }
 
 #[test]
-fn each_difference_is_found() {
-    let folder = Folder::new("inspect-differences");
-    let of = |name: &str, room: Room| {
-        let path = room.write(&folder, name);
-        let found = report(&format!("inspect {path} --json --points 64"));
-        assert_sound(&found);
-        found
-    };
-    let with = |change: fn(&mut Room)| {
-        let mut room = Room::default();
-        change(&mut room);
-        room
-    };
-    let found = of("moves", with(|room| room.moves = true));
-    assert_eq!(found["motion"]["moving"], 1);
-    assert_eq!(
-        found["model"]["type"],
-        "StaticMeshBvh<TwoSidedMomentNode<8>, Defensive<Moments, 6>, 8>"
-    );
-    let found = of("all-but-one", with(|room| room.has_one_sided = true));
-    assert_eq!(fact(&found, "orientation"), "present");
-    assert_eq!(found["model"]["layout"], "moments");
-    let reason = found["reasons"][0].as_str().expect("a sentence");
-    assert!(
-        reason.contains("2 of 24 triangles shine from one side"),
-        "{reason}"
-    );
-    let found = of("sheared", with(|room| room.has_shear = true));
-    assert_eq!(fact(&found, "transforms"), "non-uniform");
-    // Another tree: kept where variance allows it, else put back.
-    let levels = step(&found, "levels");
-    assert_eq!(levels["promise"], "variance");
-    assert_eq!(levels["put_back"] == json!(true), found["model"]["levels"] == 2);
-    let dark = with(|room| room.emits = 0.0).write(&folder, "dark");
-    let said = refused(&format!("inspect {dark}"));
-    assert!(said.contains("dark"), "{said}");
-}
-
-#[test]
 fn words_are_for_people() {
     let folder = Folder::new("inspect-words");
-    let path = Room::default().write(&folder, "room");
+    let path = room(&folder, "room", 1.0, &[]);
     let output = run(&format!("inspect {path} --points 16"));
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{said}");
@@ -226,7 +135,7 @@ fn words_are_for_people() {
 fn with_clips(folder: &Folder) -> String {
     let still = vec![Keys::new(LAMP, "translation", &[(0.0, [0.0; 3])])];
     let clips = [("Idle".to_owned(), still), moving("Walk"), moving("Idle")];
-    Room::default().write_with(folder, "clips", &clips)
+    room(folder, "clips", 1.0, &clips)
 }
 
 /// A file does not say which of its animations is shown: a lamp that a later one moves does move.
@@ -244,6 +153,9 @@ fn each_animation_is_looked_at() {
         .map(|own| &own["shown"])
         .collect();
     assert_eq!(shown, [true, false, false]);
+    let dark = room(&folder, "dark", 0.0, &[]);
+    let said = refused(&format!("inspect {dark}"));
+    assert!(said.contains("dark"), "{said}");
 }
 
 /// By a name or by a number, and as many and in the order as the file has them in a file that is written.

@@ -100,14 +100,28 @@ fn closed_output_fails_for_json_alone() {
     assert_eq!((code("info"), code("info --json")), (Some(0), Some(2)));
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_an_error() {
+    let full = std::fs::File::create("/dev/full").expect("a device that is always full");
+    let mut program = Command::new(env!("CARGO_BIN_EXE_lightbvh"));
+    let output = program
+        .arg("info")
+        .stdout(full)
+        .output()
+        .expect("the program starts");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("cannot write to standard output"), "{said}");
+}
+
 #[test]
 fn options_are_taken_where_they_apply() {
     for (line, option) in [
         ("inspect street --device 0", "--device"),
-        ("inspect street --validation", "--validation"),
         ("export street -o street.glb --json", "--json"),
         ("bench --dynamic --device 0", "--device"),
-        ("trade --validation", "--validation"),
+        ("trade --device 0", "--device"),
         ("verify --soak 0", "0 is not in 100..="),
         ("verify --soak 100 --instances 0", "--instances"),
         ("verify --soak 100 --mesh-triangles 0", "--mesh-triangles"),

@@ -46,28 +46,6 @@ fn every_sampler_renders() {
     }
 }
 
-#[cfg(target_os = "linux")]
-#[test]
-fn a_full_standard_output_is_an_error() {
-    let folder = Folder::new("full-output");
-    let image = folder.file("image.png");
-    let full = std::fs::File::create("/dev/full").expect("a device that is always full");
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_lightbvh"))
-        .args([
-            "render", "street", "--width", "8", "--height", "8", "--spp", "1", "-o", &image,
-        ])
-        .stdout(full)
-        .output()
-        .expect("the program starts");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(
-        said.contains("cannot write to standard output") && !said.contains("panicked"),
-        "{said}"
-    );
-    assert!(std::path::Path::new(&image).exists());
-}
-
 /// A camera of one's own: another picture, mirrored names refused, and half of one refused too.
 #[test]
 fn a_camera_of_ones_own() {

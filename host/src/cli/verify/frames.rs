@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use bytemuck::cast_slice;
 use indicatif::ProgressBar;
 use lightbvh::exact::hash;
 use serde::Serialize;
@@ -161,7 +162,8 @@ impl<L: MethodLight> Lane<'_, L> {
         let expected = self.cpu.image(step, arrays, &params)?.value;
         for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
             let found = device.image(step, arrays, &params)?.value;
-            tally.take_pixels(&what("render"), &expected, &found)?;
+            let (expected, found) = (cast_slice(&expected), cast_slice(&found));
+            tally.take(Kind::Pixels, &what("render"), &PIXEL_RECORD, expected, found)?;
         }
         Ok(())
     }

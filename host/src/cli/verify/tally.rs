@@ -9,7 +9,7 @@ use lightbvh_kernels::query::Query;
 use serde::Serialize;
 
 use super::frames::Tree;
-use crate::backend::{Backend, BackendError, PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD};
+use crate::backend::{Backend, BackendError, PMF_RECORD, SAMPLED_RECORD};
 use crate::error::HostError;
 use crate::scene::SceneLight;
 use crate::words::{Record, compare_words};
@@ -86,17 +86,6 @@ impl Tally {
         }
         Ok(())
     }
-
-    /// Compares images.
-    pub fn take_pixels(
-        &mut self,
-        what: &str,
-        cpu: &[[f32; 3]],
-        device: &[[f32; 3]],
-    ) -> Result<(), HostError> {
-        let (cpu, device) = (cast_slice(cpu), cast_slice(device));
-        self.take(Kind::Pixels, what, &PIXEL_RECORD, cpu, device)
-    }
 }
 
 /// One backend on the CPU and on each device.
@@ -171,7 +160,7 @@ mod tests {
     use lightbvh_kernels::render::RenderParams;
 
     use super::*;
-    use crate::backend::{Bvh, CpuBackend, Integrator, Sampler, SceneArrays, Timed};
+    use crate::backend::{Bvh, CpuBackend, Integrator, PIXEL_RECORD, Sampler, SceneArrays, Timed};
     use crate::scene::Scene;
     use crate::workload::{arrays_at, build, queries, render_params};
 

@@ -85,7 +85,7 @@ fn equal_time_is_what_fits_beside_the_update() {
             (known(1.0, STEP), 5.0),
             // No time for half a ray.
             (known(40.0, 0.5), 1.0),
-            // Two rays and a half: errors between whole numbers of rays are powers of them.
+            // Two rays and a half.
             (known(4.8, STEP), 1.0),
         ],
         1.0,
