@@ -9,7 +9,6 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::measure::times::{ms, spread_ms};
-use super::verify::tally::{Kind, Tally};
 use super::{Context, Outcome, devices, table, target};
 use crate::backend::{PIXEL_RECORD, SAMPLED_RECORD, Timed};
 use crate::cli::table::{news, say};
@@ -17,6 +16,7 @@ use crate::error::HostError;
 use crate::method::{Method, Runner, Step, Target};
 use crate::render::Film;
 use crate::scene::Scene;
+use crate::tally::{Kind, Tally};
 use crate::workload::{arrays_at, lights_at, queries, render_params};
 
 const SCENE: &str = "street";

@@ -3,7 +3,6 @@
 
 mod frames;
 mod soak;
-pub(super) mod tally;
 
 use std::ops::Range;
 
@@ -19,8 +18,8 @@ use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::method::{Importance, Target};
 use crate::scene::BUILT_IN;
+use crate::tally::{Tallies, Tally};
 use frames::Tree;
-use tally::{Tallies, Tally};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -110,8 +109,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let mut tallies = Tallies {
         devices: vec![Tally::default(); opened.len()],
         cpu: Tally::default(),
-        trees: Vec::new(),
     };
+    let mut rows = Vec::new();
     // Triangles are sampled by this many methods with a light BVH.
     let shares = scenes.len() as u64 * args.frames.len() as u64 * frames::METHODS;
     let plan = frames::Plan {
@@ -126,13 +125,13 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             false => frames::compare::<EmissiveTriangle>,
             true => frames::compare::<AnyLight>,
         };
-        compare(scene, &plan, &targets, &mut tallies, &bar)?;
+        rows.extend(compare(scene, &plan, &targets, &mut tallies, &bar)?);
     }
     bar.finish_and_clear();
-    let valid = tallies.trees.iter().all(|tree| tree.valid);
+    let valid = rows.iter().all(|tree| tree.valid);
     let report = Report {
         valid,
-        rows: std::mem::take(&mut tallies.trees),
+        rows,
         compared: tallies.devices.iter().map(|tally| tally.compared).sum(),
         different: tallies.devices.iter().map(|tally| tally.different).sum::<u64>() + tallies.cpu.different,
         queries: args.queries,

@@ -62,6 +62,7 @@ impl<'d> Job<'_, 'd> {
             let mut arrays = BTreeMap::new();
             for lane in &mut lanes {
                 self.block(lane, block, &mut arrays, &mut results)?;
+                self.progress.inc(1);
             }
         }
         Ok(results)
@@ -104,7 +105,6 @@ impl<'d> Job<'_, 'd> {
                 .set_message(format!("{} frame {frame}: {name} on {on}", scene.name()));
             let mut image = |seed| {
                 let params = render_params(plan.size(), plan.samples, seed, scene.data().background);
-                self.progress.inc(plan.work(plan.samples));
                 runner.image(&step, arrays, &params)
             };
             if is_timed {

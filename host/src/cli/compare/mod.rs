@@ -67,7 +67,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         different: 0,
     };
     let template = "{bar:30} {percent:>3} % {elapsed} passed, {eta} left  {wide_msg}";
-    let progress = progress::bar(scenes.len() as u64 * all_work(&plan, &targets), template, false);
+    let blocks = (plan.last() / BLOCK + 1) as usize;
+    let work = scenes.len() * (plan.frames.len() + targets.len() * plan.method.len() * blocks);
+    let progress = progress::bar(work as u64, template, false);
     for scene in &scenes {
         compare(&plan, scene, &targets, &progress, &mut report)?;
     }
@@ -147,23 +149,12 @@ fn references(plan: &Args, scene: &Scene, progress: &ProgressBar) -> Result<Vec<
             cpu.render(&arrays, &params, Sampler::TwoLevel, Integrator::Direct)
         };
         let halves = [half(0)?.value, half(1)?.value];
-        progress.inc(plan.work(plan.reference_samples));
+        progress.inc(1);
         let reference = Reference::new(plan.size(), halves, exposure)?;
         exposure = Some(reference.judge.exposure());
         references.push(reference);
     }
     Ok(references)
-}
-
-/// The work of a scene: its references, and every method's images on every backend.
-fn all_work(plan: &Args, targets: &[Target<'_>]) -> u64 {
-    let references = plan.work(plan.reference_samples) * plan.frames.len() as u64;
-    let images = |target: &Target<'_>| {
-        let timed = blocks(plan, target).len() as u64 * u64::from(BLOCK);
-        plan.frames.len() as u64 * u64::from(seeds(plan, target)) + timed
-    };
-    let images: u64 = targets.iter().map(images).sum();
-    references + plan.work(plan.samples) * images * plan.method.len() as u64
 }
 
 /// Images of each frame: devices show that they render the same, and how fast.

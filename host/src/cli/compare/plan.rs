@@ -89,11 +89,6 @@ impl Args {
     pub fn size(&self) -> (u32, u32) {
         (self.width, self.height)
     }
-
-    /// Shadow rays in thousands, what the progress bar counts, of an image with `samples` per pixel.
-    pub fn work(&self, samples: u32) -> u64 {
-        (u64::from(self.width) * u64::from(self.height) * u64::from(samples)).div_ceil(1000)
-    }
 }
 
 /// The blocks up to the `last` frame that have so many timed frames between them, as far as there are as many, spread evenly.

@@ -8,11 +8,11 @@ use indicatif::ProgressBar;
 use lightbvh::exact::hash;
 use serde::Serialize;
 
-use super::tally::{Kind, Side, Tallies};
 use crate::backend::{Integrator, PIXEL_RECORD, Sampler, SceneArrays};
 use crate::error::HostError;
 use crate::method::{Method, MethodLight, Recipe, Runner, Step, Target};
 use crate::scene::{Scene, SceneLight};
+use crate::tally::{Kind, Side, Tallies};
 use crate::words::Record;
 use crate::workload::{arrays_lit_by, queries, render_params};
 
@@ -58,15 +58,15 @@ struct Lane<'d, L: SceneLight> {
     devices: Vec<Box<dyn Runner<L> + 'd>>,
 }
 
-/// Compares all methods over the frames of `scene` with `targets`, which `tallies` are of.
+/// Compares all methods over the frames of `scene` with `targets`, which `tallies` are of; returns the trees.
 pub(super) fn compare<L: MethodLight>(
     scene: &Scene,
     plan: &Plan,
     targets: &[Target<'_>],
     tallies: &mut Tallies,
     progress: &ProgressBar,
-) -> Result<(), HostError> {
-    let mut lanes = Vec::new();
+) -> Result<Vec<Tree>, HostError> {
+    let (mut lanes, mut trees) = (Vec::new(), Vec::new());
     for frame in plan.frames.clone() {
         let arrays = arrays_lit_by::<L>(scene, frame, SIZES[0].0, SIZES[0].1)?;
         let step = Step::new(scene, frame, &arrays.lights);
@@ -80,10 +80,11 @@ pub(super) fn compare<L: MethodLight>(
         for lane in &mut lanes {
             progress.set_message(format!("{} frame {frame}: {}", scene.name(), lane.recipe.name));
             lane.compare(&step, &arrays, plan, tallies)?;
+            trees.extend(lane.tree(&step));
         }
         progress.inc(1);
     }
-    Ok(())
+    Ok(trees)
 }
 
 /// All methods at the first frame; those that choose by power only where there is a table for it.
@@ -138,7 +139,6 @@ impl<L: MethodLight> Lane<'_, L> {
                 let (_, found) = nodes(&mut **device)?;
                 tally.take(Kind::Nodes, &what("refit"), &record, &expected, &found)?;
             }
-            tallies.trees.extend(self.tree(step));
             let lights = (arrays.lights.triangles(), recipe.lights == Sampler::SingleLevel);
             let seed = hash(plan.seed.wrapping_add(step.frame));
             for first in (0..plan.queries).step_by(BATCH as usize) {
@@ -177,7 +177,9 @@ impl<L: MethodLight> Lane<'_, L> {
 
     fn tree(&self, step: &Step<'_, L>) -> Option<Tree> {
         let lights = step.lights.triangles().len();
-        self.cpu.tree().map(|found| Tree {
+        // Candidates change the image alone.
+        let found = self.cpu.tree().filter(|_| self.recipe.candidates == 1);
+        found.map(|found| Tree {
             scene: step.scene.name().to_owned(),
             method: self.recipe.name,
             importance: self.recipe.importance.name(),

@@ -10,13 +10,13 @@ use lightbvh_gpu::Mirror;
 use lightbvh_kernels::bvh::{Node, WIDTH};
 use serde::Serialize;
 
-use super::tally::{Kind, Tally};
 use crate::backend::{Bvh, DeviceArrays, DeviceBackend, Follow};
 use crate::cli::devices::Opened;
 use crate::cli::measure::times::{Spread, thread_us};
 use crate::cli::table::{self, say};
 use crate::error::HostError;
 use crate::stability::random::Random;
+use crate::tally::{Kind, Tally};
 use crate::words::Record;
 
 /// Frames from one check of all invariants and words to the next.

@@ -8,7 +8,6 @@ use lightbvh::exact::hash;
 use lightbvh_kernels::query::Query;
 use serde::Serialize;
 
-use super::frames::Tree;
 use crate::backend::{Backend, BackendError, PMF_RECORD, SAMPLED_RECORD};
 use crate::error::HostError;
 use crate::scene::SceneLight;
@@ -18,7 +17,7 @@ use crate::words::{Record, compare_words};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
-pub(in crate::cli) enum Kind {
+pub(crate) enum Kind {
     Nodes,
     Samples,
     Pmfs,
@@ -36,14 +35,14 @@ impl Kind {
 
 /// Words of one kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub(in crate::cli) struct Words {
+pub(crate) struct Words {
     pub compared: u64,
     pub different: u64,
 }
 
 /// Counts of one device.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub(in crate::cli) struct Tally {
+pub(crate) struct Tally {
     pub compared: u64,
     pub different: u64,
     /// Nodes, samples, pmfs and pixels, each counted as such.
@@ -57,11 +56,9 @@ pub(in crate::cli) struct Tally {
 
 /// Counts of each device, and of words that the CPU computes twice.
 #[derive(Default)]
-pub(super) struct Tallies {
+pub(crate) struct Tallies {
     pub devices: Vec<Tally>,
     pub cpu: Tally,
-    /// Trees that were checked on the CPU.
-    pub trees: Vec<Tree>,
 }
 
 impl Tally {
@@ -89,7 +86,7 @@ impl Tally {
 }
 
 /// One backend on the CPU and on each device.
-pub(super) struct Side<'a, L: SceneLight> {
+pub(crate) struct Side<'a, L: SceneLight> {
     pub cpu: &'a mut dyn Backend<L>,
     pub devices: Vec<&'a mut dyn Backend<L>>,
 }
