@@ -72,7 +72,7 @@ impl Tally {
         device: &[u32],
     ) -> Result<(), HostError> {
         let comparison = compare_words(record, cpu, device)?;
-        *self.records.entry(kind).or_default() += (cpu.len() / record.words().max(1)) as u64;
+        *self.records.entry(kind).or_default() += (cpu.len() / record.words.max(1)) as u64;
         self.compared += comparison.compared;
         self.different += comparison.different;
         let words = self.words.entry(kind).or_default();
@@ -218,9 +218,9 @@ mod tests {
         for (wrong, said) in [
             (None, ""),
             (Some(Kind::Nodes), "street nodes: node "),
-            (Some(Kind::Samples), "street sample: sampled light 32, light: "),
-            (Some(Kind::Pmfs), "street pmf: pmf 32, pmf: "),
-            (Some(Kind::Pixels), "street render: pixel 72, radiance[0]: "),
+            (Some(Kind::Samples), "street sample: sampled light 32, word 0: "),
+            (Some(Kind::Pmfs), "street pmf: pmf 32, word 0: "),
+            (Some(Kind::Pixels), "street render: pixel 72, word 0: "),
         ] {
             let mut cpu: CpuBackend<Paper, 4> = CpuBackend::new(bvh.clone());
             let mut device = Corrupt {

@@ -116,7 +116,7 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
 
 impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for DeviceBackend<'_, C, W> {
     fn node_record(&self) -> Record {
-        node_record::<C::Node, W>()
+        node_record::<C::Node>()
     }
 
     fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {

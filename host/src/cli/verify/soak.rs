@@ -38,8 +38,8 @@ const ROOM: f64 = 16e6;
 const NODE: usize = size_of::<Node>() / 4;
 /// Arrays are compared word by word.
 const WORD: Record = Record {
-    name: "word",
-    fields: &[("in use", 1)],
+    name: "word in use",
+    words: 1,
 };
 /// The parts of a frame, in their order.
 const PHASES: [&str; 4] = ["begin-frame", "apply", "refit", "end-frame"];
