@@ -7,6 +7,7 @@ use lightbvh::{
 
 use crate::backend;
 
+type Sample<'a> = Box<dyn Fn(&ShadingPoint, Random64) -> SampledLight + Sync + 'a>;
 type Pmf<'a> = Box<dyn Fn(&ShadingPoint, u32) -> f32 + Sync + 'a>;
 
 /// A tree, walked by its importance.
@@ -16,7 +17,7 @@ pub struct Subject<'a> {
     /// Greatest number of nodes on a path from the root to a light.
     pub depth: u32,
     /// Chooses a light.
-    pub sample: Box<dyn Fn(&ShadingPoint, Random64) -> SampledLight + Sync + 'a>,
+    pub sample: Sample<'a>,
     /// Evaluates the probability of a light.
     pub pmf: Pmf<'a>,
     /// The same by weights alone, without a uniform share.
