@@ -48,11 +48,6 @@ impl Kernel {
         &self.name
     }
 
-    /// What its module says it takes.
-    pub fn interface(&self) -> &Interface {
-        &self.interface
-    }
-
     /// Destroys the pipeline. Nothing that uses it may be running.
     pub(super) fn destroy(&self, device: &ash::Device) {
         // SAFETY: the handles belong to this device or are null; they are destroyed once: by `new` (`pipeline`) on failure, or by
