@@ -11,6 +11,7 @@ pub mod render;
 #[rustfmt::skip]
 mod renderer;
 pub mod stability;
+mod tally;
 pub mod vulkan;
 pub mod words;
 pub mod workload;

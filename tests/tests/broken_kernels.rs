@@ -46,7 +46,7 @@ fn see(info: &DeviceInfo, variant: Variant) -> Seen {
     let device = open(info, Options::default());
     for name in KERNELS {
         device
-            .replace_kernel(name, &module(name, variant))
+            .kernel_from_words(name, &module(name, variant))
             .unwrap_or_else(|e| panic!("{variant:?} {name}: {e}"));
     }
     let seen = Seen {

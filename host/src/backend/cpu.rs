@@ -40,7 +40,7 @@ impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
 
 impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for CpuBackend<C, W> {
     fn node_record(&self) -> Record {
-        node_record::<C::Node, W>()
+        node_record::<C::Node>()
     }
 
     fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {

@@ -1,6 +1,5 @@
 //! The passes on a Vulkan device.
 
-use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::{bytes_of, pod_collect_to_vec};
@@ -18,7 +17,7 @@ use super::device_arrays::{HeldScene, choosing, device_time};
 use super::follow::DeviceTree;
 use super::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, node_record};
 use crate::scene::SceneLight;
-use crate::vulkan::{Device, Kernel, Pass};
+use crate::vulkan::{Device, Pass};
 use crate::words::Record;
 
 /// Queries per dispatch: 28 MiB of them, within the smallest storage buffer range seen (128 MiB).
@@ -94,16 +93,6 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         queries: &[Query],
     ) -> Result<Timed<Vec<T>>, BackendError> {
         let kernel = self.device.kernel(&format!("{kernel}{}", C::SUFFIX))?;
-        self.query_by(&kernel, queries)
-    }
-
-    /// Answers queries pass by pass, by a kernel that takes what `sample` takes.
-    #[doc(hidden)]
-    pub fn query_by<T: bytemuck::Pod>(
-        &mut self,
-        kernel: &Arc<Kernel>,
-        queries: &[Query],
-    ) -> Result<Timed<Vec<T>>, BackendError> {
         let mut all = Timed {
             value: Vec::with_capacity(queries.len()),
             time: Duration::ZERO,
@@ -118,7 +107,7 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
             let mut bindings = self.tree.bindings().to_vec();
             bindings.extend([input.bind(), output.bind()]);
             let mut pass = Pass::new();
-            pass.dispatch(kernel, &bindings, bytes_of(&push), push.count);
+            pass.dispatch(&kernel, &bindings, bytes_of(&push), push.count);
             all.time += device_time(&self.device.run(&pass)?);
             all.value.extend(output.read()?);
         }
@@ -128,7 +117,7 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
 
 impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for DeviceBackend<'_, C, W> {
     fn node_record(&self) -> Record {
-        node_record::<C::Node, W>()
+        node_record::<C::Node>()
     }
 
     fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
@@ -169,7 +158,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
             }
         };
         let per_pass = per_pass.max(WORKGROUP as usize);
-        let kernel = device.kernel_with(&format!("{pass}{}", C::SUFFIX), choosing(sampler))?;
+        let kernel = device.kernel(&format!("{pass}{}", C::SUFFIX))?;
         let inputs = self.scene.bind(device, scene, sampler, &self.tree)?;
         let pixels = params.width as usize * params.height as usize;
         in_batches(params, integrator, |&params| {
@@ -184,6 +173,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
                 let push = RenderPush {
                     params,
                     bounces,
+                    by: choosing(sampler),
                     first: first as u32,
                     count,
                     tree,

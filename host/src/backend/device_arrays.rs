@@ -78,7 +78,7 @@ impl HeldScene {
     }
 }
 
-/// The constant by which kernels choose lights by `sampler`.
+/// The push constant by which kernels choose lights by `sampler`.
 pub(super) fn choosing(sampler: Sampler) -> u32 {
     match sampler {
         Sampler::Uniform => by::UNIFORM,

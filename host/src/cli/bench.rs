@@ -9,11 +9,11 @@ mod worst;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use lightbvh::{BuildParams, LightBvh, Lights};
+use lightbvh::{BuildParams, LightBvh};
 use serde::Serialize;
 use serde_json::json;
 
-use super::measure::times::{Spread, ms, spread_ms};
+use super::measure::times::{ms, quantiles, spread_ms};
 use super::{Context, Outcome, devices, table};
 use crate::backend::{Bvh, CpuBackend, DeviceBackend, Follow, Sampler};
 use crate::cli::table::news;
@@ -31,13 +31,10 @@ pub(super) struct Args {
     #[arg(long, default_value_t = 200_000, value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     queries: u32,
     /// Measure frames of moving lights instead: time, variance relative to a fresh build, bytes.
-    #[arg(long, conflicts_with_all = ["device", "validation"])]
+    #[arg(long, conflicts_with = "device")]
     dynamic: bool,
-    /// Measure fewer frames and points, and no largest scenes: under a minute.
-    #[arg(long, requires = "dynamic")]
-    quick: bool,
     /// Count nodes and time of single samples and pmfs in adversarial scenes instead.
-    #[arg(long, conflicts_with_all = ["dynamic", "device", "validation"])]
+    #[arg(long, conflicts_with_all = ["dynamic", "device"])]
     worst: bool,
 }
 
@@ -69,7 +66,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         return worst::run(context);
     }
     if args.dynamic {
-        return run_dynamic(context, args.quick);
+        return dynamic::run(context);
     }
     let opened = devices::open(context)?;
     let lights = random_lights(args.lights);
@@ -94,8 +91,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                         threads,
                         times: &[Duration],
                         items: u32| {
-            let Spread { median, most, .. } = spread_ms(times);
-            let least = times.iter().copied().min().unwrap_or_default();
+            let [least, median, most] = quantiles(times.iter().copied().map(ms), [0.0, 0.5, 1.0]);
             let ns = |ms: f64| 1e6 * ms / f64::from(items);
             cases.push(Case {
                 what,
@@ -107,29 +103,16 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 backend: backend.to_owned(),
                 threads,
                 ns_per_item: ns(median),
-                ns_least: ns(ms(least)),
+                ns_least: ns(least),
                 ns_most: ns(most),
                 bytes_per_light: bvh.bytes() as f64 / f64::from(args.lights),
                 copies: median / copy,
             });
         };
-        for (preset, params) in PRESETS {
-            news!("{} {preset} build", structure.name());
-            let mut times = |threads, times: &[Duration]| {
-                push(
-                    ("build", [None, None, Some(preset)]),
-                    "cpu",
-                    threads,
-                    times,
-                    args.lights,
-                );
-            };
-            times(1, &one.install(|| builds(&lights, structure, &params)));
-            if all > 1 {
-                times(all, &builds(&lights, structure, &params));
-            }
-        }
         let measured = || {
+            let built = measure(|| {
+                black_box::<LightBvh>(build(&lights, structure, &BuildParams::BALANCED));
+            });
             let mut cpu: CpuBackend = CpuBackend::new(bvh.clone());
             let refit = |cpu: &mut CpuBackend| {
                 let start = Instant::now();
@@ -137,13 +120,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 Ok(start.elapsed())
             };
             let times = passes(&mut cpu, refit, &queries)?;
-            Ok::<_, HostError>((times, batches(&bvh, &queries)))
+            Ok::<_, HostError>((built, times, batches(&bvh, &queries)))
         };
         let mut results = vec![(1, one.install(measured)?)];
         if all > 1 {
             results.push((all, measured()?));
         }
-        for (threads, (times, batch)) in &results {
+        for (threads, (built, times, batch)) in &results {
+            push(BUILD, "cpu", *threads, built, args.lights);
             push(REFIT, "cpu", *threads, &times.refit, args.lights);
             push(SAMPLE, "cpu", *threads, &times.sample, args.queries);
             push(BATCH, "cpu", *threads, batch, args.queries);
@@ -167,33 +151,13 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::Good)
 }
 
-/// The builders' presets.
-const PRESETS: [(&str, BuildParams); 1] = [("balanced", BuildParams::BALANCED)];
-
 /// A measurement: the pass, and which of its passes, variants or presets.
 type What = (&'static str, [Option<&'static str>; 3]);
+const BUILD: What = ("build", [None, None, Some("balanced")]);
 const REFIT: What = ("refit", [Some("levels"), None, None]);
 const SAMPLE: What = ("sample", [None, Some("one"), None]);
 const BATCH: What = ("sample", [None, Some("batch"), None]);
 const PMF: What = ("pmf", [None; 3]);
-
-/// Times of builds by the threads of the current pool.
-fn builds(lights: &Lights, structure: Sampler, params: &BuildParams) -> Vec<Duration> {
-    measure(|| {
-        let bvh: LightBvh = build(lights, structure, params);
-        black_box(&bvh);
-    })
-}
-
-fn run_dynamic(context: &Context, is_quick: bool) -> Result<Outcome, HostError> {
-    let scenes = dynamic::rows(is_quick)?;
-    if context.json {
-        table::print_json(&json!({ "scenes": scenes }))?;
-    } else {
-        dynamic::print(&scenes)?;
-    }
-    Ok(Outcome::Good)
-}
 
 fn print(context: &Context, cases: &[Case]) -> Result<(), HostError> {
     if context.json {

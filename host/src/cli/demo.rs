@@ -4,21 +4,20 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use bytemuck::cast_slice;
-use lightbvh::BuildParams;
+use lightbvh::Lights;
 use serde::Serialize;
 use serde_json::json;
 
 use super::measure::times::{ms, spread_ms};
-use super::verify::tally::{Kind, Tally};
 use super::{Context, Outcome, devices, table, target};
-use crate::backend::{
-    Backend, BackendError, Bvh, CpuBackend, DeviceBackend, Follow, Integrator, SAMPLED_RECORD, Sampler, Timed,
-};
+use crate::backend::{PIXEL_RECORD, SAMPLED_RECORD, Timed};
 use crate::cli::table::{news, say};
 use crate::error::HostError;
+use crate::method::{Method, Runner, Step, Target};
 use crate::render::Film;
 use crate::scene::Scene;
-use crate::workload::{arrays_at, build, lights_at, queries, render_params, words_in_use};
+use crate::tally::{Kind, Tally};
+use crate::workload::{arrays_at, lights_at, queries, render_params};
 
 const SCENE: &str = "street";
 /// Frames shown: those of the paper's Table 1.
@@ -42,15 +41,14 @@ pub(super) struct Args {
 }
 
 /// A row of the table: a backend over all frames.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 struct Row {
     backend: String,
-    scene: &'static str,
     lights: usize,
     triangles: usize,
     nodes: usize,
     depth: u32,
-    /// Milliseconds: the build once (on the CPU in either case), the others as the median over the frames.
+    /// Milliseconds: the build once, with the upload, the others as the median over the frames.
     build_ms: f64,
     refit_ms: f64,
     sample_ms: f64,
@@ -65,36 +63,41 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     target::folder(&args.out)?;
     let opened = devices::open(context)?;
     let scene = Scene::open(SCENE)?;
-    let lights = lights_at(&scene, 0)?;
-    let built = Timed::of(|| -> Bvh { build(&lights, Sampler::TwoLevel, &BuildParams::default()) });
-    let mut cpu: CpuBackend = CpuBackend::new(built.value);
-    let mut on_devices = opened
-        .iter()
-        .map(|o| DeviceBackend::new(&o.device, cpu.bvh()))
-        .collect::<Result<Vec<DeviceBackend<'_>>, _>>()?;
+    let lights: Lights = lights_at(&scene, FRAMES[0])?;
+    let recipe = Method::TwoLevelMoments.recipe();
+    let on_devices = opened.iter().map(|o| Target::Device(&o.device));
+    let targets: Vec<Target<'_>> = std::iter::once(Target::Cpu).chain(on_devices).collect();
+    let mut runners: Vec<(Box<dyn Runner>, Row)> = Vec::new();
+    for target in &targets {
+        let built = Timed::of(|| recipe.runner(&Step::new(&scene, FRAMES[0], &lights), *target));
+        let row = Row {
+            backend: target.name().to_owned(),
+            lights: lights.triangles().len(),
+            triangles: scene.triangle_count(),
+            build_ms: ms(built.time),
+            ..Row::default()
+        };
+        runners.push((built.value?, row));
+    }
     // Refit, sample and render of each backend, by frame.
-    let mut times: Vec<[Vec<Duration>; 3]> = vec![Default::default(); opened.len() + 1];
-    let mut tallies = vec![Tally::default(); opened.len() + 1];
+    let mut times: Vec<[Vec<Duration>; 3]> = vec![Default::default(); targets.len()];
+    let mut tallies = vec![Tally::default(); targets.len()];
     let (mut written, mut exposure) = (Vec::new(), None);
     for frame in FRAMES {
         news!("frame {frame}");
         let arrays = arrays_at(&scene, frame, size.0, size.1)?;
+        let step = Step::new(&scene, frame, &arrays.lights);
         let params = render_params(size, SAMPLES, frame, scene.frame(frame).background);
         let asked = queries(&arrays, frame, 0, QUERIES);
-        let refitted = Timed::of(|| cpu.bvh_mut().follow(&arrays.lights));
-        refitted.value.map_err(BackendError::from)?;
-        let mut refits = vec![refitted.time];
-        for device in &mut on_devices {
-            refits.push(device.follow(cpu.bvh())?.time);
-        }
-        let bvh = cpu.bvh().clone();
         let mut expected = None;
-        let others = on_devices.iter_mut().map(|device| device as &mut dyn Backend);
-        let backends = std::iter::once(&mut cpu as &mut dyn Backend).chain(others);
-        for (at, (backend, refit)) in backends.zip(refits).enumerate() {
-            let nodes = words_in_use(&bvh, &backend.nodes()?);
-            let sampled = backend.sample(&asked)?;
-            let image = backend.render(&arrays, &params, Sampler::TwoLevel, Integrator::Direct)?;
+        for (at, (runner, row)) in runners.iter_mut().enumerate() {
+            let refit = runner.advance(&step)?.refit;
+            let tree = runner.tree().expect("a light BVH");
+            (row.nodes, row.depth) = (tree.nodes, tree.depth);
+            let words = runner.backend().nodes()?;
+            let nodes = runner.words_in_use(words);
+            let sampled = runner.backend().sample(&asked)?;
+            let image = runner.image(&step, &arrays, &params)?;
             for (list, time) in times[at].iter_mut().zip([refit, sampled.time, image.time]) {
                 list.push(time);
             }
@@ -102,10 +105,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             let (nodes, sampled, image) = expected.get_or_insert_with(|| found.clone());
             if at > 0 {
                 let tally = &mut tallies[at];
-                tally.take(Kind::Nodes, "refit", &backend.node_record(), nodes, &found.0)?;
+                let record = runner.backend().node_record();
+                tally.take(Kind::Nodes, "refit", &record, nodes, &found.0)?;
                 let (expected, found_samples) = (cast_slice(sampled), cast_slice(&found.1));
                 tally.take(Kind::Samples, "sample", &SAMPLED_RECORD, expected, found_samples)?;
-                tally.take_pixels("render", image, &found.2)?;
+                let (expected, found) = (cast_slice(image), cast_slice(&found.2));
+                tally.take(Kind::Pixels, "render", &PIXEL_RECORD, expected, found)?;
             }
         }
         let image = expected.map(|(_, _, image)| image).unwrap_or_default();
@@ -116,29 +121,22 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         film.write(&path, exposure)?;
         written.push(path);
     }
-    let names = std::iter::once("cpu").chain(opened.iter().map(|o| o.device.name()));
-    let rows = names
-        .zip(times.iter().zip(tallies))
-        .map(|(backend, (times, tally))| {
+    let rows = runners.into_iter().zip(times.iter().zip(tallies));
+    let rows: Vec<Row> = rows
+        .map(|((_, row), (times, tally))| {
             let [refit_ms, sample_ms, render_ms] = times.each_ref().map(|own| spread_ms(own).median);
             Row {
-                backend: backend.to_owned(),
-                scene: SCENE,
-                lights: lights.triangles().len(),
-                triangles: scene.triangle_count(),
-                nodes: cpu.bvh().nodes().len() + cpu.bvh().top_nodes().len(),
-                depth: cpu.bvh().depth(),
-                build_ms: ms(built.time),
                 refit_ms,
                 sample_ms,
                 render_ms,
                 compared: tally.compared,
                 different: tally.different,
                 first_difference: tally.first_difference,
+                ..row
             }
-        });
-    let rows: Vec<Row> = rows.collect();
-    drop(on_devices);
+        })
+        .collect();
+    drop(targets);
     devices::close(opened)?;
     let outcome = Outcome::good_if(rows.iter().all(|row| row.different == 0));
     if context.json {
@@ -149,7 +147,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         &rows,
         &[
             ("backend", |r| r.backend.clone()),
-            ("scene", |r| r.scene.to_owned()),
             ("lights", |r| r.lights.to_string()),
             ("triangles", |r| r.triangles.to_string()),
             ("nodes", |r| r.nodes.to_string()),

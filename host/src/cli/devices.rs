@@ -25,14 +25,10 @@ pub(super) fn open(context: &Context) -> Result<Vec<Opened>, HostError> {
         }
         news!("no Vulkan device, running on the CPU alone: {why}");
     }
-    let options = Options {
-        validation: context.validation,
-        ..Options::default()
-    };
     chosen
         .into_iter()
         .map(|info| {
-            let device = Device::open(info, options)?;
+            let device = Device::open(info, Options::default())?;
             let exactness = device.self_test()?;
             if !exactness.exact {
                 news!("{}: {exactness}", device.name());

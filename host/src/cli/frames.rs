@@ -44,11 +44,4 @@ mod tests {
             assert!(parse(wrong).is_err(), "{wrong}");
         }
     }
-
-    #[test]
-    fn files_are_numbered_before_their_extension() {
-        let path = Path::new("some/street.night.png");
-        assert_eq!(numbered(path, 7), Path::new("some/street.night-0007.png"));
-        assert_eq!(numbered(path, 12345), Path::new("some/street.night-12345.png"));
-    }
 }

@@ -57,7 +57,7 @@ enum Command {
     /// Compare all methods over an animation as the paper does: errors and times
     Compare(OnDevices<compare::Args>),
     /// Measure speed against accuracy for importances, builders, levels and candidates
-    Trade(OnDevices<trade::Args>),
+    Trade(Json<trade::Args>),
     /// Time build, refit, sample and pmf, or frames of moving lights, or the worst scenes
     Bench(OnDevices<bench::Args>),
 }
@@ -80,9 +80,6 @@ struct OnDevices<A: clap::Args> {
     /// Use only the Vulkan device of this index or name (a part of it is enough).
     #[arg(long, value_name = "INDEX|NAME")]
     device: Option<String>,
-    /// Run devices under the Khronos validation layer; any message of it is an error.
-    #[arg(long)]
-    validation: bool,
 }
 
 /// No options of its own.
@@ -94,7 +91,6 @@ struct Nothing {}
 struct Context {
     json: bool,
     device: Option<String>,
-    validation: bool,
 }
 
 /// How a command that ran to its end went.
@@ -115,12 +111,21 @@ impl Outcome {
 /// A command by its options.
 type Run<A> = fn(&Context, &A) -> Result<Outcome, HostError>;
 
+impl<A: clap::Args> Json<A> {
+    fn run(self, run: Run<A>) -> (bool, Result<Outcome, HostError>) {
+        let context = Context {
+            json: self.json,
+            ..Context::default()
+        };
+        (self.json, run(&context, &self.own))
+    }
+}
+
 impl<A: clap::Args> OnDevices<A> {
     fn run(self, run: Run<A>) -> (bool, Result<Outcome, HostError>) {
         let context = Context {
             json: self.own.json,
             device: self.device,
-            validation: self.validation,
         };
         (context.json, run(&context, &self.own.own))
     }
@@ -135,13 +140,7 @@ impl Command {
             Self::Export(args) => (false, export::run(&args)),
             Self::Verify(args) => args.run(verify::run),
             Self::Stability(args) => args.run(stability::run),
-            Self::Inspect(Json { own, json }) => {
-                let context = Context {
-                    json,
-                    ..Context::default()
-                };
-                (json, inspect::run(&context, &own))
-            }
+            Self::Inspect(args) => args.run(inspect::run),
             Self::Info(args) => args.run(|context, Nothing {}| info::run(context)),
             Self::Compare(args) => args.run(compare::run),
             Self::Trade(args) => args.run(trade::run),

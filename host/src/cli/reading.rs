@@ -21,7 +21,7 @@ pub(super) fn positive<T: FromStr + Into<f64> + Copy>(text: &str) -> Result<T, S
         .ok_or_else(|| format!("{text} is no finite number above 0"))
 }
 
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub(super) struct Reading {
     /// Also read files of a scene from this folder; else from the scene's own folder and below alone.
     #[arg(long, value_name = "DIR")]

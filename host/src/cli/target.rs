@@ -67,31 +67,3 @@ pub(super) fn picture(path: &Path) -> std::result::Result<(), FilmError> {
     }
     check(&path).map_err(|source| FilmError::Write { path, source })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn folder_is(path: &Path) -> bool {
-        super::folder(path).is_ok() && path.is_dir()
-    }
-
-    #[test]
-    fn names_that_cannot_be_written_are_told() {
-        let folder = std::env::temp_dir().join(format!("lightbvh-target-{}", std::process::id()));
-        fs::create_dir_all(folder.join("a.png")).expect("a folder");
-        fs::write(folder.join("file"), "a file").expect("a file");
-        let said = |path: &str| check(&folder.join(path)).map_err(|error| error.to_string());
-        assert_eq!(said("b.png"), Ok(()));
-        assert_eq!(said("file"), Ok(()), "is written over");
-        assert_eq!(said("a.png"), Err(String::from("it is a folder")));
-        assert!(folder_is(&folder.join("new")) && folder_is(&folder) && !folder_is(&folder.join("file")));
-        assert!(said("file/b.png").is_err() && said("none/b.png").is_err());
-        assert!(check(Path::new("b.png")).is_ok());
-        fs::remove_dir_all(&folder).expect("the folder");
-        assert!(ends_in(Path::new("a/b.PNG"), &["exr", "png"]));
-        for other in ["b", ".png", "b.png.gz", "b.jpg"] {
-            assert!(!ends_in(Path::new(other), &["exr", "png"]), "{other}");
-        }
-    }
-}

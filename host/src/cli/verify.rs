@@ -3,31 +3,27 @@
 
 mod frames;
 mod soak;
-mod structures;
-pub(super) mod tally;
 
 use std::ops::Range;
 
 use indicatif::ProgressBar;
 use lightbvh::EmissiveTriangle;
 use lightbvh::light::AnyLight;
-use lightbvh_kernels::bvh::{Kinds, Paper, Standard, WIDTH};
 use serde::Serialize;
 use serde_json::json;
 
 use super::reading::Reading;
 use super::{Context, Outcome, devices, progress, table};
-use crate::backend::Sampler;
 use crate::cli::table::{news, say};
 use crate::error::HostError;
-use crate::method::{Importance, MethodLight, Target};
-use crate::scene::{BUILT_IN, Scene};
-use structures::{Subject, Tree};
-use tally::{Tallies, Tally};
+use crate::method::{Importance, Target};
+use crate::scene::BUILT_IN;
+use crate::tally::{Tallies, Tally};
+use frames::Tree;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Lights to sample, and pmfs to evaluate, over all scenes, importances and structures together.
+    /// Lights to sample, and pmfs to evaluate, over all scenes, methods and frames together.
     #[arg(long, default_value_t = 1_000_000)]
     queries: u64,
     /// Seed of the queries, or of the edits of --soak.
@@ -36,19 +32,13 @@ pub(super) struct Args {
     /// Frames A to B (B left out) that every method goes through on the CPU and each device.
     #[arg(long, value_name = "A..B", value_parser = super::frames::parse, default_value = "0..3")]
     frames: Range<u32>,
-    /// Lights to sample and pmfs to evaluate per method and frame of --frames.
-    #[arg(long, default_value_t = 256)]
-    frame_queries: u32,
-    /// What lights of a BVH are chosen by [default: both, one after the other].
-    #[arg(long, value_enum)]
-    importance: Option<Importance>,
     /// Scenes, built-in or files; all built-in ones by default. May be repeated.
     #[arg(long)]
     scene: Vec<String>,
     #[command(flatten)]
     reading: Reading,
     /// Instead of scenes, this number of frames of random edits, 100 to 10^8; memory from 4,000 on.
-    #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u32).range(100..=100_000_000), conflicts_with_all = ["queries", "frames", "frame_queries", "importance", "scene"])]
+    #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u32).range(100..=100_000_000), conflicts_with_all = ["queries", "frames", "scene"])]
     soak: Option<u32>,
     /// Instances of --soak, about, 10 to 10^6.
     #[arg(long, requires = "soak", default_value_t = 2_000, value_parser = clap::value_parser!(u32).range(10..=1_000_000))]
@@ -76,7 +66,8 @@ struct Report {
     scenes: Vec<String>,
     importances: &'static [Importance],
     frames: Range<u32>,
-    frame_queries: u32,
+    /// Of each method with a light BVH, in each frame.
+    frame_queries: u64,
     /// Words that the CPU computes twice (sampled pmfs, evaluated again), and how many of them differ.
     cpu_compared: u64,
     cpu_different: u64,
@@ -118,42 +109,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let mut tallies = Tallies {
         devices: vec![Tally::default(); opened.len()],
         cpu: Tally::default(),
-        trees: Vec::new(),
     };
-    let bar = progress(args.queries, "queries", context.json);
-    let importances: &[Importance] = match args.importance {
-        None => &Importance::ALL,
-        Some(Importance::Moments) => &[Importance::Moments],
-        Some(Importance::Eq4) => &[Importance::Eq4],
-    };
-    let shares = scenes.len() as u64 * 2 * importances.len() as u64;
-    let asked = (args.queries.div_ceil(shares), args.seed);
-    for scene in &scenes {
-        let has_kinds = scene.has_kinds();
-        for &importance in importances_of(scene, importances) {
-            for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
-                let subject = Subject {
-                    scene,
-                    sampler,
-                    importance: importance.name(),
-                    params: importance.builder().params(),
-                    treeless: importance == importances[0] && sampler == Sampler::SingleLevel,
-                };
-                let compare = match importance {
-                    Importance::Moments if has_kinds => structures::compare::<Kinds, WIDTH>,
-                    Importance::Moments => structures::compare::<Standard, WIDTH>,
-                    Importance::Eq4 => structures::compare::<Paper, 4>,
-                };
-                compare(&subject, &opened, asked, &mut tallies, &bar)?;
-            }
-        }
-    }
-    bar.finish_and_clear();
+    let mut rows = Vec::new();
+    // Triangles are sampled by this many methods with a light BVH.
+    let shares = scenes.len() as u64 * args.frames.len() as u64 * frames::METHODS;
     let plan = frames::Plan {
         frames: args.frames.clone(),
-        queries: args.frame_queries,
+        queries: args.queries.div_ceil(shares),
         seed: args.seed,
-        importances,
     };
     let targets: Vec<_> = opened.iter().map(|o| Target::Device(&o.device)).collect();
     let bar = progress((args.frames.len() * scenes.len()) as u64, "frames", context.json);
@@ -162,21 +125,21 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             false => frames::compare::<EmissiveTriangle>,
             true => frames::compare::<AnyLight>,
         };
-        compare(scene, &plan, &targets, &mut tallies, &bar)?;
+        rows.extend(compare(scene, &plan, &targets, &mut tallies, &bar)?);
     }
     bar.finish_and_clear();
-    let valid = tallies.trees.iter().all(|tree| tree.valid);
+    let valid = rows.iter().all(|tree| tree.valid);
     let report = Report {
         valid,
-        rows: std::mem::take(&mut tallies.trees),
+        rows,
         compared: tallies.devices.iter().map(|tally| tally.compared).sum(),
         different: tallies.devices.iter().map(|tally| tally.different).sum::<u64>() + tallies.cpu.different,
         queries: args.queries,
         seed: args.seed,
         scenes: names,
-        importances,
+        importances: &Importance::ALL,
         frames: args.frames.clone(),
-        frame_queries: args.frame_queries,
+        frame_queries: plan.queries,
         cpu_compared: tallies.cpu.compared,
         cpu_different: tallies.cpu.different,
         devices: opened
@@ -196,15 +159,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::good_if(report.different == 0 && valid))
 }
 
-/// The importances that choose among the lights of a scene; of other kinds than triangles, the default alone.
-fn importances_of(scene: &Scene, asked: &'static [Importance]) -> &'static [Importance] {
-    match scene.has_kinds() {
-        false => asked,
-        true if asked.contains(&Importance::Moments) => AnyLight::IMPORTANCES,
-        true => &[],
-    }
-}
-
 fn progress(length: u64, of: &str, hidden: bool) -> ProgressBar {
     let template = format!("{{bar:40}} {{pos}}/{{len}} {of}, {{eta}} left  {{wide_msg}}");
     progress::bar(length, &template, hidden)
@@ -218,9 +172,7 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
     table::print(
         &report.rows,
         &[
-            ("tree", |t| {
-                format!("{} {} {}", t.scene, t.structure.name(), t.importance)
-            }),
+            ("tree", |t| format!("{} {}", t.scene, t.method)),
             ("frame", |t| t.frame.to_string()),
             ("lights", |t| t.lights.to_string()),
             ("mesh lights", |t| t.mesh_lights.to_string()),
@@ -235,10 +187,6 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
             &report.devices,
             &[
                 ("device", |d| d.name.clone()),
-                ("nodes", |d| d.tally.nodes.to_string()),
-                ("samples", |d| d.tally.samples.to_string()),
-                ("pmfs", |d| d.tally.pmfs.to_string()),
-                ("pixels", |d| d.tally.pixels.to_string()),
                 ("words compared", |d| d.tally.compared.to_string()),
                 ("words different", |d| d.tally.different.to_string()),
                 ("exact", |d| table::yes(d.exact)),
@@ -248,10 +196,11 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
     for device in &report.devices {
         for (kind, words) in &device.tally.words {
             say!(
-                "{}: {} words of {}, {} different",
+                "{}: {} {}, {} words, {} different",
                 device.name,
-                words.compared,
+                device.tally.records[kind],
                 kind.name(),
+                words.compared,
                 words.different
             )?;
         }

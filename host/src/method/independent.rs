@@ -9,7 +9,7 @@ use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::render::RenderParams;
 
 use super::moving::Moving;
-use super::{Recipe, Runner, SampleBudget, Step, Target, UpdateTimes};
+use super::{Recipe, Runner, SampleBudget, Step, Target, TreeFacts, UpdateTimes};
 use crate::backend::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed};
 use crate::error::HostError;
 use crate::render::power_thresholds;
@@ -26,7 +26,7 @@ pub(super) struct Independent<'d, C: Choice<W, Light: SceneLight>, const W: usiz
     backend: Box<dyn Follow<C, W> + 'd>,
     /// The lights of two levels.
     moving: Option<Moving<C, W>>,
-    /// The tree over all lights, where it is refitted from frame to frame.
+    /// The tree over all lights.
     single: Option<Bvh<C, W>>,
 }
 
@@ -41,14 +41,17 @@ impl<'d, C: Choice<W, Light: SceneLight>, const W: usize> Independent<'d, C, W> 
             // Backends come with a tree, which no table walks.
             None => build(first.lights, recipe.lights, &params),
         };
-        let is_refitted = recipe.lights == Sampler::SingleLevel && !recipe.rebuilt;
         Ok(Self {
             recipe,
             target,
-            single: is_refitted.then(|| bvh.clone()),
+            single: (recipe.lights == Sampler::SingleLevel).then(|| bvh.clone()),
             backend: target.backend::<C, W>(bvh)?,
             moving,
         })
+    }
+
+    fn bvh(&self) -> Option<&Bvh<C, W>> {
+        self.moving.as_ref().map(Moving::scene).or(self.single.as_ref())
     }
 }
 
@@ -58,6 +61,13 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
             return moving.advance(step, &mut *self.backend);
         }
         if let Some(bvh) = &mut self.single {
+            if self.recipe.rebuilt {
+                let params = self.recipe.builder.params();
+                let built = Timed::of(|| build(step.lights, Sampler::SingleLevel, &params));
+                *bvh = built.value;
+                self.backend = self.target.backend::<C, W>(bvh.clone())?;
+                return Ok(UpdateTimes::waited(built.time));
+            }
             let followed = Timed::of(|| bvh.follow(step.lights));
             followed.value.map_err(BackendError::from)?;
             return Ok(UpdateTimes {
@@ -65,20 +75,12 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
                 ..UpdateTimes::default()
             });
         }
-        match self.recipe.lights {
-            // The renderer reads the table that comes with the frame's arrays; here it is made once more, for its time.
-            Sampler::Power => {
-                let made = Timed::of(|| black_box(power_thresholds(step.lights.triangles())).is_ok());
-                Ok(UpdateTimes::waited(made.time))
-            }
-            Sampler::SingleLevel => {
-                let params = self.recipe.builder.params();
-                let built = Timed::of(|| build(step.lights, Sampler::SingleLevel, &params));
-                self.backend = self.target.backend::<C, W>(built.value)?;
-                Ok(UpdateTimes::waited(built.time))
-            }
-            Sampler::Uniform | Sampler::TwoLevel => Ok(UpdateTimes::default()),
+        if self.recipe.lights != Sampler::Power {
+            return Ok(UpdateTimes::default());
         }
+        // The renderer reads the table that comes with the frame's arrays; here it is made once more, for its time.
+        let made = Timed::of(|| black_box(power_thresholds(step.lights.triangles())).is_some());
+        Ok(UpdateTimes::waited(made.time))
     }
 
     fn image(
@@ -126,10 +128,19 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
     }
 
     fn words_in_use(&self, nodes: Vec<u32>) -> Vec<u32> {
-        match self.moving.as_ref().map(Moving::scene).or(self.single.as_ref()) {
+        match self.bvh() {
             Some(bvh) => words_in_use(bvh, &nodes),
             None => nodes,
         }
+    }
+
+    fn tree(&self) -> Option<TreeFacts> {
+        self.bvh().map(|bvh| TreeFacts {
+            violation: bvh.validate().err().map(|violation| violation.to_string()),
+            nodes: bvh.nodes().len() + bvh.top_nodes().len(),
+            depth: bvh.depth(),
+            bytes: bvh.bytes(),
+        })
     }
 
     /// A single level has the shape of the first frame or of this one.

@@ -76,6 +76,19 @@ pub enum SampleBudget {
     CameraRays,
 }
 
+/// A light BVH in figures.
+#[derive(Clone, Debug)]
+pub struct TreeFacts {
+    /// The invariant that does not hold.
+    pub violation: Option<String>,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Greatest number of nodes on a path from the root to a light.
+    pub depth: u32,
+    /// Bytes that sampling reads.
+    pub bytes: usize,
+}
+
 /// A method over one scene on one backend, whose lights are of type `L`.
 pub trait Runner<L: SceneLight = EmissiveTriangle> {
     /// Brings the structures to the next frame. Frames come in ascending order; only methods that say so in
@@ -95,6 +108,9 @@ pub trait Runner<L: SceneLight = EmissiveTriangle> {
 
     /// The words in use, out of the words of all nodes of the [`backend`](Self::backend).
     fn words_in_use(&self, nodes: Vec<u32>) -> Vec<u32>;
+
+    /// The light BVH; none where lights are chosen by a table.
+    fn tree(&self) -> Option<TreeFacts>;
 
     /// Whether a frame depends on the first frame and itself alone, so that those between may be left out.
     fn may_skip(&self) -> bool;
@@ -188,7 +204,7 @@ impl MethodLight for AnyLight {
         match recipe.importance {
             Importance::Moments => recipe.runner_by::<Kinds, WIDTH>(first, target),
             Importance::Eq4 => Err(HostError::Usage {
-                option: "--importance eq4 (and samplers by it)",
+                option: "a --sampler by the paper's importance",
                 needs: "a scene of emissive triangles alone; this one has other lights, or textures or glass, which the renderer shows with moments only",
             }),
         }

@@ -51,7 +51,7 @@ pub enum Method {
 }
 
 /// The importance of a light BVH: a [`Choice`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Importance {
     /// The default: moments of the lights, 8 children to a node.
@@ -61,7 +61,7 @@ pub enum Importance {
 }
 
 /// How light BVHs are built.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum, IntoStaticStr)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, IntoStaticStr)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Builder {
@@ -163,7 +163,7 @@ impl Importance {
 }
 
 impl Builder {
-    /// As on the command line.
+    /// As in reports.
     pub fn name(self) -> &'static str {
         self.into()
     }

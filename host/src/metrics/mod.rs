@@ -22,16 +22,13 @@ use crate::render::Film;
 #[allow(missing_docs, reason = "the messages name the fields")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MetricError {
-    /// Two images of different sizes.
     #[error("an image of {} x {} cannot be measured against one of {} x {}; render both at one size", .image.0, .image.1, .reference.0, .reference.1)]
     Shapes {
         image: (u32, u32),
         reference: (u32, u32),
     },
-    /// Radiance that is infinite or not a number: no distance from it means anything.
     #[error("pixel {pixel} of the image is not finite; report it as a defect of the renderer")]
     NotFinite { pixel: usize },
-    /// FLIP refuses the size.
     #[error("an image of {} x {} is beyond what FLIP takes; render a smaller one", .size.0, .size.1)]
     Flip { size: (u32, u32) },
 }

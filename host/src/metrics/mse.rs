@@ -44,15 +44,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_constant_offset_is_its_square() {
-        let reference = vec![[10_u8, 20, 30]; 7];
-        let image = vec![[13_u8, 23, 33]; 7];
-        assert_eq!(mean_squared_error(&image, &reference), 9.0);
+    fn peaks_are_in_decibels() {
         // 10 log10(65025 / 9) = 38.588...
         assert!((psnr(9.0) - 38.588_378_7).abs() < 1e-6, "{}", psnr(9.0));
-        assert_eq!(psnr(65025.0), 0.0);
-        assert_eq!(psnr(0.0), f64::INFINITY);
-        assert_eq!(mean_squared_error::<u8>(&[], &[]), 0.0);
     }
 
     #[test]

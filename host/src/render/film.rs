@@ -12,30 +12,21 @@ use super::tone::display;
 /// find: exposure of 10^5 made pictures of it.
 pub const MAX_AUTO_EXPOSURE: f32 = 1000.0;
 
-/// Share of an image below which that so little of it is lit is worth a word.
-const MIN_LIT: f64 = 0.05;
-/// Luminance, exposed, that is black on a screen: under half of its least step.
-const BLACK: f64 = 0.5 / 255.0 / 12.92;
-
 /// Why an image cannot be made, compared or written.
 #[allow(missing_docs, reason = "the messages name the fields")]
 #[derive(Debug, thiserror::Error)]
 pub enum FilmError {
-    /// The number of pixels does not fit the size.
     #[error(
         "an image of {width} x {height} has not {pixels} pixels; give width times height of them, at least one"
     )]
     Size { width: u32, height: u32, pixels: usize },
-    /// The extension is neither `.png` nor `.exr`.
     #[error("{}: unknown image format; name a file that ends in .png or .exr", .path.display())]
     Format { path: PathBuf },
-    /// The encoder refuses the image.
     #[error("{}: cannot encode the image: {source}; try the other format", .path.display())]
     Encode {
         path: PathBuf,
         source: image::ImageError,
     },
-    /// The file cannot be written.
     #[error("{}: cannot write the image: {source}; check that its folder exists, may be written to and has room", .path.display())]
     Write { path: PathBuf, source: std::io::Error },
 }
@@ -84,58 +75,34 @@ impl Film {
     /// which a few bright lights hardly move (Reinhard et al. 2002, equations 1 and 2). 1 for a black image. At most
     /// [`MAX_AUTO_EXPOSURE`]; [`darkness`](Self::darkness) says in words where that is too little.
     pub fn auto_exposure(&self) -> f32 {
-        self.wanted_exposure().0.min(MAX_AUTO_EXPOSURE)
+        self.wanted_exposure()
+            .map_or(1.0, |wanted| wanted.min(MAX_AUTO_EXPOSURE))
     }
 
-    /// Whether nothing is lit at all: no exposure helps.
-    pub fn is_black(&self) -> bool {
-        self.wanted_exposure().1 == 0.0
-    }
-
-    /// Whether a picture of it shows anything at the greatest exposure that is chosen by itself.
-    pub fn shows_anything(&self) -> bool {
-        let mut channels = self.pixels.iter().flatten();
-        channels.any(|&c| display(c, MAX_AUTO_EXPOSURE) > 0)
-    }
-
-    /// What there is to say of an image that is dark although it is exposed: nothing is lit, hardly anything, or so faintly that
-    /// more exposure would show noise.
+    /// The reason why the image is dark although it is exposed: nothing is lit, or so faintly that more exposure would show noise.
     pub fn darkness(&self) -> Option<String> {
-        let (wanted, lit) = self.wanted_exposure();
-        if lit == 0.0 {
-            return Some(String::from(
+        match self.wanted_exposure() {
+            None => Some(String::from(
                 "the image is black: nothing that emits is seen, and nothing that is seen is lit; lights may be hidden, face away, \
                  or be outside of the view (`--look-from` and `--look-at` set another one)",
-            ));
-        }
-        if wanted > MAX_AUTO_EXPOSURE {
-            return Some(format!(
+            )),
+            Some(wanted) if wanted > MAX_AUTO_EXPOSURE => Some(format!(
                 "what is seen is so faintly lit that an exposure of {wanted:.0} would be needed, and {MAX_AUTO_EXPOSURE:.0} is taken, \
                  as more shows mostly noise; --exposure sets another one"
-            ));
+            )),
+            Some(_) => None,
         }
-        let exposure = f64::from(wanted);
-        let seen = |&&pixel: &&[f32; 3]| f64::from(luminance(pixel)) * exposure > BLACK;
-        let seen = self.pixels.iter().filter(seen).count() as f64 / self.pixels.len() as f64;
-        (seen < MIN_LIT).then(|| format!("only {:.2} % of the image is lit", 100.0 * seen))
     }
 
-    /// The exposure that [`auto_exposure`](Self::auto_exposure) would take if it were not bounded, and the share of pixels that
-    /// are not black.
-    fn wanted_exposure(&self) -> (f32, f64) {
-        let (mut sum, mut count) = (0.0, 0_u32);
-        for &pixel in &self.pixels {
+    /// The exposure that [`auto_exposure`](Self::auto_exposure) would take if it were not bounded; none of a black image.
+    fn wanted_exposure(&self) -> Option<f32> {
+        let logarithm = |&pixel: &[f32; 3]| {
             let l = f64::from(luminance(pixel));
-            if l > 0.0 && l.is_finite() {
-                sum += l.ln();
-                count += 1;
-            }
-        }
-        if count == 0 {
-            return (1.0, 0.0);
-        }
-        let exposure = (0.18 / (sum / f64::from(count)).exp()) as f32;
-        (exposure, f64::from(count) / self.pixels.len() as f64)
+            (l > 0.0 && l.is_finite()).then(|| l.ln())
+        };
+        let lit: Vec<f64> = self.pixels.iter().filter_map(logarithm).collect();
+        let mean = lit.iter().sum::<f64>() / lit.len() as f64;
+        (!lit.is_empty()).then(|| (0.18 / mean.exp()) as f32)
     }
 
     /// The image as a screen shows it: tone-mapped 8-bit sRGB after scaling by `exposure`, three bytes per pixel.

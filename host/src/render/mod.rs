@@ -13,4 +13,4 @@ pub use cpu::{render, render_path};
 pub use film::{Film, FilmError, MAX_AUTO_EXPOSURE};
 pub use lightbvh_scenes::{RayBvh, RayBvhError, View};
 pub use output::{real_path, uninterrupted, write_whole};
-pub use power::{PowerError, power_thresholds};
+pub use power::power_thresholds;

@@ -51,23 +51,3 @@ pub fn real_path(path: &Path) -> io::Result<Option<PathBuf>> {
         Err(_) => Ok(Some(path.to_owned())),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn files_are_written_whole_or_not_at_all() {
-        let folder = std::env::temp_dir().join(format!("lightbvh-output-{}", std::process::id()));
-        fs::create_dir_all(&folder).expect("a temporary folder");
-        let path = folder.join("file");
-        for text in ["long text", "text"] {
-            write_whole(&path, text.as_bytes()).expect("the folder can be written to");
-            assert_eq!(fs::read_to_string(&path).expect("a file"), text);
-        }
-        let entries = fs::read_dir(&folder).expect("the folder");
-        assert_eq!(entries.count(), 1, "no temporary file stays behind");
-        assert!(write_whole(&folder.join("missing/file"), b"text").is_err());
-        fs::remove_dir_all(&folder).expect("the temporary folder can go");
-    }
-}

@@ -4,28 +4,15 @@ use lightbvh_kernels::shading::pick::MAX_PICKABLE;
 
 use crate::scene::SceneLight;
 
-/// Why there is no power table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum PowerError {
-    /// More lights emit than the table has units of probability.
-    #[error(
-        "{emitters} triangles emit, the power sampler tells at most {MAX_PICKABLE} apart; use another sampler"
-    )]
-    TooMany {
-        /// Number of lights with a flux above zero.
-        emitters: usize,
-    },
-}
-
 /// The thresholds of [`Power`](lightbvh_kernels::shading::pick::Power) for these lights.
 ///
 /// Of the 2^24 units of probability each light that emits gets one, so that none is left out, and the others are shared
-/// out by flux. All entries are 0 where no light emits.
-pub fn power_thresholds<L: SceneLight>(lights: &[L]) -> Result<Vec<u32>, PowerError> {
+/// out by flux. All entries are 0 where no light emits; there is no table if more lights emit than it has units.
+pub fn power_thresholds<L: SceneLight>(lights: &[L]) -> Option<Vec<u32>> {
     let fluxes: Vec<f64> = lights.iter().map(SceneLight::flux).collect();
     let emitters = fluxes.iter().filter(|&&f| f > 0.0).count();
     if emitters > MAX_PICKABLE as usize {
-        return Err(PowerError::TooMany { emitters });
+        return None;
     }
     let total: f64 = fluxes.iter().sum();
     let shared = f64::from(MAX_PICKABLE) - emitters as f64;
@@ -42,5 +29,5 @@ pub fn power_thresholds<L: SceneLight>(lights: &[L]) -> Result<Vec<u32>, PowerEr
         let part = if total > 0.0 { sum / total * shared } else { 0.0 };
         thresholds.push(before + part as u32);
     }
-    Ok(thresholds)
+    Some(thresholds)
 }

@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
-use lightbvh::{EmissiveTriangle, INVALID, LightBounds, ShadingPoint};
+use lightbvh::{EmissiveTriangle, INVALID, LightBounds, Random64, ShadingPoint};
 use rayon::prelude::*;
 
 use super::geometry::{contribution, may_lose_its_area};
-use super::random::{Random, adversarial};
+use super::random::{ENDS, Random};
 use super::row::{Check, Row};
 use super::statistics::{chi_squared, chi_squared_quantile};
 use super::subject::Subject;
@@ -21,8 +21,6 @@ const BIAS_TAIL: f64 = 1e-9;
 const BIAS_ROUNDING: f64 = 1e-5;
 /// Least count that is expected of a cell of the χ² test; fewer are put together with their neighbours.
 const LEAST_EXPECTED: f64 = 8.0;
-/// Levels for which adversarial random numbers are made.
-const ADVERSARIAL_LEVELS: u32 = 12;
 
 /// What is known of one point.
 struct Seen {
@@ -62,11 +60,11 @@ impl Worst {
 pub fn check(
     extreme: &str,
     structure: &str,
-    subject: &dyn Subject,
+    subject: &Subject<'_>,
     points: &[ShadingPoint],
     samples: u32,
 ) -> Vec<Row> {
-    let lights = subject.lights();
+    let lights = subject.lights;
     // Without any flux a uniform share may still choose lights, and the other samples none.
     let lit = lights
         .par_iter()
@@ -86,7 +84,7 @@ pub fn check(
         }
         let lost = |i: &usize| {
             let light = &lights[*i];
-            light.luminance() > 0.0 && shines(light) && subject.pmf_by_weights(point, *i as u32) == 0.0
+            light.luminance() > 0.0 && shines(light) && (subject.pmf_by_weights)(point, *i as u32) == 0.0
         };
         let lost: Vec<usize> = (0..lights.len()).into_par_iter().filter(lost).collect();
         starved.count(lost.len(), || {
@@ -94,11 +92,11 @@ pub fn check(
             place(&format!("light {i}, {:?} of {}", lights[i], lights.len()))
         });
 
-        let hard = adversarial(ADVERSARIAL_LEVELS);
-        let numbers: Vec<u32> = (0..samples).map(|_| seed.bits()).chain(hard).collect();
+        let random = (0..samples).map(|_| Random64::from(seed.bits()));
+        let numbers: Vec<Random64> = random.chain(ENDS).collect();
         let drawn: Vec<_> = numbers
             .par_iter()
-            .map(|&random| (random, subject.sample(point, random)))
+            .map(|&random| (random, (subject.sample)(point, random)))
             .collect();
         let wrong = drawn
             .iter()
@@ -108,7 +106,7 @@ pub fn check(
             });
         let wrong: Vec<_> = wrong.collect();
         equal.count(wrong.len(), || {
-            place(&format!("random number {:#x} gives {:?}", wrong[0].0, wrong[0].1))
+            place(&format!("random number {:?} gives {:?}", wrong[0].0, wrong[0].1))
         });
         if reachable {
             let lights_drawn = drawn[..samples as usize].iter().map(|(_, sampled)| sampled.light);
@@ -139,19 +137,19 @@ pub fn check(
 }
 
 /// Probabilities of all lights at a point.
-pub fn all_pmfs(subject: &dyn Subject, point: &ShadingPoint) -> Vec<f32> {
-    let count = subject.lights().len() as u32;
+pub fn all_pmfs(subject: &Subject<'_>, point: &ShadingPoint) -> Vec<f32> {
+    let count = subject.lights.len() as u32;
     (0..count)
         .into_par_iter()
         .with_min_len(64)
-        .map(|light| subject.pmf(point, light))
+        .map(|light| (subject.pmf)(point, light))
         .collect()
 }
 
 /// Standard deviation of the estimate of direct light at `point` from one sample, as a share of that light; `None` where
 /// there is none.
-pub fn relative_deviation(subject: &dyn Subject, point: &ShadingPoint) -> Option<f64> {
-    let seen = look(subject, subject.lights(), point);
+pub fn relative_deviation(subject: &Subject<'_>, point: &ShadingPoint) -> Option<f64> {
+    let seen = look(subject, subject.lights, point);
     (seen.sum > 0.0).then(|| seen.variance.max(0.0).sqrt() / seen.sum)
 }
 
@@ -168,7 +166,7 @@ fn shine(light: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
     }
 }
 
-fn look(subject: &dyn Subject, lights: &[EmissiveTriangle], point: &ShadingPoint) -> Seen {
+fn look(subject: &Subject<'_>, lights: &[EmissiveTriangle], point: &ShadingPoint) -> Seen {
     let pmfs = all_pmfs(subject, point);
     let value = |(light, &pmf): (&EmissiveTriangle, &f32)| (shine(light, point), f64::from(pmf));
     let values = || lights.par_iter().zip(&pmfs).with_min_len(256).map(value);

@@ -1,4 +1,4 @@
-//! Which light can arrive where, by geometry alone, in f64 and independent of the arithmetic under test.
+//! Light that arrives at a point, in f64 and independent of the arithmetic under test.
 
 use glam::DVec3;
 use lightbvh::{EmissiveTriangle, ShadingPoint};
@@ -36,26 +36,6 @@ impl Triangle {
     pub fn area(&self) -> f64 {
         0.5 * self.normal.length()
     }
-}
-
-/// Whether light can arrive, by geometry alone: some of the triangle is above the point's horizon, and the point is on
-/// an emitting side, both by more than `margin` of the distance.
-pub fn can_contribute(light: &EmissiveTriangle, point: &ShadingPoint, margin: f64) -> bool {
-    let triangle = Triangle::new(light);
-    let (p, n) = (vector(point.p), vector(point.n));
-    let length = triangle.normal.length();
-    if length == 0.0 || light.luminance() == 0.0 {
-        return false;
-    }
-    let height = triangle.normal.dot(p - triangle.p[0]) / length;
-    let height = if light.is_two_sided() {
-        height.abs()
-    } else {
-        height
-    };
-    let in_front = height > margin * (triangle.p[0] - p).length();
-    let above = |v: &DVec3| n.dot(*v - p) > margin * (*v - p).length();
-    in_front && (n == DVec3::ZERO || triangle.p.iter().any(above))
 }
 
 /// Whether rounding in `f32` may leave nothing of the triangle's area: it is none, or below 2^-21 of the product of two of its

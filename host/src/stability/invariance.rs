@@ -12,7 +12,7 @@ use super::cases::scattered;
 use super::checks::{all_pmfs, relative_deviation};
 use super::random::Random;
 use super::row::{Check, Row};
-use super::walked;
+use super::subject::Subject;
 use crate::backend::{Bvh, Sampler};
 use crate::error::HostError;
 use crate::workload;
@@ -96,7 +96,7 @@ impl Scene {
             lights = validated("invariance", self.lights.clone())?;
             bvh.follow(&lights).expect("as many lights");
         }
-        let tree = walked(&bvh, &lights);
+        let tree = Subject::new(&bvh, &lights);
         let squares: Vec<f64> = self
             .points
             .par_iter()
@@ -140,84 +140,75 @@ impl Study {
     }
 }
 
+/// A scene, the same changed, and what is compared.
+type Group = (&'static str, Scene, Vec<Scene>, &'static [Check]);
+
+fn groups() -> Vec<Group> {
+    const EQUAL: &[Check] = &[Check::SameBits];
+    const NEARLY: &[Check] = &[Check::Variation, Check::Deviation];
+    const DEVIATION: &[Check] = &[Check::Deviation];
+    let base = Scene::new(scattered(400, 5));
+    let tens = |most: i32| (-most..=most).filter(|&e| e != 0).map(|e| 10f32.powi(e));
+    // Below 2^-32 the nearest points come nearer to a light than the 2^-50 m that importance tells apart.
+    let powers = (-32..=39).map(|e| base.scaled(exact::pow2(e))).collect();
+    let dimmed = (-60..=60)
+        .step_by(3)
+        .map(|e| base.dimmed(exact::pow2(e)))
+        .collect();
+    let by_tens = tens(12).map(|factor| base.scaled(factor)).collect();
+    let dimmed_by_tens = tens(18).map(|factor| base.dimmed(factor)).collect();
+    let right = [DVec3::X, DVec3::Y, DVec3::Z]
+        .map(|axis| base.turned(DMat3::from_axis_angle(axis, std::f64::consts::FRAC_PI_2)));
+    let (near, far) = offset();
+    let zeros = [0x8000_0000, 1, 0x8000_0001, 0x007f_ffff].map(|bits| scene_of_zeros(f32::from_bits(bits)));
+    let of = || base.clone();
+    vec![
+        ("scaled by powers of two", of(), powers, EQUAL),
+        ("radiance scaled by powers of two", of(), dimmed, EQUAL),
+        ("scaled by 1e-12 to 1e12", of(), by_tens, NEARLY),
+        ("radiance scaled by 1e-18 to 1e18", of(), dimmed_by_tens, NEARLY),
+        ("turned by right angles", of(), right.into(), DEVIATION),
+        ("turned", of(), turns(&base), DEVIATION),
+        ("moved by 1e7 m", near, vec![far], NEARLY),
+        (
+            "minus zero and subnormals for zeros",
+            scene_of_zeros(0.0),
+            zeros.into(),
+            EQUAL,
+        ),
+    ]
+}
+
 /// All rows, on the CPU.
 pub fn rows() -> Result<Vec<Row>, HostError> {
     let mut out = Vec::new();
-    for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
-        let mut group =
-            |name: &str, base: &Scene, others: Vec<Scene>, checks: &[Check]| -> Result<(), HostError> {
-                let study = base.study(sampler, None)?;
-                let mut worst = vec![0f64; checks.len()];
-                for other in others {
-                    let anew = other.study(sampler, None)?;
-                    for (worst, check) in worst.iter_mut().zip(checks) {
-                        let value = match check {
-                            Check::SameBits => study.different_bits(&anew),
-                            Check::Variation => study.variation(&other.study(sampler, Some(base))?),
-                            _ => study.worse(&anew),
-                        };
-                        *worst = if value > *worst || value.is_nan() {
-                            value
-                        } else {
-                            *worst
-                        };
+    for (name, base, others, checks) in groups() {
+        for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
+            let study = base.study(sampler, None)?;
+            let mut worst = vec![0f64; checks.len()];
+            for other in &others {
+                let new = other.study(sampler, None)?;
+                for (worst, check) in worst.iter_mut().zip(checks) {
+                    let value = match check {
+                        Check::SameBits => study.different_bits(&new),
+                        Check::Variation => study.variation(&other.study(sampler, Some(&base))?),
+                        _ => study.worse(&new),
+                    };
+                    // What is not a number is beyond any bound.
+                    if value > *worst || value.is_nan() {
+                        *worst = value;
                     }
                 }
-                for (&worst, &check) in worst.iter().zip(checks) {
-                    let bound = match check {
-                        Check::SameBits => 0.0,
-                        Check::Variation => VARIATION,
-                        _ => DEVIATION,
-                    };
-                    out.push(Row::new(name, sampler.name(), check, worst, bound));
-                }
-                Ok(())
-            };
-
-        let base = Scene::new(scattered(400, 5));
-        // Below 2^-32 the nearest points come nearer to a light than the 2^-50 m that importance tells apart.
-        let powers = (-32..=39).map(|e| base.scaled(exact::pow2(e))).collect();
-        group("scaled by powers of two", &base, powers, &[Check::SameBits])?;
-        let powers = (-60..=60)
-            .step_by(3)
-            .map(|e| base.dimmed(exact::pow2(e)))
-            .collect();
-        group(
-            "radiance scaled by powers of two",
-            &base,
-            powers,
-            &[Check::SameBits],
-        )?;
-        let nearly = [Check::Variation, Check::Deviation];
-        let tens = (-12..=12)
-            .filter(|&e| e != 0)
-            .map(|e| base.scaled(10f32.powi(e)))
-            .collect();
-        group("scaled by 1e-12 to 1e12", &base, tens, &nearly)?;
-        let tens = (-18..=18)
-            .filter(|&e| e != 0)
-            .map(|e| base.dimmed(10f32.powi(e)))
-            .collect();
-        group("radiance scaled by 1e-18 to 1e18", &base, tens, &nearly)?;
-        let right = [DVec3::X, DVec3::Y, DVec3::Z]
-            .map(|axis| base.turned(DMat3::from_axis_angle(axis, std::f64::consts::FRAC_PI_2)));
-        group("turned by right angles", &base, right.into(), &[Check::Deviation])?;
-        group("turned", &base, turns(&base), &[Check::Deviation])?;
-        let (near, far) = offset();
-        group("moved by 1e7 m", &near, vec![far], &nearly)?;
-        let zeros = scene_of_zeros(0.0);
-        let others = [
-            -0.0,
-            f32::from_bits(1),
-            f32::from_bits(0x8000_0001),
-            f32::from_bits(0x007f_ffff),
-        ];
-        group(
-            "minus zero and subnormals for zeros",
-            &zeros,
-            others.map(scene_of_zeros).into(),
-            &[Check::SameBits],
-        )?;
+            }
+            for (&worst, &check) in worst.iter().zip(checks) {
+                let bound = match check {
+                    Check::SameBits => 0.0,
+                    Check::Variation => VARIATION,
+                    _ => DEVIATION,
+                };
+                out.push(Row::new(name, sampler.name(), check, worst, bound));
+            }
+        }
     }
     Ok(out)
 }

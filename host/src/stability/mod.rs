@@ -15,20 +15,16 @@ pub mod statistics;
 pub mod subject;
 pub mod words;
 
-use lightbvh::{BoundsNode, Bvh, CompactNode, EmissiveTriangle, Eq4, ImportanceModel, LightNode, Lights};
-use lightbvh_kernels::bvh::{Choice, Node, Standard, WIDTH};
+use lightbvh::{Bvh, CompactNode, Eq4, Lights, Node as _, ShadingPoint};
 use serde::Serialize;
 
 use self::case::{Case, Source, moving_scene, validated};
 use self::row::{Check, Row};
-use self::subject::{Subject, Walked};
+use self::subject::Subject;
 use crate::backend::{self, Sampler};
 use crate::error::HostError;
 use crate::vulkan::{Device, VulkanError};
 use crate::workload;
-
-/// Importance of the default choice.
-pub type Importance = <Standard as Choice<WIDTH>>::Importance;
 
 /// How much is done.
 #[derive(Clone, Copy, Debug)]
@@ -78,106 +74,70 @@ pub struct Skipped {
 
 /// Runs one extreme: on the CPU, and on each device.
 pub fn run(case: &Case, effort: &Effort, devices: &[&Device], found: &mut Found) -> Result<(), HostError> {
-    match &case.source {
-        Source::World(triangles) => world(case, triangles, effort, devices, found),
-        Source::Moving { meshes, instances } => {
-            let (scene, lights) = moving_scene(&case.name, meshes, instances, &case.params)?;
-            let case = Case {
-                name: case.name.clone(),
-                source: Source::World(Vec::new()),
-                points: [
-                    &case.points[..],
-                    &case::around(lights.triangles(), 24, &mut random::Random::new(5)),
-                ]
-                .concat(),
-                ..*case
-            };
-            let tree = Walked::new(scene.tree(), lights.triangles());
-            found.rows.extend(checks::check(
-                &case.name,
-                "instances",
-                &tree,
-                &case.points,
-                effort.samples,
-            ));
-            on_devices(&case, "instances", &scene, &lights, devices, found)
-        }
-    }
-}
-
-fn world(
-    case: &Case,
-    triangles: &[EmissiveTriangle],
-    effort: &Effort,
-    devices: &[&Device],
-    found: &mut Found,
-) -> Result<(), HostError> {
-    let lights = validated(&case.name, triangles.to_vec())?;
     // Few points do for very many lights: each asks for all their probabilities.
     let samples = if case.large {
         50 * effort.samples
     } else {
         effort.samples
     };
+    let triangles = match &case.source {
+        Source::World(triangles) => triangles,
+        Source::Moving { meshes, instances } => {
+            let (bvh, lights) = moving_scene(&case.name, meshes, instances, &case.params)?;
+            let points = case::around(lights.triangles(), 24, &mut random::Random::new(5));
+            let points = [&case.points[..], &points].concat();
+            let tree = (&bvh, &lights, "instances");
+            return check(&case.name, tree, (&points, samples), devices, found);
+        }
+    };
+    let lights = validated(&case.name, triangles.to_vec())?;
+    let points = (&case.points[..], samples);
     for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
-        let bvh = workload::build::<Node, Importance, WIDTH>(&lights, sampler, &case.params);
-        let tree = walked(&bvh, &lights);
-        found.rows.extend(checks::check(
+        let bvh = workload::build(&lights, sampler, &case.params);
+        check(
             &case.name,
-            sampler.name(),
-            &tree,
-            &case.points,
-            samples,
-        ));
-        on_devices(case, sampler.name(), &bvh, &lights, devices, found)?;
+            (&bvh, &lights, sampler.name()),
+            points,
+            devices,
+            found,
+        )?;
     }
     if !case.large {
-        narrow::<CompactNode<2>>(case, &lights, samples, found);
+        narrow(case, &lights, samples, found);
     }
     Ok(())
 }
 
 /// Trees of two-wide nodes, the deepest there are, by the paper's importance: on the CPU alone, since no kernels are compiled
 /// for them.
-fn narrow<N: BoundsNode<2> + LightNode<2>>(case: &Case, lights: &Lights, samples: u32, found: &mut Found) {
-    let bvh = Bvh::<N, Eq4, 2>::two_level(lights, &case.params);
-    let structure = format!("two-level {} 2-wide", N::NAME);
-    let tree = walked(&bvh, lights);
+fn narrow(case: &Case, lights: &Lights, samples: u32, found: &mut Found) {
+    let bvh = Bvh::<CompactNode<2>, Eq4, 2>::two_level(lights, &case.params);
+    let structure = format!("two-level {} 2-wide", CompactNode::<2>::NAME);
+    let tree = Subject::by::<_, _, Eq4, 2>(&bvh, lights);
     if case.least_depth > 0 {
-        let missing = f64::from(case.least_depth.saturating_sub(tree.depth()));
-        found
-            .rows
-            .push(Row::new(&case.name, &structure, Check::Depth, missing, 0.0));
+        let missing = f64::from(case.least_depth.saturating_sub(tree.depth));
+        let row = Row::new(&case.name, &structure, Check::Depth, missing, 0.0);
+        found.rows.push(row);
     }
-    found.rows.extend(checks::check(
-        &case.name,
-        &structure,
-        &tree,
-        &case.points,
-        samples,
-    ));
+    let rows = checks::check(&case.name, &structure, &tree, &case.points, samples);
+    found.rows.extend(rows);
 }
 
-/// A tree over triangles in the world, walked by importance `I`.
-pub fn walked<'a, N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &'a Bvh<N, I, W>,
-    lights: &'a Lights,
-) -> Walked<'a, N, I, W> {
-    Walked::new(bvh.tree(), lights.triangles())
-}
-
-fn on_devices(
-    case: &Case,
-    structure: &str,
-    bvh: &backend::Bvh,
-    lights: &Lights,
+/// A tree of this structure on the CPU, and on each device.
+fn check(
+    name: &str,
+    (bvh, lights, structure): (&backend::Bvh, &Lights, &str),
+    (points, samples): (&[ShadingPoint], u32),
     devices: &[&Device],
     found: &mut Found,
 ) -> Result<(), HostError> {
+    let tree = Subject::new(bvh, lights);
+    let rows = checks::check(name, structure, &tree, points, samples);
+    found.rows.extend(rows);
     for device in devices {
-        match words::compare(&case.name, structure, bvh, lights, &case.points, device) {
+        match words::compare(name, structure, bvh, lights, points, device) {
             Err(HostError::Vulkan(VulkanError::BufferTooLarge { .. })) => found.skipped.push(Skipped {
-                name: format!("{}, {structure}", case.name),
+                name: format!("{name}, {structure}"),
                 device: device.name().to_owned(),
                 why: "larger than a buffer of the device may be",
             }),

@@ -1,6 +1,6 @@
-//! Random numbers: a seeded stream, and the numbers that are hardest for a walk.
+//! Random numbers: a seeded stream, and the ends of the range.
 
-use lightbvh::exact;
+use lightbvh::{Random64, exact};
 
 /// A small stream of random numbers on the crate's own hash.
 #[derive(Clone, Debug)]
@@ -49,57 +49,18 @@ impl Random {
     }
 }
 
-/// The inverse of [`exact::hash`], which is a permutation: PCG's output function undone step by step.
-pub fn unhash(hashed: u32) -> u32 {
-    // A shift by at least half the width undoes itself.
-    let word = hashed ^ (hashed >> 22);
-    let scrambled = word.wrapping_mul(inverse(277_803_737));
-    // The upper four bits, which choose the shift, stand as they were; each round restores as many bits more.
-    let shift = (scrambled >> 28) + 4;
-    let mut state = scrambled;
-    for _ in 0..8 {
-        state = scrambled ^ (state >> shift);
-    }
-    state
-        .wrapping_sub(2_891_336_453)
-        .wrapping_mul(inverse(747_796_405))
-}
+/// Random numbers by which the choices of a walk fall on the ends of their ranges.
+pub const ENDS: [Random64; 8] = [
+    ends(0, 0),
+    ends(0, 1),
+    ends(0, u32::MAX),
+    ends((1 << 31) - 1, u32::MAX),
+    ends(1 << 31, 0),
+    ends(u32::MAX, 0),
+    ends(u32::MAX, u32::MAX - 1),
+    ends(u32::MAX, u32::MAX),
+];
 
-/// The inverse of an odd number modulo 2^32, by Newton's steps: each doubles the number of right bits, three at first.
-fn inverse(odd: u32) -> u32 {
-    let mut x = odd;
-    for _ in 0..4 {
-        x = x.wrapping_mul(2u32.wrapping_sub(odd.wrapping_mul(x)));
-    }
-    x
-}
-
-/// Random numbers that make choices of a walk fall on their ends: for the first levels, those whose hash there is zero, all
-/// ones, or has nothing but ones or zeros in the bits that decide; and 0, 1, all ones themselves.
-///
-/// A walk hashes `random + 0x9e3779b9 (4 level + storey)` at each level (`lightbvh::traverse`); were that changed, these would
-/// be random numbers like any others.
-pub fn adversarial(levels: u32) -> Vec<u32> {
-    let mut out = vec![0, 1, u32::MAX, u32::MAX - 1, 1 << 31, (1 << 31) - 1];
-    for choice in 0..levels * 4 {
-        for hashed in [0, 0xff, 0x100, 0xffff_ff00, u32::MAX] {
-            out.push(unhash(hashed).wrapping_sub(choice.wrapping_mul(0x9e37_79b9)));
-        }
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn unhash_undoes_hash() {
-        for i in 0..200_000u32 {
-            let x = i.wrapping_mul(0x9e37_79b9) ^ (i >> 7);
-            assert_eq!(unhash(exact::hash(x)), x);
-        }
-        assert_eq!(exact::hash(unhash(0)), 0);
-        assert_eq!(exact::hash(unhash(u32::MAX)), u32::MAX);
-    }
+const fn ends(high: u32, low: u32) -> Random64 {
+    Random64 { high, low }
 }

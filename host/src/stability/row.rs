@@ -3,89 +3,55 @@
 use serde::Serialize;
 use strum::{IntoStaticStr, VariantArray};
 
-/// A check; every row is one of them for one extreme, one structure and one device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, IntoStaticStr, VariantArray)]
-#[serde(rename_all = "kebab-case")]
-#[strum(serialize_all = "kebab-case")]
-pub enum Check {
-    /// Probabilities that are not numbers in [0, 1].
-    Finite,
-    /// |Σ pmf − 1| where any light has a probability.
-    Sum,
-    /// Samples whose pmf is not, to the bit, the one evaluated for the light; and samples without a light where one has a
-    /// probability.
-    Equal,
-    /// Lights with flux that have no probability by weights alone, without a uniform share.
-    Starved,
-    /// χ² of the frequencies of lights, over its threshold.
-    Frequencies,
-    /// The error of direct light estimated from samples, over what its variance allows.
-    Bias,
-    /// Levels that the tree falls short of the depth that the extreme is about.
-    Depth,
-    /// Probabilities that change in any bit.
-    SameBits,
-    /// Total variation between probabilities: the greatest share of samples that goes elsewhere.
-    Variation,
-    /// Standard deviation of the estimate over that of the scene it was made from, or the reverse, whichever is greater.
-    Deviation,
-    /// Words of refitted nodes that a device computes otherwise than the CPU.
-    RefitWords,
-    /// The same of sampled lights and their probabilities.
-    SampleWords,
-    /// The same of evaluated probabilities.
-    PmfWords,
-}
+/// The checks: what each measures, and why its bound is what it is.
+macro_rules! checks {
+    ($($name:ident: $reason:literal,)*) => {
+        /// A check; every row is one of them for one extreme, one structure and one device.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, IntoStaticStr, VariantArray)]
+        #[serde(rename_all = "kebab-case")]
+        #[strum(serialize_all = "kebab-case")]
+        pub enum Check {
+            $(#[doc = $reason] $name,)*
+        }
 
-impl Check {
-    /// All of them.
-    pub const ALL: &[Self] = Self::VARIANTS;
+        impl Check {
+            /// All of them.
+            pub const ALL: &[Self] = Self::VARIANTS;
 
-    /// As in JSON.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
+            /// As in JSON.
+            pub fn name(self) -> &'static str {
+                self.into()
+            }
 
-    /// What is measured, and why the bound is what it is.
-    pub fn reason(self) -> &'static str {
-        match self {
-            Self::Finite => "probabilities that are not numbers in [0, 1]; none may be",
-            Self::Sum => {
-                "|sum of pmf - 1|; a tree's probabilities are exact shares of one range of numbers, and adding the uniform \
-                 share rounds each by 3 times 2^-24 at most: 2^-22"
-            }
-            Self::Equal => {
-                "samples whose pmf differs from the evaluated one in any bit, or without a light though one has a \
-                 probability; both come from the same range of numbers, so none"
-            }
-            Self::Starved => {
-                "lights with flux that have no probability by weights alone; weights are positive wherever there is flux, so \
-                 none"
-            }
-            Self::Frequencies => {
-                "chi-square of lights drawn against probabilities, over its quantile with a tail of 1e-6"
-            }
-            Self::Bias => {
-                "error of unshadowed direct light by samples against the sum over all lights, over Bernstein's bound with \
-                 the exact variance and a tail of 1e-9 per point, 1e-5 relative added for rounding"
-            }
-            Self::Depth => "levels missing to what the extreme is to have",
-            Self::SameBits => {
-                "probabilities that differ in any bit; the arithmetic is that of significands, so none"
-            }
-            Self::Variation => {
-                "share of samples that goes to other lights; new rounding of the input moves quantised summaries by a step \
-                 here and there, of which those of flux and deviation are the coarsest (1/16 and 1/8): 4 %"
-            }
-            Self::Deviation => {
-                "standard deviation of the estimate (root mean square over points), against the untouched scene; another \
-                 tree may be worse, within a factor of 2"
-            }
-            Self::RefitWords | Self::SampleWords | Self::PmfWords => {
-                "words that the device computes otherwise than the CPU; none may be"
+            /// What is measured, and why the bound is what it is.
+            pub fn reason(self) -> &'static str {
+                match self {
+                    $(Self::$name => $reason,)*
+                }
             }
         }
-    }
+    };
+}
+
+checks! {
+    Finite: "probabilities that are not numbers in [0, 1]; none may be",
+    Sum: "|sum of pmf - 1|; a tree's probabilities are exact shares of one range of numbers, and adding the uniform share \
+        rounds each by 3 times 2^-24 at most: 2^-22",
+    Equal: "samples whose pmf differs from the evaluated one in any bit, or without a light though one has a probability; \
+        both come from the same range of numbers, so none",
+    Starved: "lights with flux that have no probability by weights alone; weights are positive wherever there is flux, so none",
+    Frequencies: "chi-square of lights drawn against probabilities, over its quantile with a tail of 1e-6",
+    Bias: "error of unshadowed direct light by samples against the sum over all lights, over Bernstein's bound with the \
+        exact variance and a tail of 1e-9 per point, 1e-5 relative added for rounding",
+    Depth: "levels missing to what the extreme is to have",
+    SameBits: "probabilities that differ in any bit; the arithmetic is that of significands, so none",
+    Variation: "share of samples that goes to other lights; new rounding of the input moves quantised summaries by a step \
+        here and there, of which those of flux and deviation are the coarsest (1/16 and 1/8): 4 %",
+    Deviation: "standard deviation of the estimate (root mean square over points), against the untouched scene; another \
+        tree may be worse, within a factor of 2",
+    RefitWords: "words of refitted nodes that the device computes otherwise than the CPU; none may be",
+    SampleWords: "words of sampled lights and their pmfs that the device computes otherwise than the CPU; none may be",
+    PmfWords: "words of evaluated pmfs that the device computes otherwise than the CPU; none may be",
 }
 
 /// One line of the report.

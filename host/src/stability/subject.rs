@@ -1,85 +1,60 @@
-//! What is checked: lights, points to light, and trees over the lights.
+//! A tree that is checked, whatever its nodes and importance.
 
 use lightbvh::{
-    Defensive, EmissiveTriangle, Eq4, INVALID, ImportanceModel, LightNode, LightTree, Moments, Random64,
+    Bvh, EmissiveTriangle, INVALID, ImportanceModel, LightNode, LightTree, Lights, Moments, Random64,
     SampledLight, ShadingPoint,
 };
 
-/// A tree to be walked, whatever its nodes and importance.
-pub trait Subject: Sync {
+use crate::backend;
+
+type Sample<'a> = Box<dyn Fn(&ShadingPoint, Random64) -> SampledLight + Sync + 'a>;
+type Pmf<'a> = Box<dyn Fn(&ShadingPoint, u32) -> f32 + Sync + 'a>;
+
+/// A tree, walked by its importance.
+pub struct Subject<'a> {
     /// The lights, in the world.
-    fn lights(&self) -> &[EmissiveTriangle];
+    pub lights: &'a [EmissiveTriangle],
     /// Greatest number of nodes on a path from the root to a light.
-    fn depth(&self) -> u32;
+    pub depth: u32,
     /// Chooses a light.
-    fn sample(&self, point: &ShadingPoint, random: u32) -> SampledLight;
+    pub sample: Sample<'a>,
     /// Evaluates the probability of a light.
-    fn pmf(&self, point: &ShadingPoint, light: u32) -> f32;
+    pub pmf: Pmf<'a>,
     /// The same by weights alone, without a uniform share.
-    fn pmf_by_weights(&self, point: &ShadingPoint, light: u32) -> f32;
+    pub pmf_by_weights: Pmf<'a>,
 }
 
-/// An importance, and what it is without a uniform share.
-pub trait Weighted: Sync {
-    /// The weights alone.
-    type Weights: Sync;
+impl<'a> Subject<'a> {
+    /// A tree of the default's nodes and importance over `lights`.
+    pub fn new(bvh: &'a backend::Bvh, lights: &'a Lights) -> Self {
+        Self::by::<_, _, Moments, _>(bvh, lights)
+    }
+
+    /// A tree over `lights` by an importance whose weights are those of `J`.
+    pub fn by<N, I, J, const W: usize>(bvh: &'a Bvh<N, I, W>, lights: &'a Lights) -> Self
+    where
+        N: LightNode<W>,
+        I: ImportanceModel<N, W> + Sync,
+        J: ImportanceModel<N, W> + Sync + 'a,
+    {
+        let (tree, lights) = (bvh.tree(), lights.triangles());
+        Self {
+            lights,
+            depth: tree.depth,
+            sample: Box::new(move |point, random| bvh.tree().sample(point, random)),
+            pmf: pmf(bvh.tree(), lights),
+            pmf_by_weights: pmf(tree.by::<J>(), lights),
+        }
+    }
 }
 
-impl Weighted for Eq4 {
-    type Weights = Self;
-}
-
-impl Weighted for Moments {
-    type Weights = Self;
-}
-
-impl<I: Sync, const HALVINGS: u32> Weighted for Defensive<I, HALVINGS> {
-    type Weights = I;
-}
-
-/// A light tree of any layout, walked by importance `I`.
-pub struct Walked<'a, N, I, const W: usize> {
+fn pmf<'a, N: LightNode<W>, I: ImportanceModel<N, W> + Sync + 'a, const W: usize>(
     tree: LightTree<'a, N, I, W>,
     lights: &'a [EmissiveTriangle],
-}
-
-impl<'a, N: LightNode<W>, I, const W: usize> Walked<'a, N, I, W> {
-    /// A tree over `lights`, which are in the world.
-    pub fn new(tree: LightTree<'a, N, I, W>, lights: &'a [EmissiveTriangle]) -> Self {
-        Self { tree, lights }
-    }
-
-    fn pmf_by<J: ImportanceModel<N, W>>(&self, point: &ShadingPoint, light: u32) -> f32 {
-        let instance = match self.lights.get(light as usize) {
-            Some(triangle) if self.tree.live > 0 => triangle.mesh,
-            Some(_) => INVALID,
-            None => return 0.0,
-        };
-        self.tree.by::<J>().pmf(point, light, instance)
-    }
-}
-
-impl<N: LightNode<W>, I: ImportanceModel<N, W> + Weighted, const W: usize> Subject for Walked<'_, N, I, W>
-where
-    I::Weights: ImportanceModel<N, W>,
-{
-    fn lights(&self) -> &[EmissiveTriangle] {
-        self.lights
-    }
-
-    fn depth(&self) -> u32 {
-        self.tree.depth
-    }
-
-    fn sample(&self, point: &ShadingPoint, random: u32) -> SampledLight {
-        self.tree.sample(point, Random64::from(random))
-    }
-
-    fn pmf(&self, point: &ShadingPoint, light: u32) -> f32 {
-        self.pmf_by::<I>(point, light)
-    }
-
-    fn pmf_by_weights(&self, point: &ShadingPoint, light: u32) -> f32 {
-        self.pmf_by::<I::Weights>(point, light)
-    }
+) -> Pmf<'a> {
+    Box::new(move |point, light| match lights.get(light as usize) {
+        Some(triangle) if tree.live > 0 => tree.pmf(point, light, triangle.mesh),
+        Some(_) => tree.pmf(point, light, INVALID),
+        None => 0.0,
+    })
 }

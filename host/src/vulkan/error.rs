@@ -3,65 +3,45 @@
 use ash::vk;
 use lightbvh_gpu::FloatEnvironment;
 use lightbvh_gpu::spirv::ModuleError;
-use std::time::Duration;
 
 /// A failure on the Vulkan side: each variant is one cause and says what, where, and what to do about it.
 #[allow(missing_docs, reason = "the messages name the fields")]
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum VulkanError {
-    /// No Vulkan loader on this machine, or one without a driver behind it.
     #[error(
         "Vulkan cannot be used here: {reason}; install a driver (Debian: mesa-vulkan-drivers) or use the CPU"
     )]
     Unavailable { reason: String },
-    /// There is no device at all to choose from.
     #[error(
         "no usable Vulkan device: {notes}; install a driver (Debian: mesa-vulkan-drivers) or use the CPU"
     )]
     NoDevice { notes: String },
-    /// The device asked for is not among those found.
     #[error("no Vulkan device matches `{wanted}`; there are: {available}; give an index or a part of a name")]
     UnknownDevice { wanted: String, available: String },
-    /// The thread's floating-point mode is not the default one.
     #[error(
         "the thread that would open {device} calculates otherwise than a thread begins with ({found:?}): software devices \
          inherit its floating-point mode and would round or flush differently; restore it on this thread first"
     )]
     FloatEnvironment { device: String, found: FloatEnvironment },
-    /// Validation was requested on a machine without the layer.
     #[error(
         "VK_LAYER_KHRONOS_validation is not installed (Debian: vulkan-validationlayers); install it or run without"
     )]
     NoValidationLayer,
-    /// The validation layer had something to say: the program misuses Vulkan.
     #[error("{count} validation message(s) on {device}, a bug in this program; the first: {}", first.join(" | "))]
     Validation {
         device: String,
         count: u64,
         first: Vec<String>,
     },
-    /// A Vulkan call returned an error.
     #[error("{call} failed on {device}: {result}")]
     Call {
         call: &'static str,
         device: String,
         result: vk::Result,
     },
-    /// The device was lost; nothing it holds can be used any more.
     #[error("{device} was lost in {call}; open it again, and look into the system log if it happens again")]
     DeviceLost { call: &'static str, device: String },
-    /// Submitted work did not end in time.
-    #[error("{device} did not finish within {after:?} ({work}); give it less work or a longer time limit")]
-    Timeout {
-        device: String,
-        after: Duration,
-        work: String,
-    },
-    /// Earlier work that hit its time limit is still running.
-    #[error("{device} is still busy with work that ran into its time limit; wait, or open another device")]
-    Busy { device: String },
-    /// The device memory manager refused.
     #[error(
         "no memory for {bytes} bytes on {device} ({reserved} bytes reserved): {reason}; use a smaller scene or fewer queries"
     )]
@@ -71,7 +51,6 @@ pub enum VulkanError {
         reserved: u64,
         reason: String,
     },
-    /// A buffer is over a limit of the device.
     #[error(
         "a buffer of {bytes} bytes is over {limit_name} = {limit} bytes of {device}; split the work into smaller parts"
     )]
@@ -81,16 +60,12 @@ pub enum VulkanError {
         limit_name: &'static str,
         limit: u64,
     },
-    /// A write goes beyond the buffer's end.
     #[error("elements up to {given} written to a buffer of {held}; write no more than it holds")]
     WrongLength { given: usize, held: usize },
-    /// No module of that name is built in.
     #[error("no kernel `{name}` in this program; there are: {known}")]
     UnknownKernel { name: String, known: String },
-    /// A SPIR-V module does not parse or asks for something this host does not serve.
     #[error("the SPIR-V module of kernel `{kernel}` is not usable: {source}; rebuild the kernels")]
     BadModule { kernel: String, source: ModuleError },
-    /// A kernel needs more than the device has.
     #[error("kernel `{kernel}` needs {what} {needed}, {device} has {limit}; choose another device")]
     KernelOverLimit {
         kernel: String,
@@ -99,13 +74,10 @@ pub enum VulkanError {
         needed: u32,
         limit: u32,
     },
-    /// A dispatch does not fit the kernel's declared interface.
     #[error("dispatch of kernel `{kernel}`: {what}")]
     BadDispatch { kernel: String, what: String },
-    /// A kernel or buffer was used with a device that does not own it.
     #[error("{what} belongs to another device than {device}; each device has its own kernels and buffers")]
     ForeignObject { what: String, device: String },
-    /// The device was closed while buffers or handles of it are still held.
     #[error(
         "{device} cannot be closed: {holders} buffer(s) or handle(s) of it are still held; drop them first"
     )]

@@ -20,21 +20,20 @@ pub struct Kernel {
 /// it from being used after they are gone.
 #[derive(Default)]
 pub(crate) struct Kernels {
-    /// By name and specialisation constant 0.
-    pub(super) built_in: HashMap<(&'static str, u32), Arc<Kernel>>,
-    pub(super) others: Vec<Arc<Kernel>>,
-    /// Words that stand in for those of built-in kernels.
-    pub(super) replaced: HashMap<&'static str, Vec<u32>>,
+    /// By name.
+    pub(super) made: HashMap<String, Arc<Kernel>>,
+    /// Those that others of the same name replaced.
+    pub(super) old: Vec<Arc<Kernel>>,
 }
 
 impl Kernels {
     /// Destroys the pipelines. Nothing that uses them may be running.
     pub(crate) fn destroy(&mut self, device: &ash::Device) {
         for kernel in self
-            .built_in
+            .made
             .drain()
             .map(|(_, kernel)| kernel)
-            .chain(self.others.drain(..))
+            .chain(self.old.drain(..))
         {
             kernel.destroy(device);
         }
@@ -45,11 +44,6 @@ impl Kernel {
     /// The name it was made with.
     pub fn name(&self) -> &str {
         &self.name
-    }
-
-    /// What its module says it takes.
-    pub fn interface(&self) -> &Interface {
-        &self.interface
     }
 
     /// Destroys the pipeline. Nothing that uses it may be running.

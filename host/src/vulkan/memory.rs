@@ -1,7 +1,6 @@
 //! Device memory behind a buffer, and the copies in and out of it.
 
 use super::error::{CallContext, VulkanError};
-use super::queue::Retired;
 use super::shared::Shared;
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -59,7 +58,7 @@ impl Memory {
     /// staging buffer, many parts by one copy.
     pub(crate) fn write(&self, parts: &[(u64, &[u8])]) -> Result<(), VulkanError> {
         if let Some(mapped) = self.mapped() {
-            let queue = self.shared.idle_queue()?;
+            let queue = self.shared.queue();
             for (at, data) in parts {
                 assert!(at + data.len() as u64 <= self.bytes, "checked by the callers");
                 // SAFETY: the memory is mapped for `bytes`, which hold the data (as above). Nothing else reaches it meanwhile: the
@@ -103,7 +102,7 @@ impl Memory {
             return Ok(());
         }
         if let Some(mapped) = self.mapped() {
-            let queue = self.shared.idle_queue()?;
+            let queue = self.shared.queue();
             assert!(data.len() as u64 <= self.bytes, "checked by the callers");
             // SAFETY: the memory is mapped for `bytes`, which are no fewer (as above). Nothing writes it meanwhile, as in `write`.
             unsafe { mapped.copy_to_nonoverlapping(NonNull::from(&mut *data).cast(), data.len()) };
@@ -124,22 +123,18 @@ impl Memory {
         if regions.is_empty() {
             return Ok(());
         }
-        let bytes: u64 = regions.iter().map(|region| region.size).sum();
-        let (source, target) = (from.buffer, self.buffer);
-        let copied = self
-            .shared
-            .run(format!("copying {bytes} bytes"), |device, commands| {
-                // SAFETY: the command buffer is recording; both buffers belong to this device, were made for transfers, hold the
-                // regions (the callers see to it), and live until the submission has ended (`retire`).
-                unsafe { device.cmd_copy_buffer(commands, source, target, regions) };
-            });
+        let copied = self.shared.run(|device, commands| {
+            // SAFETY: the command buffer is recording; both buffers belong to this device, were made for transfers, hold the
+            // regions (the callers see to it), and are borrowed until the submission has ended.
+            unsafe { device.cmd_copy_buffer(commands, from.buffer, self.buffer, regions) };
+        });
         copied.map(drop)
     }
 
     /// Sets every word of the buffer.
     pub(crate) fn fill(&self, word: u32) -> Result<(), VulkanError> {
         if let Some(mapped) = self.mapped() {
-            let queue = self.shared.idle_queue()?;
+            let queue = self.shared.queue();
             let words = mapped.cast::<u32>();
             for at in 0..self.bytes as usize / 4 {
                 // SAFETY: the memory is mapped for `bytes` and aligned to more than a word; nothing else reaches it meanwhile, as
@@ -149,10 +144,9 @@ impl Memory {
             drop(queue);
             return Ok(());
         }
-        let work = format!("filling a buffer of {} bytes", self.bytes);
-        let filled = self.shared.run(work, |device, commands| {
+        let filled = self.shared.run(|device, commands| {
             // SAFETY: the command buffer is recording; the buffer belongs to this device, was made for transfers, is `bytes` long,
-            // a multiple of 4, and lives until the submission has ended (`retire`).
+            // a multiple of 4, and is borrowed until the submission has ended.
             unsafe { device.cmd_fill_buffer(commands, self.buffer, 0, self.bytes, word) };
         });
         filled.map(drop)
@@ -167,8 +161,13 @@ impl Memory {
 
 impl Drop for Memory {
     fn drop(&mut self) {
-        self.shared
-            .retire(Retired::Buffer(self.buffer, self.allocation.take()));
+        // SAFETY: the buffer belongs to this device, and nothing runs that uses it: `Shared::run` waits for its end.
+        unsafe { self.shared.raw.destroy_buffer(self.buffer, None) };
+        // An error would be an inconsistency of the allocator itself; there is nothing to undo.
+        let _ = self
+            .allocation
+            .take()
+            .map(|allocation| self.shared.allocator().free(allocation));
     }
 }
 

@@ -16,51 +16,31 @@ impl Device {
     ///
     /// Some drivers compile only at the first dispatch: leave that one out of any timing.
     pub fn kernel(&self, name: &str) -> Result<Arc<Kernel>, VulkanError> {
-        self.kernel_with(name, 0)
-    }
-
-    /// [`kernel`](Self::kernel) with `constant` for specialisation constant 0, where it has one.
-    pub fn kernel_with(&self, name: &str, constant: u32) -> Result<Arc<Kernel>, VulkanError> {
-        let module = built_in(name)?;
         let mut kernels = self.shared.kernels();
-        if let Some(kernel) = kernels.built_in.get(&(module.name, constant)) {
+        if let Some(kernel) = kernels.made.get(name) {
             return Ok(Arc::clone(kernel));
         }
-        let replaced = kernels.replaced.get(name).cloned();
-        let words = replaced.unwrap_or_else(|| module.words());
-        let kernel = Arc::new(Kernel::new(&self.shared, name, &words, constant)?);
-        kernels
-            .built_in
-            .insert((module.name, constant), Arc::clone(&kernel));
+        let words = built_in(name)?.words();
+        let kernel = Arc::new(Kernel::new(&self.shared, name, &words)?);
+        kernels.made.insert(name.to_owned(), Arc::clone(&kernel));
         drop(kernels);
         self.shared.check_validation()?;
         Ok(kernel)
     }
 
-    /// Puts a module of the caller's in the place of the built-in kernel of that name, for all that this device runs from now
-    /// on. Tests run deliberately broken kernels by it, to see that the self-test and every comparison find them.
-    #[doc(hidden)]
-    pub fn replace_kernel(&self, name: &str, words: &[u32]) -> Result<(), VulkanError> {
-        let module = built_in(name)?;
-        let kernel = Arc::new(Kernel::new(&self.shared, name, words, 0)?);
-        let mut guard = self.shared.kernels();
-        let kernels = &mut *guard;
-        // A pass may still name an old one's pipeline; it goes when the device does.
-        let old = kernels.built_in.extract_if(|(of, _), _| *of == name);
-        kernels.others.extend(old.map(|(_, kernel)| kernel));
-        kernels.built_in.insert((module.name, 0), kernel);
-        kernels.replaced.insert(module.name, words.to_vec());
-        drop(guard);
-        self.shared.check_validation()
-    }
-
-    /// A kernel from a SPIR-V module with one compute entry point; `name` is for messages.
+    /// A kernel from a SPIR-V module with one compute entry point. [`kernel`](Self::kernel) returns it from now on, also in the
+    /// place of a built-in one of that name.
     ///
     /// Float-control execution modes are set as the device reports them. The module's instructions are trusted like
     /// any program: Vulkan does not promise to catch an invalid one.
     pub fn kernel_from_words(&self, name: &str, words: &[u32]) -> Result<Arc<Kernel>, VulkanError> {
-        let kernel = Arc::new(Kernel::new(&self.shared, name, words, 0)?);
-        self.shared.kernels().others.push(Arc::clone(&kernel));
+        let kernel = Arc::new(Kernel::new(&self.shared, name, words)?);
+        let mut guard = self.shared.kernels();
+        let kernels = &mut *guard;
+        // A pass may still name an old one's pipeline; it goes when the device does.
+        let old = kernels.made.insert(name.to_owned(), Arc::clone(&kernel));
+        kernels.old.extend(old);
+        drop(guard);
         self.shared.check_validation()?;
         Ok(kernel)
     }
@@ -86,7 +66,7 @@ fn built_in(name: &str) -> Result<&'static lightbvh_gpu::Kernel, VulkanError> {
 }
 
 impl Kernel {
-    fn new(shared: &Shared, name: &str, words: &[u32], constant: u32) -> Result<Self, VulkanError> {
+    fn new(shared: &Shared, name: &str, words: &[u32]) -> Result<Self, VulkanError> {
         let bad_module = |source| VulkanError::BadModule {
             kernel: name.into(),
             source,
@@ -102,7 +82,7 @@ impl Kernel {
             layout: vk::PipelineLayout::null(),
             pipeline: vk::Pipeline::null(),
         };
-        match kernel.create(shared, &words, constant) {
+        match kernel.create(shared, &words) {
             Ok(()) => Ok(kernel),
             Err(error) => {
                 kernel.destroy(&shared.raw);
@@ -111,7 +91,7 @@ impl Kernel {
         }
     }
 
-    fn create(&mut self, shared: &Shared, words: &[u32], constant: u32) -> Result<(), VulkanError> {
+    fn create(&mut self, shared: &Shared, words: &[u32]) -> Result<(), VulkanError> {
         let (device, device_name) = (&shared.raw, shared.probe.name.as_str());
         let bindings: Vec<_> = (0..self.interface.buffers.len() as u32)
             .map(|binding| {
@@ -148,14 +128,7 @@ impl Kernel {
             .during("vkCreateShaderModule", device_name)?;
         // Read from a zero-terminated string, so there is no zero byte to cut at.
         let entry_point = CString::new(self.interface.entry_point.as_bytes()).unwrap_or_default();
-        // A constant that the module does not have changes nothing.
-        let constant = constant.to_ne_bytes();
-        let entries = [vk::SpecializationMapEntry::default().size(constant.len())];
-        let special = vk::SpecializationInfo::default()
-            .map_entries(&entries)
-            .data(&constant);
         let stage = vk::PipelineShaderStageCreateInfo::default()
-            .specialization_info(&special)
             .stage(vk::ShaderStageFlags::COMPUTE)
             .module(module)
             .name(&entry_point);

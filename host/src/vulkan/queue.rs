@@ -3,15 +3,7 @@
 use super::error::{CallContext, VulkanError};
 use super::shared::Shared;
 use ash::vk;
-use gpu_allocator::vulkan::Allocation;
-use std::sync::MutexGuard;
 use std::time::Duration;
-
-/// An object whose owner has gone.
-pub(crate) enum Retired {
-    Buffer(vk::Buffer, Option<Allocation>),
-    Sets(vk::DescriptorPool),
-}
 
 /// The compute queue, and what its submissions are recorded into.
 #[derive(Default)]
@@ -22,10 +14,6 @@ pub(crate) struct Queue {
     fence: vk::Fence,
     /// Two timestamps; null where the device keeps no time.
     queries: vk::QueryPool,
-    /// A wait ran into its time limit, and the work has not ended since.
-    unfinished: bool,
-    /// What nobody holds any more and unfinished work may use.
-    pub(super) retired: Vec<Retired>,
 }
 
 impl Queue {
@@ -94,13 +82,12 @@ impl Queue {
 
 impl Shared {
     /// Records commands, submits them and waits for their end; returns their time on the device's clock, if it keeps one. They
-    /// see what the host and earlier commands wrote, and the host sees what they wrote. `work` names what is done, for the error of a time limit.
+    /// see what the host and earlier commands wrote, and the host sees what they wrote.
     pub(super) fn run(
         &self,
-        work: String,
         record: impl FnOnce(&ash::Device, vk::CommandBuffer),
     ) -> Result<Option<Duration>, VulkanError> {
-        let mut queue = self.idle_queue()?;
+        let queue = self.queue();
         let (device, name) = (&self.raw, self.probe.name.as_str());
         self.record(&queue, record)?;
         let commands = [queue.commands];
@@ -111,21 +98,14 @@ impl Shared {
             // the fence unsignalled.
             .and_then(|()| unsafe { device.queue_submit(queue.raw, &submits, queue.fence) })
             .during("vkQueueSubmit", name)?;
-        let limit = self.options.time_limit;
-        let nanoseconds = u64::try_from(limit.as_nanos()).unwrap_or(u64::MAX);
         let waited = self
             .faults
             .before(device)
             // SAFETY: the fence belongs to this device and was submitted above.
-            .and_then(|()| unsafe { device.wait_for_fences(&[queue.fence], true, nanoseconds) });
-        // A lost device runs nothing any more; other errors of the wait say nothing about the work.
-        queue.unfinished = !matches!(waited, Ok(()) | Err(vk::Result::ERROR_DEVICE_LOST));
-        if waited == Err(vk::Result::TIMEOUT) {
-            return Err(VulkanError::Timeout {
-                device: name.into(),
-                after: limit,
-                work,
-            });
+            .and_then(|()| unsafe { device.wait_for_fences(&[queue.fence], true, u64::MAX) });
+        if waited.is_err() {
+            // SAFETY: the device is alive. What the work uses may be destroyed afterwards.
+            let _ = unsafe { device.device_wait_idle() };
         }
         waited.during("vkWaitForFences", name)?;
         let time = self.time(&queue)?;
@@ -155,9 +135,8 @@ impl Shared {
             }
         };
         // SAFETY: pool, command buffer, queries and fence belong to this device, are used under the queue's lock only, and what was
-        // submitted last has ended (`idle_queue`), so resetting them is allowed. `record` is given a command buffer in the
-        // recording state; what its callers record is kept alive until the submission has ended, for all that it may use is
-        // destroyed through `retire`.
+        // submitted last has ended (`run` waits), so resetting them is allowed. `record` is given a command buffer in the
+        // recording state; its callers keep what they record alive until `run` returns.
         unsafe {
             device
                 .reset_command_pool(queue.pool, vk::CommandPoolResetFlags::empty())
@@ -200,42 +179,6 @@ impl Shared {
         let elapsed = elapsed(ticks[0], ticks[1], limits.timestamp_valid_bits);
         let nanoseconds = elapsed as f64 * f64::from(limits.timestamp_period);
         Ok(Some(Duration::from_nanos(nanoseconds as u64)))
-    }
-
-    /// The queue while nothing runs: then the host may touch mapped memory.
-    pub(super) fn idle_queue(&self) -> Result<MutexGuard<'_, Queue>, VulkanError> {
-        let mut queue = self.queue();
-        self.settle(&mut queue)?;
-        Ok(queue)
-    }
-
-    /// [`VulkanError::Busy`] while work runs on that a wait has given up.
-    fn settle(&self, queue: &mut Queue) -> Result<(), VulkanError> {
-        if !queue.unfinished {
-            return Ok(());
-        }
-        // SAFETY: the fence belongs to this device and was submitted with the work.
-        let status =
-            (self.faults.before(&self.raw)).and_then(|()| unsafe { self.raw.get_fence_status(queue.fence) });
-        queue.unfinished = matches!(status, Ok(false));
-        if queue.unfinished {
-            return Err(VulkanError::Busy {
-                device: self.probe.name.clone(),
-            });
-        }
-        for object in std::mem::take(&mut queue.retired) {
-            self.destroy_retired(object);
-        }
-        Ok(())
-    }
-
-    /// Destroys an object once nothing can use it any more.
-    pub(crate) fn retire(&self, object: Retired) {
-        let mut queue = self.queue();
-        match self.settle(&mut queue) {
-            Ok(()) => self.destroy_retired(object),
-            Err(_) => queue.retired.push(object),
-        }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::device::Device;
 use super::error::{CallContext, VulkanError};
 use super::pass::{Dispatch, Pass};
-use super::queue::{Retired, barrier};
+use super::queue::barrier;
 use super::shared::Shared;
 use ash::vk;
 use lightbvh_gpu::groups;
@@ -39,9 +39,8 @@ impl Device {
             pool: vk::DescriptorPool::null(),
         };
         let sets = bound.bind(&pass.dispatches)?;
-        let names: Vec<&str> = pass.dispatches.iter().map(|own| own.kernel.name()).collect();
         let start = Instant::now();
-        let kernels = shared.run(names.join(", "), |device, commands| {
+        let kernels = shared.run(|device, commands| {
             for (dispatch, set) in pass.dispatches.iter().zip(sets) {
                 record(device, commands, dispatch, set);
                 barrier(device, commands);
@@ -109,7 +108,8 @@ impl Sets<'_> {
 
 impl Drop for Sets<'_> {
     fn drop(&mut self) {
-        self.shared.retire(Retired::Sets(self.pool));
+        // SAFETY: the pool belongs to this device or is null, and the run that used it has ended.
+        unsafe { self.shared.raw.destroy_descriptor_pool(self.pool, None) };
     }
 }
 
@@ -124,7 +124,7 @@ fn record(device: &ash::Device, commands: vk::CommandBuffer, dispatch: &Dispatch
     let compute = vk::PipelineBindPoint::COMPUTE;
     // SAFETY: the command buffer is recording; pipeline, layout and set belong to this device and match in bindings and
     // push constants (`Dispatch::check`); the counts are within what every device allows. What is bound outlives the
-    // submission: the pass borrows buffers and kernels, and `retire` keeps memory that is in use after a time limit.
+    // submission, for the pass holds buffers and kernels.
     unsafe {
         device.cmd_bind_pipeline(commands, compute, kernel.pipeline);
         device.cmd_bind_descriptor_sets(commands, compute, kernel.layout, 0, &[set], &[]);

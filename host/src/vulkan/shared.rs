@@ -6,7 +6,7 @@ use super::fault::Faults;
 use super::instance::Instance;
 use super::kernel::Kernels;
 use super::probe::{Candidate, Probe};
-use super::queue::{Queue, Retired};
+use super::queue::Queue;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use gpu_allocator::{AllocationSizes, AllocatorDebugSettings};
 use std::mem::ManuallyDrop;
@@ -28,7 +28,7 @@ pub(crate) struct Shared {
     queue: Mutex<Queue>,
     kernels: Mutex<Kernels>,
     allocator: Mutex<ManuallyDrop<Allocator>>,
-    /// Left alone in `drop` if the device still works: its driver must stay loaded.
+    /// Dropped after all that was made from it.
     pub(crate) instance: ManuallyDrop<Instance>,
 }
 
@@ -105,27 +105,6 @@ impl Shared {
             .unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    /// Whether work that ran into its time limit is still running: nothing it may use can be destroyed then.
-    pub(crate) fn is_busy(&self) -> bool {
-        self.idle_queue().is_err()
-    }
-
-    /// Nothing that uses it may be running.
-    pub(super) fn destroy_retired(&self, object: Retired) {
-        // SAFETY: the object belongs to this device or is null, its owner gave it up, and nothing that uses
-        // it is running (`retire`).
-        unsafe {
-            match object {
-                Retired::Sets(pool) => self.raw.destroy_descriptor_pool(pool, None),
-                Retired::Buffer(buffer, allocation) => {
-                    self.raw.destroy_buffer(buffer, None);
-                    // An error would be an inconsistency of the allocator itself; there is nothing to undo.
-                    let _ = allocation.map(|allocation| self.allocator().free(allocation));
-                }
-            }
-        }
-    }
-
     /// An error once the validation layer has said anything.
     pub(crate) fn check_validation(&self) -> Result<(), VulkanError> {
         match self.instance.messages() {
@@ -141,10 +120,6 @@ impl Shared {
 
 impl Drop for Shared {
     fn drop(&mut self) {
-        if self.is_busy() {
-            // The device may still write to its memory. Leaking all of it is the only safe end.
-            return;
-        }
         // SAFETY: the device is alive, and no other thread can use it: this is its last owner. A lost device is an
         // error here, and is safe to destroy all the same.
         let _ = unsafe { self.raw.device_wait_idle() };

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::model::{self, FLOOR};
-use crate::program::{Folder, json as report, refused, run};
+use crate::program::{Folder, json_on_cpu as report, refused, run};
 
 const NAME: &str = "KHR_lights_punctual";
 
@@ -46,18 +46,12 @@ fn scenes_of_points_and_spots_are_verified_and_inspected() {
     ));
     assert_eq!(found["valid"], true);
     let rows = found["rows"].as_array().expect("rows");
-    assert_eq!(rows.len(), 6);
+    assert_eq!(rows.len(), 2);
     assert!(rows.iter().all(|row| row["lights"] == 3), "{rows:?}");
 
-    let found = report(&format!("inspect {path} --points 40 --json"));
-    assert_eq!(found["holds"], true);
+    let found = report(&format!("inspect {path} --json"));
     assert_eq!(found["kinds"]["said"], "2 points, 1 spot");
     assert_eq!(found["kinds"]["node"], "Lit<SpotMomentNode<8>, AnyLight>");
-    assert_eq!(found["checked"]["probabilities"], 120);
-    assert_eq!(found["checked"]["unreached"], 0);
-    let said = run(&format!("inspect {path} --points 40"));
-    let said = String::from_utf8_lossy(&said.stdout).into_owned();
-    assert!(said.contains("every invariant holds"), "{said}");
 }
 
 #[test]
@@ -77,18 +71,10 @@ fn suns_alone_leave_trees_empty() {
         Some(true)
     );
     let found = report(&format!("inspect {path} --json"));
-    assert_eq!((&found["holds"], &found["suns"]), (&json!(true), &json!(1)));
-    assert_eq!((&found["tree"], &found["checked"]), (&json!(null), &json!(null)));
+    assert_eq!((&found["suns"], &found["tree"]), (&json!(1), &json!(null)));
     let said = run(&format!("inspect {path}"));
     let said = String::from_utf8_lossy(&said.stdout).into_owned();
-    assert!(
-        said.contains("none; what lights the scene stands beside trees"),
-        "{said}"
-    );
-    assert!(
-        !said.contains("probabilities") && !said.contains("per light"),
-        "{said}"
-    );
+    assert!(said.contains("next to trees"), "{said}");
 }
 
 #[test]
@@ -99,7 +85,6 @@ fn commands_for_triangles_say_which_commands_take_other_lights() {
     for command in [
         format!("trade --quick --scene {path}"),
         format!("compare --quick --scene {path} --out {out}"),
-        format!("trade --variance --scene {path}"),
     ] {
         let said = refused(&command);
         for part in ["3 lights of other kinds", "`lightbvh render`", "`inspect`"] {

@@ -2,7 +2,6 @@
 
 mod animate;
 mod checks;
-mod clips;
 mod compare;
 mod inspect;
 mod kinds;

@@ -7,7 +7,6 @@ use crate::program::Folder;
 /// Nodes that clips move.
 pub const FLOOR: usize = 0;
 pub const LAMP: usize = 1;
-pub const OUTSIDE: usize = 3;
 
 /// Keys of a node's translation or scale.
 pub struct Keys {

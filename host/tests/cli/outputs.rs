@@ -42,7 +42,7 @@ fn links_are_followed_and_pipes_are_written_directly() {
 /// At several times of a sequence: between files, and while one is written.
 #[test]
 fn an_interrupt_leaves_no_temporary_file() {
-    for milliseconds in [0, 1, 2, 3, 5, 8, 13] {
+    for milliseconds in [0, 2, 8] {
         let folder = Folder::new(&format!("interrupt-{milliseconds}"));
         let image = folder.file("image.exr");
         let line = format!("render street --animate 0..100000 --sampler uniform {SMALL} -o {image}");

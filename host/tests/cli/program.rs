@@ -5,6 +5,9 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
+/// Set where a device is required.
+const REQUIRE: &str = "LIGHTBVH_REQUIRE_VULKAN";
+
 /// A folder of its own for each test, removed at its end.
 pub struct Folder(pub PathBuf);
 
@@ -34,8 +37,25 @@ pub fn run(line: &str) -> Output {
         .expect("the program starts")
 }
 
+/// The same without a device.
+pub fn run_on_cpu(line: &str) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_lightbvh"))
+        .args(line.split_whitespace())
+        .env("VK_DRIVER_FILES", "/nonexistent")
+        .env_remove(REQUIRE)
+        .output()
+        .expect("the program starts")
+}
+
 pub fn json(line: &str) -> Value {
-    let output = run(line);
+    object(line, &run(line))
+}
+
+pub fn json_on_cpu(line: &str) -> Value {
+    object(line, &run_on_cpu(line))
+}
+
+fn object(line: &str, output: &Output) -> Value {
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{line}: {errors}");
     serde_json::from_slice(&output.stdout).expect("one JSON object")

@@ -1,27 +1,20 @@
 //! `lightbvh stability`: it passes, and it fails where it should.
 
-use std::process::Command;
-
 use lightbvh::{BuildParams, LightBvh, Lights, Node};
 use lightbvh_host::stability::cases::scattered;
 use lightbvh_host::stability::row::{Check, Row};
-use lightbvh_host::stability::{case, checks, walked};
-use serde_json::Value;
+use lightbvh_host::stability::subject::Subject;
+use lightbvh_host::stability::{case, checks};
+
+use crate::program::json_on_cpu;
 
 #[test]
 fn every_extreme_is_survived_on_the_cpu() {
-    let output = Command::new(env!("CARGO_BIN_EXE_lightbvh"))
-        .args(["stability", "--quick", "--json"])
-        // Devices have a longer run of their own.
-        .env("VK_DRIVER_FILES", "/nonexistent")
-        .env_remove("LIGHTBVH_REQUIRE_VULKAN")
-        .output()
-        .expect("the program starts");
-    let report: Value = serde_json::from_slice(&output.stdout).expect("one JSON object");
+    // Devices have a longer run of their own.
+    let report = json_on_cpu("stability --quick --json");
     let rows = report["rows"].as_array().expect("rows");
     let failed: Vec<_> = rows.iter().filter(|row| row["pass"] != true).collect();
     assert!(failed.is_empty(), "{failed:#?}");
-    assert!(output.status.success());
     assert!(rows.len() > 1000, "only {} rows", rows.len());
     for row in rows {
         assert_eq!(row["device"], "cpu");
@@ -37,7 +30,7 @@ fn rows(break_it: impl Fn(&mut LightBvh)) -> Vec<Row> {
     let mut bvh = LightBvh::single_level(&lights, &BuildParams::default());
     break_it(&mut bvh);
     let points = case::Case::new("", lights.triangles().to_vec()).points;
-    let tree = walked(&bvh, &lights);
+    let tree = Subject::new(&bvh, &lights);
     checks::check("broken", "single-level", &tree, &points, 20_000)
 }
 

@@ -1,11 +1,9 @@
 //! What a device is asked wrongly comes back as an error that says so.
 
-use std::time::{Duration, Instant};
-
 use lightbvh_host::vulkan::{Device, Options, Pass, VulkanError};
 use lightbvh_tests::devices::{devices, on_each_device, open};
 
-use super::{Push, ROW, expected, scale_index, values};
+use super::{Push, scale_index};
 
 #[test]
 fn misuse_that_validation_sees_is_an_error() {
@@ -129,51 +127,4 @@ fn buffers_over_a_limit_say_so() {
             Err(VulkanError::WrongLength { given: 3, held: 2 })
         ));
     });
-}
-
-#[test]
-fn work_beyond_the_time_limit_is_an_error_and_the_device_recovers() {
-    // No time at all: every submission is over the limit, and memory that the host reaches needs none to be filled.
-    on_each_device(
-        Options {
-            time_limit: Duration::ZERO,
-            ..Options::default()
-        },
-        |device| {
-            if !device.probe().unified_memory {
-                return;
-            }
-            let kernel = device
-                .kernel_from_words("scale_index", &scale_index())
-                .expect("a kernel");
-            let input = values(ROW);
-            let buffer = device.upload(&input).expect("an upload");
-            let output = device.output::<[u32; 2]>(input.len()).expect("an output");
-            let push = Push {
-                count: ROW,
-                factor: 5,
-            };
-            let mut pass = Pass::new();
-            pass.dispatch(
-                &kernel,
-                &[buffer.bind(), output.bind()],
-                bytemuck::bytes_of(&push),
-                ROW,
-            );
-            match device.run(&pass) {
-                Err(VulkanError::Timeout { work, .. }) => assert_eq!(work, "scale_index"),
-                other => panic!("{}: {other:?}", device.name()),
-            }
-            let start = Instant::now();
-            let results = loop {
-                match output.read() {
-                    Err(VulkanError::Busy { .. }) if start.elapsed() < Duration::from_secs(60) => {
-                        std::thread::sleep(Duration::from_millis(1));
-                    }
-                    results => break results.expect("the results, late"),
-                }
-            };
-            assert!(results == expected(&input, 5), "{}", device.name());
-        },
-    );
 }

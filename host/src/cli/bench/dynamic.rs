@@ -11,6 +11,7 @@ use lightbvh::{EmissiveTriangle, Rebuilder, ShadingPoint};
 use lightbvh_gpu::Mirror;
 use rayon::prelude::*;
 use serde::Serialize;
+use serde_json::json;
 
 use self::scenes::Scene;
 use self::world::World;
@@ -18,6 +19,7 @@ use crate::backend::Bvh;
 use crate::cli::measure::times::Spread;
 use crate::cli::measure::{irradiance::irradiance, variance};
 use crate::cli::table::{self, news};
+use crate::cli::{Context, Outcome};
 use crate::error::HostError;
 use crate::stability::random::Random;
 
@@ -26,7 +28,7 @@ const PACE: Duration = Duration::from_micros(16_667);
 
 /// Results of a scene.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Row {
+struct Row {
     scene: &'static str,
     instances: usize,
     /// Thread time of begin, apply, refit and end, µs.
@@ -49,9 +51,14 @@ struct Variance {
     most: f64,
 }
 
-/// Measures all scenes, or those of a quick run.
-pub(super) fn rows(is_quick: bool) -> Result<Vec<Row>, HostError> {
-    scenes::scenes(is_quick).into_iter().map(measure).collect()
+pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
+    let rows = scenes::scenes().into_iter().map(measure);
+    let rows = rows.collect::<Result<Vec<_>, _>>()?;
+    match context.json {
+        true => table::print_json(&json!({ "scenes": rows }))?,
+        false => print(&rows)?,
+    }
+    Ok(Outcome::Good)
 }
 
 fn measure(mut scene: Scene) -> Result<Row, HostError> {
@@ -155,7 +162,7 @@ fn variances(bvh: &Bvh, lights: &[EmissiveTriangle], points: &[ShadingPoint]) ->
     points.par_iter().map(of).collect()
 }
 
-pub(super) fn print(rows: &[Row]) -> std::io::Result<()> {
+fn print(rows: &[Row]) -> std::io::Result<()> {
     fn ratio(row: &Row, of: fn(&Variance) -> f64) -> String {
         table::known(row.variance.as_ref().map(of), 2)
     }
@@ -183,7 +190,7 @@ mod tests {
 
     #[test]
     fn first_frames_are_as_good_as_fresh_builds() {
-        let scenes = scenes::scenes(true).into_iter();
+        let scenes = scenes::scenes().into_iter();
         for mut scene in scenes.filter(|scene| (1..50_000).contains(&scene.lamps.len())) {
             (scene.frames, scene.warm, scene.look) = (3, 0, 3);
             let row = measure(scene).expect("no build panics");

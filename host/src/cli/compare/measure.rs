@@ -6,7 +6,7 @@ use std::hash::{DefaultHasher, Hasher};
 use bytemuck::cast_slice;
 use indicatif::ProgressBar;
 
-use super::plan::{BLOCK, Plan};
+use super::plan::{Args, BLOCK};
 use crate::backend::SceneArrays;
 use crate::cli::measure::reference::Reference;
 use crate::cli::measure::times::ms;
@@ -41,7 +41,7 @@ impl Results {
 
 /// One scene on one backend.
 pub(super) struct Job<'a, 'd> {
-    pub plan: &'a Plan,
+    pub plan: &'a Args,
     pub scene: &'a Scene,
     pub references: &'a [Reference],
     pub target: Target<'d>,
@@ -57,11 +57,12 @@ impl<'d> Job<'_, 'd> {
     /// Measures all methods, block by block.
     pub fn run(&self) -> Result<Results, HostError> {
         let mut results = Results::default();
-        let mut lanes: Vec<Lane<'d>> = self.plan.methods.iter().map(|&method| (method, None)).collect();
+        let mut lanes: Vec<Lane<'d>> = self.plan.method.iter().map(|&method| (method, None)).collect();
         for block in 0..=self.plan.last() / BLOCK {
             let mut arrays = BTreeMap::new();
             for lane in &mut lanes {
                 self.block(lane, block, &mut arrays, &mut results)?;
+                self.progress.inc(1);
             }
         }
         Ok(results)
@@ -104,7 +105,6 @@ impl<'d> Job<'_, 'd> {
                 .set_message(format!("{} frame {frame}: {name} on {on}", scene.name()));
             let mut image = |seed| {
                 let params = render_params(plan.size(), plan.samples, seed, scene.data().background);
-                self.progress.inc(plan.work(plan.samples));
                 runner.image(&step, arrays, &params)
             };
             if is_timed {

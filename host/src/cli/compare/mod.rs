@@ -22,7 +22,7 @@ use crate::workload::{arrays_at, build, render_params};
 
 use measure::Job;
 pub(super) use plan::Args;
-use plan::{BLOCK, Backends, Plan, timed_blocks};
+use plan::{BLOCK, Backends, timed_blocks};
 use report::{Noise, Report, SceneReport};
 use summary::summarize;
 
@@ -30,8 +30,8 @@ use summary::summarize;
 const FIRST_SEED: u32 = 1 << 31;
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
-    let plan = args.plan();
-    let scenes = plan.scenes.iter().map(|name| args.reading.open(name));
+    let plan = args.ordered();
+    let scenes = plan.scene.iter().map(|name| args.reading.open(name));
     let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
     for scene in &scenes {
         scene.require_lights()?;
@@ -39,11 +39,11 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             news!("{}: {warning}", scene.name());
         }
     }
-    let opened = match plan.backends {
+    let opened = match plan.backend {
         Backends::Cpu => Vec::new(),
         Backends::Vulkan | Backends::All => devices::open(context)?,
     };
-    let cpu = (plan.backends != Backends::Vulkan).then_some(Target::Cpu);
+    let cpu = (plan.backend != Backends::Vulkan).then_some(Target::Cpu);
     let on_devices = opened.iter().map(|o| Target::Device(&o.device));
     let targets: Vec<Target<'_>> = cpu.into_iter().chain(on_devices).collect();
     target::folder(&args.out)?;
@@ -55,9 +55,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     }
     let mut report = Report {
         settings: json!({
-            "scenes": plan.scenes, "frames": plan.frames, "samples": plan.samples, "seeds": plan.seeds,
+            "scenes": plan.scene, "frames": plan.frames, "samples": plan.samples, "seeds": plan.seeds,
             "width": plan.width, "height": plan.height, "reference_samples": plan.reference_samples,
-            "timed_frames": plan.timed_frames, "timed_on_devices": plan.timed_on_devices, "methods": plan.methods,
+            "timed_frames": plan.timed_frames()[0], "timed_on_devices": plan.timed_frames()[1], "methods": plan.method,
             "cpu_threads": rayon::current_num_threads(),
         }),
         notes: &report::NOTES,
@@ -67,7 +67,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         different: 0,
     };
     let template = "{bar:30} {percent:>3} % {elapsed} passed, {eta} left  {wide_msg}";
-    let progress = progress::bar(scenes.len() as u64 * all_work(&plan, &targets), template, false);
+    let blocks = (plan.last() / BLOCK + 1) as usize;
+    let work = scenes.len() * (plan.frames.len() + targets.len() * plan.method.len() * blocks);
+    let progress = progress::bar(work as u64, template, false);
     for scene in &scenes {
         compare(&plan, scene, &targets, &progress, &mut report)?;
     }
@@ -91,7 +93,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
 
 /// Compares all methods over a scene on all targets.
 fn compare(
-    plan: &Plan,
+    plan: &Args,
     scene: &Scene,
     targets: &[Target<'_>],
     progress: &ProgressBar,
@@ -110,7 +112,7 @@ fn compare(
             progress,
         };
         let results = job.run()?;
-        let (rows, averages) = summarize(plan, scene.name(), target.name(), &results);
+        let [rows, averages] = summarize(plan, scene.name(), target.name(), &results);
         report.rows.extend(rows);
         report.averages.extend(averages);
         report.different += results.different_from(first.get_or_insert(results.clone()));
@@ -132,7 +134,7 @@ fn compare(
 }
 
 /// The references of all measured frames, displayed at the exposure of the first.
-fn references(plan: &Plan, scene: &Scene, progress: &ProgressBar) -> Result<Vec<Reference>, HostError> {
+fn references(plan: &Args, scene: &Scene, progress: &ProgressBar) -> Result<Vec<Reference>, HostError> {
     let mut exposure = None;
     let mut references = Vec::new();
     for &frame in &plan.frames {
@@ -147,7 +149,7 @@ fn references(plan: &Plan, scene: &Scene, progress: &ProgressBar) -> Result<Vec<
             cpu.render(&arrays, &params, Sampler::TwoLevel, Integrator::Direct)
         };
         let halves = [half(0)?.value, half(1)?.value];
-        progress.inc(plan.work(plan.reference_samples));
+        progress.inc(1);
         let reference = Reference::new(plan.size(), halves, exposure)?;
         exposure = Some(reference.judge.exposure());
         references.push(reference);
@@ -155,19 +157,8 @@ fn references(plan: &Plan, scene: &Scene, progress: &ProgressBar) -> Result<Vec<
     Ok(references)
 }
 
-/// The work of a scene: its references, and every method's images on every backend.
-fn all_work(plan: &Plan, targets: &[Target<'_>]) -> u64 {
-    let references = plan.work(plan.reference_samples) * plan.frames.len() as u64;
-    let images = |target: &Target<'_>| {
-        let timed = blocks(plan, target).len() as u64 * u64::from(BLOCK);
-        plan.frames.len() as u64 * u64::from(seeds(plan, target)) + timed
-    };
-    let images: u64 = targets.iter().map(images).sum();
-    references + plan.work(plan.samples) * images * plan.methods.len() as u64
-}
-
 /// Images of each frame: devices show that they render the same, and how fast.
-fn seeds(plan: &Plan, target: &Target<'_>) -> u32 {
+fn seeds(plan: &Args, target: &Target<'_>) -> u32 {
     match target {
         Target::Cpu => plan.seeds,
         Target::Device(_) => 1,
@@ -175,10 +166,13 @@ fn seeds(plan: &Plan, target: &Target<'_>) -> u32 {
 }
 
 /// The blocks that are timed.
-fn blocks(plan: &Plan, target: &Target<'_>) -> Vec<u32> {
-    let timed = match target {
-        Target::Cpu => plan.timed_frames,
-        Target::Device(_) => plan.timed_on_devices,
-    };
-    timed_blocks(plan.last(), timed)
+fn blocks(plan: &Args, target: &Target<'_>) -> Vec<u32> {
+    let [on_cpu, on_devices] = plan.timed_frames();
+    timed_blocks(
+        plan.last(),
+        match target {
+            Target::Cpu => on_cpu,
+            Target::Device(_) => on_devices,
+        },
+    )
 }

@@ -11,40 +11,39 @@ use crate::scene::BUILT_IN;
 /// methods' work and is not timed.
 pub(super) const BLOCK: u32 = 8;
 
-#[derive(Debug, clap::Args)]
+/// The comparison as the options give it.
+#[derive(Clone, Debug, clap::Args)]
 pub(in crate::cli) struct Args {
-    /// A built-in scene or a .gltf, .glb, .obj or .ply file; may be repeated [default: all built-in ones].
-    #[arg(long)]
-    scene: Vec<String>,
+    /// A built-in scene or a .gltf, .glb, .obj or .ply file; may be repeated.
+    #[arg(long, default_values = BUILT_IN)]
+    pub(super) scene: Vec<String>,
     #[command(flatten)]
     pub(super) reading: Reading,
-    /// Frames to measure; the animation runs from 0 to the last of them [default: 0,50,100,150].
+    /// Frames to measure; the animation runs from 0 to the last of them.
     #[arg(long, value_delimiter = ',', value_name = "N,N,...", value_parser = clap::value_parser!(u32).range(..=100_000))]
-    frames: Vec<u32>,
-    /// Shadow rays per pixel [default: 6].
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=65_536))]
-    samples: Option<u32>,
-    /// Images of each frame, each with its own random numbers [default: 8].
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
-    seeds: Option<u32>,
-    /// Columns [default: 320].
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
-    width: Option<u32>,
-    /// Rows [default: 180].
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
-    height: Option<u32>,
-    /// Shadow rays per pixel of the reference [default: 1024].
-    #[arg(long, value_parser = clap::value_parser!(u32).range(2..=1 << 20))]
-    reference_samples: Option<u32>,
-    /// Frames that times are averaged over, in runs of seven [default: 35, on devices 7].
-    #[arg(long, value_parser = clap::value_parser!(u32).range(..=100_000))]
-    timed_frames: Option<u32>,
+    #[arg(default_value = "0,50,100,150", default_value_if("quick", "true", "0,25,50"))]
+    pub(super) frames: Vec<u32>,
+    /// Shadow rays per pixel.
+    #[arg(long, default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    pub(super) samples: u32,
+    /// Images of each frame, each with its own random numbers [with --quick: 3].
+    #[arg(long, default_value_t = 8, default_value_if("quick", "true", "3"), value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(super) seeds: u32,
+    /// Columns [with --quick: 96].
+    #[arg(long, default_value_t = 320, default_value_if("quick", "true", "96"), value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(super) width: u32,
+    /// Rows [with --quick: 54].
+    #[arg(long, default_value_t = 180, default_value_if("quick", "true", "54"), value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(super) height: u32,
+    /// Shadow rays per pixel of the reference, an even number [with --quick: 128].
+    #[arg(long, default_value_t = 1024, default_value_if("quick", "true", "128"), value_parser = clap::value_parser!(u32).range(2..=1 << 20))]
+    pub(super) reference_samples: u32,
     /// Methods to compare; may be repeated [default: all].
-    #[arg(long, value_enum)]
-    method: Vec<Method>,
-    /// What renders; devices render one image of each frame [default: all, with --quick: cpu].
-    #[arg(long, value_enum)]
-    backend: Option<Backends>,
+    #[arg(long, value_enum, default_values_t = Method::ALL.iter().copied(), hide_default_value = true)]
+    pub(super) method: Vec<Method>,
+    /// What renders; devices render one image of each frame [with --quick: cpu].
+    #[arg(long, value_enum, default_value_t = Backends::All, default_value_if("quick", "true", "cpu"))]
+    pub(super) backend: Backends,
     /// Folder for the tables; made if it is not there.
     #[arg(long, default_value = "compare", value_name = "DIR")]
     pub(super) out: PathBuf,
@@ -63,75 +62,24 @@ pub(super) enum Backends {
     All,
 }
 
-/// The comparison as the options give it.
-#[derive(Clone, Debug)]
-pub(super) struct Plan {
-    pub scenes: Vec<String>,
-    /// Ascending, each once, at least one.
-    pub frames: Vec<u32>,
-    pub samples: u32,
-    pub seeds: u32,
-    pub width: u32,
-    pub height: u32,
-    /// Even.
-    pub reference_samples: u32,
-    pub timed_frames: u32,
-    pub timed_on_devices: u32,
-    pub methods: Vec<Method>,
-    pub backends: Backends,
-}
-
 impl Args {
-    /// The comparison as the options give it.
-    pub(super) fn plan(&self) -> Plan {
-        let choose = |given: Option<u32>, usual: u32, quick: u32| {
-            given.unwrap_or(if self.quick { quick } else { usual })
-        };
-        let mut frames = self.frames.clone();
-        if frames.is_empty() {
-            frames = if self.quick {
-                vec![0, 25, 50]
-            } else {
-                vec![0, 50, 100, 150]
-            };
-        }
-        frames.sort_unstable();
-        frames.dedup();
-        let mut methods = self.method.clone();
-        if methods.is_empty() {
-            methods = Method::ALL.to_vec();
-        }
-        methods.sort_unstable();
-        methods.dedup();
-        let mut scenes = Vec::new();
-        for scene in &self.scene {
-            if !scenes.contains(scene) {
-                scenes.push(scene.clone());
-            }
-        }
-        if scenes.is_empty() {
-            scenes = BUILT_IN.iter().map(|&name| name.to_owned()).collect();
-        }
-        Plan {
-            scenes,
-            samples: choose(self.samples, 6, 6),
-            seeds: choose(self.seeds, 8, 3),
-            width: choose(self.width, 320, 96),
-            height: choose(self.height, 180, 54),
-            reference_samples: choose(self.reference_samples, 1024, 128).next_multiple_of(2),
-            timed_frames: choose(self.timed_frames, 35, 7),
-            timed_on_devices: choose(self.timed_frames, 7, 7),
-            frames,
-            methods,
-            // A software device takes longer for its small images than the CPU for everything.
-            backends: self
-                .backend
-                .unwrap_or(if self.quick { Backends::Cpu } else { Backends::All }),
-        }
+    /// The same with scenes, frames and methods in order, each once.
+    pub fn ordered(&self) -> Self {
+        let mut plan = self.clone();
+        plan.frames.sort_unstable();
+        plan.frames.dedup();
+        plan.method.sort_unstable();
+        plan.method.dedup();
+        plan.scene.dedup();
+        plan.reference_samples = plan.reference_samples.next_multiple_of(2);
+        plan
     }
-}
 
-impl Plan {
+    /// Frames that times are averaged over, on the CPU and on devices.
+    pub fn timed_frames(&self) -> [u32; 2] {
+        [if self.quick { 7 } else { 35 }, 7]
+    }
+
     /// The last frame.
     pub fn last(&self) -> u32 {
         self.frames.last().copied().unwrap_or(0)
@@ -140,11 +88,6 @@ impl Plan {
     /// Columns and rows.
     pub fn size(&self) -> (u32, u32) {
         (self.width, self.height)
-    }
-
-    /// Shadow rays in thousands, what the progress bar counts, of an image with `samples` per pixel.
-    pub fn work(&self, samples: u32) -> u64 {
-        (u64::from(self.width) * u64::from(self.height) * u64::from(samples)).div_ceil(1000)
     }
 }
 

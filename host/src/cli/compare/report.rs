@@ -5,8 +5,8 @@ use std::fmt::Write;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::plan::Plan;
-use super::summary::{Average, Errors, Row};
+use super::plan::Args;
+use super::summary::{Errors, Row};
 use crate::method::Method;
 
 /// Everything that came out.
@@ -16,7 +16,7 @@ pub(super) struct Report {
     pub notes: &'static [&'static str],
     pub scenes: Vec<SceneReport>,
     pub rows: Vec<Row>,
-    pub averages: Vec<Average>,
+    pub averages: Vec<Row>,
     /// Images of devices with other words than the CPU's.
     pub different: u64,
 }
@@ -82,7 +82,7 @@ fn cell(errors: &Errors, name: &str, decimals: Option<usize>) -> String {
 }
 
 /// All tables.
-pub(super) fn markdown(plan: &Plan, report: &Report) -> String {
+pub(super) fn markdown(plan: &Args, report: &Report) -> String {
     let mut out = String::new();
     // Writing to a string does not fail.
     let mut line = |text: String| {
@@ -135,7 +135,7 @@ fn backends(report: &Report, scene: &SceneReport) -> Vec<String> {
     backends
 }
 
-fn errors(plan: &Plan, report: &Report, scene: &SceneReport, backend: &str) -> String {
+fn errors(plan: &Args, report: &Report, scene: &SceneReport, backend: &str) -> String {
     let frames: Vec<String> = plan.frames.iter().map(u32::to_string).collect();
     let mut out = format!(
         "On {backend}:\n\n| measure | method | {} | average |\n",
@@ -143,24 +143,11 @@ fn errors(plan: &Plan, report: &Report, scene: &SceneReport, backend: &str) -> S
     );
     out += &format!("|---|---|{}---|\n", "---|".repeat(frames.len()));
     for (title, name, decimals) in MEASURES {
-        for &method in &plan.methods {
-            let of_frame = |frame: u32| {
-                let is_it = |row: &&Row| {
-                    row.scene == scene.scene
-                        && row.backend == backend
-                        && row.method == method
-                        && row.frame == frame
-                };
-                report
-                    .rows
-                    .iter()
-                    .find(is_it)
-                    .map_or(String::new(), |row| cell(&row.errors, name, decimals))
-            };
-            let is_it = |a: &&Average| a.scene == scene.scene && a.backend == backend && a.method == method;
-            let average = report.averages.iter().find(is_it);
-            let mut cells: Vec<String> = plan.frames.iter().map(|&frame| of_frame(frame)).collect();
-            cells.push(average.map_or(String::new(), |a| cell(&a.errors, name, decimals)));
+        for &method in &plan.method {
+            let all = report.rows.iter().chain(&report.averages);
+            let own =
+                all.filter(|row| row.scene == scene.scene && row.backend == backend && row.method == method);
+            let cells: Vec<String> = own.map(|row| cell(&row.errors, name, decimals)).collect();
             out += &format!("| {title} | {} | {} |\n", method.name(), cells.join(" | "));
         }
     }
@@ -171,7 +158,7 @@ fn errors(plan: &Plan, report: &Report, scene: &SceneReport, backend: &str) -> S
 fn changes(report: &Report, scene: &SceneReport) -> String {
     let mut out = String::from("| backend | method | from | MSE |\n|---|---|---|---|\n");
     let is_far = |method| matches!(method, Method::Uniform | Method::Power);
-    let is_shown = |a: &&Average| a.scene == scene.scene && !is_far(a.method);
+    let is_shown = |a: &&Row| a.scene == scene.scene && !is_far(a.method);
     for average in report.averages.iter().filter(is_shown) {
         for change in &average.mse_change {
             out += &format!(

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::measure::Results;
-use super::plan::Plan;
+use super::plan::Args;
 use crate::method::Method;
 use crate::metrics::{Estimate, Quality};
 
@@ -42,31 +42,21 @@ pub(super) struct Times {
     pub timed_frames: usize,
 }
 
-/// One frame of one method.
+/// A method in one frame or over all, each seed's mean over the frames being one measurement.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Row {
     pub scene: String,
-    pub frame: u32,
+    /// None over all frames.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frame: Option<u32>,
     pub method: Method,
     pub backend: String,
-    #[serde(flatten)]
-    pub errors: Errors,
-    #[serde(flatten)]
-    pub times: Times,
-}
-
-/// One method over all frames, each seed's mean over the frames being one measurement.
-#[derive(Clone, Debug, Serialize)]
-pub(super) struct Average {
-    pub scene: String,
-    pub method: Method,
-    pub backend: String,
-    /// Over all measured frames.
     #[serde(flatten)]
     pub errors: Errors,
     #[serde(flatten)]
     pub times: Times,
     /// Change of the MSE over the moving frames (all but frame 0) from other methods' to this one's.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub mse_change: Vec<Change>,
 }
 
@@ -109,45 +99,33 @@ impl Errors {
     }
 }
 
-/// Rows and averages of one scene on one backend.
-pub(super) fn summarize(
-    plan: &Plan,
-    scene: &str,
-    backend: &str,
-    results: &Results,
-) -> (Vec<Row>, Vec<Average>) {
+/// Rows of one scene on one backend: of each frame, and of all.
+pub(super) fn summarize(plan: &Args, scene: &str, backend: &str, results: &Results) -> [Vec<Row>; 2] {
     let mut qualities: BTreeMap<(Method, u32), Vec<Quality>> = BTreeMap::new();
     for (&(method, frame, _), &(quality, _)) in &results.images {
         qualities.entry((method, frame)).or_default().push(quality);
     }
+    let row = |method, frame: Option<u32>| {
+        let frames = frame.as_ref().map_or(&plan.frames[..], std::slice::from_ref);
+        Some(Row {
+            scene: scene.to_owned(),
+            frame,
+            method,
+            backend: backend.to_owned(),
+            errors: Errors::of(&by_seed(&qualities, method, frames))?,
+            times: times(results, method),
+            mse_change: match frame {
+                Some(_) => Vec::new(),
+                None => changes(plan, &qualities, method),
+            },
+        })
+    };
     let (mut rows, mut averages) = (Vec::new(), Vec::new());
-    for &method in &plan.methods {
-        let times = times(results, method);
-        for &frame in &plan.frames {
-            let Some(errors) = Errors::of(&by_seed(&qualities, method, &[frame])) else {
-                continue;
-            };
-            rows.push(Row {
-                scene: scene.to_owned(),
-                frame,
-                method,
-                backend: backend.to_owned(),
-                errors,
-                times: times.clone(),
-            });
-        }
-        if let Some(errors) = Errors::of(&by_seed(&qualities, method, &plan.frames)) {
-            averages.push(Average {
-                scene: scene.to_owned(),
-                method,
-                backend: backend.to_owned(),
-                errors,
-                times,
-                mse_change: changes(plan, &qualities, method),
-            });
-        }
+    for &method in &plan.method {
+        rows.extend(plan.frames.iter().filter_map(|&frame| row(method, Some(frame))));
+        averages.extend(row(method, None));
     }
-    (rows, averages)
+    [rows, averages]
 }
 
 /// Each seed's means over the frames.
@@ -170,12 +148,12 @@ fn mean(qualities: &[Quality], measure: impl Fn(&Quality) -> f64) -> f64 {
     qualities.iter().map(measure).sum::<f64>() / qualities.len() as f64
 }
 
-fn changes(plan: &Plan, qualities: &BTreeMap<(Method, u32), Vec<Quality>>, method: Method) -> Vec<Change> {
+fn changes(plan: &Args, qualities: &BTreeMap<(Method, u32), Vec<Quality>>, method: Method) -> Vec<Change> {
     let moving: Vec<u32> = plan.frames.iter().copied().filter(|&frame| frame > 0).collect();
     let own = by_seed(qualities, method, &moving);
     let against = BASELINES
         .into_iter()
-        .filter(|&from| from != method && plan.methods.contains(&from));
+        .filter(|&from| from != method && plan.method.contains(&from));
     against
         .filter_map(|from| {
             let theirs = by_seed(qualities, from, &moving);

@@ -1,15 +1,12 @@
 //! From the default to the chosen model, one part at a time, each checked on the scene's own points.
 
-use std::sync::Arc;
-
-use lightbvh::bvh::NoTrails;
-use lightbvh::exact::hash;
+use lightbvh::bvh::Trails;
 use lightbvh::importance::DefaultImportance;
 use lightbvh::refit::Instance;
 use lightbvh::requirements::{Layout, Model, Requirements, TransformKind, Updates};
 use lightbvh::{
-    BuildParams, Bvh, ImportanceModel, LightNode, Lights, MomentLayout, MomentNode, Moments, SampledLight,
-    ShadingPoint, TwoSidedMomentNode,
+    BuildParams, Bvh, ImportanceModel, LightNode, Lights, MomentNode, Moments, ShadingPoint,
+    TwoSidedMomentNode,
 };
 use lightbvh_kernels::bvh::WIDTH;
 use rayon::prelude::*;
@@ -21,8 +18,6 @@ use crate::scene::{Instances, Scene};
 
 /// Where probabilities may differ, the mean variance of a sample surely rises by no more than a twentieth.
 pub(super) const MOST_VARIANCE: f64 = 1.05;
-/// Samples of a point that are compared where no probability of a given light can be asked for.
-const SAMPLES: u32 = 64;
 
 /// The promise of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -43,9 +38,9 @@ pub(super) struct Row {
     pub part: &'static str,
     /// None of the default.
     pub promise: Option<Promise>,
-    /// Probabilities, or where there are none samples, that were compared, and how many differ.
-    pub compared: u64,
-    pub different: u64,
+    /// Probabilities that were compared, and how many differ.
+    pub compared: usize,
+    pub different: usize,
     /// Greatest difference of two probabilities.
     pub most: f64,
     /// Mean over the points that any light reaches of the relative variance of one sample; where there is none, nothing is known.
@@ -114,97 +109,23 @@ impl MeanRatio {
     }
 }
 
-type Sample = dyn Fn(&ShadingPoint, u32) -> SampledLight + Sync;
-type Pmf = dyn Fn(&ShadingPoint, u32, u32) -> f32 + Sync;
-type PmfOf<B> = fn(&B, &ShadingPoint, u32, u32) -> f32;
-
 /// A light BVH of some model.
 struct Subject {
     /// Bytes that sampling reads, and bytes of all its arrays.
     bytes: [usize; 2],
-    sample: Box<Sample>,
-    pmf: Option<Box<Pmf>>,
+    /// Every probability, point by point.
+    pmfs: Vec<f32>,
 }
 
-impl Subject {
-    fn new<B: Send + Sync + 'static>(
-        bvh: B,
-        bytes: [usize; 2],
-        sample: fn(&B, &ShadingPoint, u32) -> SampledLight,
-        pmf: Option<PmfOf<B>>,
-    ) -> Self {
-        let bvh = Arc::new(bvh);
-        let own = Arc::clone(&bvh);
-        Self {
-            bytes,
-            sample: Box::new(move |point, number| sample(&own, point, number)),
-            pmf: pmf.map(|pmf| {
-                let bvh = Arc::clone(&bvh);
-                Box::new(move |point: &ShadingPoint, light, instance| pmf(&bvh, point, light, instance)) as _
-            }),
+/// Bytes that sampling reads, and bytes of all arrays, of a light BVH that keeps what `updates` need.
+fn bytes<N: LightNode<WIDTH>, I, T: Trails>(bvh: Bvh<N, I, WIDTH, T>, updates: Updates) -> [usize; 2] {
+    match updates {
+        Updates::Nothing => [bvh.into_static().bytes(); 2],
+        Updates::Instances => {
+            let bvh = bvh.into_static_meshes();
+            [bvh.bytes(), bvh.memory()]
         }
-    }
-
-    /// With trails, and what `updates` need.
-    fn traced<N, I>(bvh: Bvh<N, I, WIDTH>, updates: Updates) -> Self
-    where
-        N: LightNode<WIDTH> + 'static,
-        I: ImportanceModel<N, WIDTH> + Send + Sync + 'static,
-    {
-        match updates {
-            Updates::Nothing => {
-                let bvh = bvh.into_static();
-                let bytes = [bvh.bytes(); 2];
-                Self::new(
-                    bvh,
-                    bytes,
-                    |b, p, n| b.sample(p, n),
-                    Some(|b, p, l, i| b.pmf(p, l, i)),
-                )
-            }
-            Updates::Instances => {
-                let bvh = bvh.into_static_meshes();
-                let bytes = [bvh.bytes(), bvh.memory()];
-                Self::new(
-                    bvh,
-                    bytes,
-                    |b, p, n| b.sample(p, n),
-                    Some(|b, p, l, i| b.pmf(p, l, i)),
-                )
-            }
-            Updates::Meshes => {
-                let bytes = [bvh.bytes(), bvh.memory()];
-                Self::new(
-                    bvh,
-                    bytes,
-                    |b, p, n| b.sample(p, n),
-                    Some(|b, p, l, i| b.pmf(p, l, i)),
-                )
-            }
-        }
-    }
-
-    /// The same without trails.
-    fn untraced<N>(bvh: Bvh<N, Moments, WIDTH, NoTrails>, updates: Updates) -> Self
-    where
-        N: MomentLayout<WIDTH> + LightNode<WIDTH> + 'static,
-    {
-        match updates {
-            Updates::Nothing => {
-                let bvh = bvh.into_static();
-                let bytes = [bvh.bytes(); 2];
-                Self::new(bvh, bytes, |b, p, n| b.sample(p, n), None)
-            }
-            Updates::Instances => {
-                let bvh = bvh.into_static_meshes();
-                let bytes = [bvh.bytes(), bvh.memory()];
-                Self::new(bvh, bytes, |b, p, n| b.sample(p, n), None)
-            }
-            Updates::Meshes => {
-                let bytes = [bvh.bytes(), bvh.memory()];
-                Self::new(bvh, bytes, |b, p, n| b.sample(p, n), None)
-            }
-        }
+        Updates::Meshes => [bvh.bytes(), bvh.memory()],
     }
 }
 
@@ -219,22 +140,35 @@ struct Source<'a> {
 }
 
 impl Source<'_> {
-    fn build(&self, model: &Model) -> Result<Subject, HostError> {
-        match model.layout {
-            Layout::TwoSidedMoments => self.of_layout::<TwoSidedMomentNode<WIDTH>>(model),
-            _ => self.of_layout::<MomentNode<WIDTH>>(model),
+    fn build(&self, model: &Model, points: &[ShadingPoint]) -> Result<Subject, HostError> {
+        match (model.layout, model.uniform_halvings) {
+            (Layout::TwoSidedMoments, 0) => self.of::<TwoSidedMomentNode<WIDTH>, Moments>(model, points),
+            (Layout::TwoSidedMoments, _) => {
+                self.of::<TwoSidedMomentNode<WIDTH>, DefaultImportance>(model, points)
+            }
+            (_, 0) => self.of::<MomentNode<WIDTH>, Moments>(model, points),
+            _ => self.of::<MomentNode<WIDTH>, DefaultImportance>(model, points),
         }
     }
 
-    fn of_layout<N>(&self, model: &Model) -> Result<Subject, HostError>
+    fn of<N, I>(&self, model: &Model, points: &[ShadingPoint]) -> Result<Subject, HostError>
     where
-        N: MomentLayout<WIDTH> + LightNode<WIDTH> + 'static,
+        N: LightNode<WIDTH>,
+        I: ImportanceModel<N, WIDTH> + Sync,
     {
-        Ok(match (model.uniform_halvings, model.trails) {
-            (0, false) => Subject::untraced(self.bvh::<N, Moments>(model)?.without_trails(), model.updates),
-            (0, true) => Subject::traced(self.bvh::<N, Moments>(model)?, model.updates),
-            _ => Subject::traced(self.bvh::<N, DefaultImportance>(model)?, model.updates),
-        })
+        let bvh = self.bvh::<N, I>(model)?;
+        let lights = || (0..).zip(self.lights.triangles());
+        let of = |point: &ShadingPoint| -> Vec<f32> {
+            lights()
+                .map(|(light, triangle)| bvh.pmf(point, light, triangle.mesh))
+                .collect()
+        };
+        let pmfs = points.par_iter().flat_map_iter(of).collect();
+        let bytes = match model.trails {
+            true => bytes(bvh, model.updates),
+            false => bytes(bvh.without_trails(), model.updates),
+        };
+        Ok(Subject { bytes, pmfs })
     }
 
     /// A light BVH, moved and refitted if its lights move.
@@ -249,18 +183,6 @@ impl Source<'_> {
         bvh.apply(instances.edits(self.scene, moved)).map_err(refused)?;
         bvh.refit();
         Ok(bvh)
-    }
-
-    /// Every probability, point by point; `None` where none can be asked for.
-    fn pmfs(&self, subject: &Subject, points: &[ShadingPoint]) -> Option<Vec<f32>> {
-        let pmf = subject.pmf.as_ref()?;
-        let lights = self.lights.triangles();
-        let of = |point: &ShadingPoint| -> Vec<f32> {
-            let each = (0..).zip(lights);
-            each.map(|(light, triangle)| pmf(point, light, triangle.mesh))
-                .collect()
-        };
-        Some(points.par_iter().flat_map_iter(of).collect())
     }
 
     /// Relative variances of one sample by these probabilities, at the points that any light reaches.
@@ -284,15 +206,6 @@ impl Source<'_> {
             memory_per_light,
         }
     }
-}
-
-/// Counts what differs in pairs of probabilities, and the greatest difference.
-fn compared(pairs: impl Iterator<Item = (f32, f32, bool)>) -> (u64, u64, f64) {
-    pairs.fold((0, 0, 0.0), |(count, different, most), (a, b, same)| {
-        let differs = !same || a.to_bits() != b.to_bits();
-        let by = (f64::from(a) - f64::from(b)).abs();
-        (count + 1, different + u64::from(differs), f64::max(most, by))
-    })
 }
 
 /// A part of a model, and how one model takes it from another.
@@ -341,9 +254,8 @@ pub(super) fn check(
         sent: sent.collect(),
     };
     let mut model = Model::DEFAULT;
-    let mut subject = source.build(&model)?;
-    let mut before = source.pmfs(&subject, points);
-    let mut variances_before = source.variances(before.as_deref().unwrap_or_default());
+    let mut subject = source.build(&model, points)?;
+    let mut variances_before = source.variances(&subject.pmfs);
     let mut rows = vec![Row {
         part: "default",
         promise: None,
@@ -364,32 +276,22 @@ pub(super) fn check(
         if then == model {
             continue;
         }
-        let new = source.build(&then)?;
+        let new = source.build(&then, points)?;
         let promise = promise(part, &then, requirements);
-        let pmfs = source.pmfs(&new, points);
-        let (compared, different, most) = match (&before, &pmfs) {
-            (Some(before), Some(pmfs)) => {
-                let seen = (promise == Promise::BitsBelowInstance).then(|| {
-                    let seen = points.iter().map(|point| Instance::IDENTITY.to_local(point));
-                    source.pmfs(&new, &seen.collect::<Vec<_>>()).unwrap_or_default()
-                });
-                let pairs = before.iter().zip(seen.as_ref().unwrap_or(pmfs));
-                compared(pairs.map(|(&a, &b)| (a, b, true)))
+        // Nothing that a probability is computed from changes by the other parts.
+        let is_compared = matches!(part, "layout" | "levels" | "uniform share");
+        let seen = match promise {
+            Promise::BitsBelowInstance => {
+                let seen = points.iter().map(|point| Instance::IDENTITY.to_local(point));
+                &source.build(&then, &seen.collect::<Vec<_>>())?.pmfs
             }
-            _ => {
-                let numbers = (0_u32..).zip(points);
-                let numbers =
-                    numbers.flat_map(|(at, point)| (0..SAMPLES).map(move |k| (point, at * SAMPLES + k)));
-                compared(numbers.map(|(point, number)| {
-                    let [a, b] = [&subject, &new].map(|own| (own.sample)(point, hash(number)));
-                    (a.pmf, b.pmf, a.light == b.light)
-                }))
-            }
+            _ => &new.pmfs,
         };
-        let variances = match &pmfs {
-            Some(pmfs) => source.variances(pmfs),
-            None => variances_before.clone(),
-        };
+        let pairs = subject.pmfs.iter().zip(seen).filter(|_| is_compared);
+        let different = pairs.clone().filter(|(a, b)| a.to_bits() != b.to_bits()).count();
+        let most = pairs.clone().map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs());
+        let (compared, most) = (pairs.clone().count(), most.fold(0.0, f64::max));
+        let variances = source.variances(&new.pmfs);
         let variance_ratio = (!variances.is_empty()).then(|| MeanRatio::of(&variances_before, &variances));
         let held = match promise {
             Promise::Variance => variance_ratio.is_none_or(|ratio| ratio.high <= MOST_VARIANCE),
@@ -410,7 +312,7 @@ pub(super) fn check(
             cost: source.cost(&new),
         });
         if !put_back {
-            (model, subject, before, variances_before) = (then, new, pmfs, variances);
+            (model, subject, variances_before) = (then, new, variances);
             last = rows.len() - 1;
         }
     }
@@ -429,7 +331,7 @@ mod tests {
     #[test]
     fn points_without_light_have_no_figure() {
         for is_lit in [false, true] {
-            let scene = room(is_lit, None);
+            let scene = room(is_lit);
             let lights: Lights = lights_at(&scene, 0).expect("lights");
             let (bvh, _) =
                 Instances::new::<Node, DefaultImportance, WIDTH>(&scene, 0, BuildParams::default())

@@ -81,13 +81,11 @@ struct Motion {
     bending: usize,
 }
 
-/// Materials by what matters to the choice of a light: `masked` ones are cut out by alpha.
+/// Materials by what matters to the choice of a light.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Surfaces {
     materials: usize,
     glossy: usize,
-    masked: usize,
-    masked_lights: usize,
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
@@ -106,18 +104,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         "scene": scene.name(), "frame": frames[0], "checked_frame": frames[1],
         "motion": motion, "animations": animations(&scene), "surfaces": surfaces,
     });
-    let mut about = vec![
-        line("masks", &surfaces.masks()),
-        line("animation", &motion.said()),
-    ];
+    let about = line("animation", &motion.said());
     if others_alone {
-        return kinds::run(
-            context,
-            args,
-            &scene,
-            (frames, declared),
-            (report, &about.concat()),
-        );
+        return without_triangles(context, &scene, (args.frame, declared), (report, &about));
     }
     if let Some(left_out) = scene.unknown_in_figures() {
         news!("{}: {left_out}", scene.name());
@@ -128,7 +117,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let requirements = Requirements::of(&bvh, declared);
     let chosen = requirements.model();
     let lights = lights_at(&scene, frames[1])?;
-    let count = args.points_for(lights.triangles().len());
+    let most = MOST_PROBABILITIES / lights.triangles().len().max(1);
+    let count = args.points.min(most.max(1) as u32);
     let points = points::on_surfaces(&scene, frames[1], count);
     let checked = check(&requirements, &scene, frames, &lights, &points)?;
     let kernels = KernelSet::of(&checked.model)
@@ -173,13 +163,13 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             .iter()
             .map(|fact| line(fact.name, &format!("{}: {}", fact.found, fact.reason))),
     );
-    text.extend(about.drain(..));
+    text += &about;
     text += &format!("\nthe smallest model that is sufficient: {chosen}\n");
     text.extend(reasons.iter().map(|reason| format!("  {reason}\n")));
     if let Some(kinds) = &kinds {
         text += &format!(
-            "a tree over its lights of all kinds: Bvh<{}, Defensive<Moments, 6>, {WIDTH}>\n  lights: {}\n",
-            kinds.node_type(WIDTH),
+            "a tree over its lights of all kinds: {}\n  lights: {}\n",
+            kinds.tree(),
             kinds.cones()
         );
     }
@@ -200,12 +190,50 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::good_if(checked.holds()))
 }
 
-impl Args {
-    /// Points for so many lights.
-    fn points_for(&self, lights: usize) -> u32 {
-        self.points
-            .min(((MOST_PROBABILITIES / lights.max(1)) as u32).max(1))
+/// A scene that no triangle lights: its kinds of light, and the tree over all of them, which `verify` checks.
+fn without_triangles(
+    context: &Context,
+    scene: &Scene,
+    (frame, declared): (u32, Declared),
+    (mut report, about): (Value, &str),
+) -> Result<Outcome, HostError> {
+    let lights = lights_of::<AnyLight>(scene, frame)?;
+    let count = lights.triangles().len();
+    let kinds = LightKinds::of(lights.triangles());
+    let has_sky = scene.sun_count() > 0 || scene.data().environment.is_some();
+    let tree = (count > 0).then(|| kinds.tree());
+    if context.json {
+        report["lights"] = count.into();
+        report["kinds"] = kinds.json();
+        report["suns"] = scene.sun_count().into();
+        report["environment"] = scene.data().environment.is_some().into();
+        report["tree"] = tree.into();
+        table::print_json(&report)?;
+        return Ok(Outcome::Good);
     }
+    let mut text = format!(
+        "{} in frame {frame}, lit by {}\n\nwhat it requires\n",
+        scene.name(),
+        scene.other_lights()
+    );
+    text += &match count {
+        0 => line("lights of a tree", "none; the sky and suns stand next to trees"),
+        _ => line("lights of a tree", &kinds.cones()),
+    };
+    if has_sky {
+        text += &line(
+            "next to it",
+            "suns and environment maps (lightbvh::light::infinite)",
+        );
+    }
+    text += &line("changes", &yes(!changes(&declared).is_empty()));
+    text += &line("pmf of given lights", &yes(declared.pmf));
+    text += about;
+    if let Some(tree) = tree {
+        text += &format!("\na tree over its lights: {tree}, two levels\n");
+    }
+    table::print_text(&text)?;
+    Ok(Outcome::Good)
 }
 
 /// All animations of the file, by their numbers.
@@ -290,37 +318,15 @@ impl Motion {
 impl Surfaces {
     fn of(data: &SceneData) -> Self {
         let materials = &data.materials;
-        let masked = || materials.iter().filter(|material| material.masked);
-        let emits = |rgb: [f32; 3]| rgb.iter().any(|&channel| channel > 0.0);
         Self {
             materials: materials.len(),
             glossy: materials.iter().filter(|own| own.roughness <= GLOSSY).count(),
-            masked: masked().count(),
-            masked_lights: masked().filter(|own| emits(own.radiance)).count(),
         }
     }
 
     fn gloss(&self) -> String {
-        let Self {
-            materials, glossy, ..
-        } = self;
+        let Self { materials, glossy } = self;
         format!("of {materials} materials {glossy} have a roughness of {GLOSSY} or less")
-    }
-
-    fn masks(&self) -> String {
-        let Self {
-            materials,
-            masked,
-            masked_lights,
-            ..
-        } = self;
-        match masked {
-            0 => format!("no: of {materials} materials none is cut out by alpha"),
-            _ => format!(
-                "yes: {masked} of {materials} materials, taken as opaque; emitting: {masked_lights}; what is cut out of a light keeps its \
-                 probability, which costs variance and no bias where the shader masks it"
-            ),
-        }
     }
 }
 
@@ -354,54 +360,45 @@ fn facts(found: &Requirements, surfaces: &Surfaces) -> Vec<Fact> {
     ];
     let counts = kinds.iter().zip(found.transforms).filter(|(_, count)| *count > 0);
     let counts: Vec<String> = counts.map(|(kind, count)| format!("{count} {kind}")).collect();
+    let fact = |name, found: &str, reason: String| Fact {
+        name,
+        found: found.to_owned(),
+        reason,
+    };
+    let is = |is| if is { "yes" } else { "no" };
     let orientation = if one_sided > 0 { "present" } else { "absent" };
-    let facts = [
-        (
-            "orientation",
-            orientation.to_owned(),
-            format!("{one_sided} of {triangles} triangles shine from one side"),
-        ),
-        (
-            "two-sided only",
-            yes(one_sided == 0 && triangles > 0),
-            format!(
-                "{} of {triangles} triangles shine from both sides",
-                triangles - one_sided
-            ),
-        ),
-        (
-            "one mesh",
-            yes(found.is_one_mesh()),
-            format!(
-                "meshes: {}, instances: {}, at most {} of a mesh",
-                found.meshes, found.instances, found.most_instances
-            ),
-        ),
-        (
+    let sides = format!("of {triangles} triangles {one_sided} shine from one side, the others from both");
+    let meshes = format!(
+        "meshes: {}, instances: {}, at most {} of a mesh",
+        found.meshes, found.instances, found.most_instances
+    );
+    let transform = kinds[found.transform() as usize];
+    vec![
+        fact("orientation", orientation, sides.clone()),
+        fact("two-sided only", is(one_sided == 0 && triangles > 0), sides),
+        fact("one mesh", is(found.is_one_mesh()), meshes),
+        fact(
             "dark lights",
-            yes(found.dark > 0),
+            is(found.dark > 0),
             format!("{} of {} have no flux", found.dark, found.lights),
         ),
-        (
+        fact(
             "transforms",
-            kinds[found.transform() as usize].to_owned(),
+            transform,
             format!("instances: {}; {dimmed} dimmed", counts.join(", ")),
         ),
-        (
+        fact(
             "changes",
-            yes(!changes.is_empty()),
+            is(!changes.is_empty()),
             format!("{changed}, as declared"),
         ),
-        ("glossy receivers", yes(surfaces.glossy > 0), surfaces.gloss()),
-        (
+        fact("glossy receivers", is(surfaces.glossy > 0), surfaces.gloss()),
+        fact(
             "pmf of given lights",
-            yes(found.declared.pmf),
+            is(found.declared.pmf),
             "multiple importance sampling asks for them; as declared".to_owned(),
         ),
-    ];
-    let all = facts.into_iter();
-    all.map(|(name, found, reason)| Fact { name, found, reason })
-        .collect()
+    ]
 }
 
 /// Why each part of the smallest model is what it is: a sentence for each that begins with its name.

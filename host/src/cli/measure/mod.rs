@@ -2,7 +2,6 @@
 
 pub(super) mod interval;
 pub(super) mod irradiance;
-pub(super) mod kinds;
 pub(super) mod points;
 pub(super) mod reference;
 pub(super) mod times;
@@ -32,13 +31,10 @@ pub(super) fn variance(lights: impl Iterator<Item = (f64, f64)>) -> Option<f64> 
 
 #[cfg(test)]
 pub(super) mod tests {
-    use crate::scene::Transform;
+    use crate::scene::{Material, Mesh, Node, Primitive, Scene, SceneData};
 
-    use crate::scene::{AnalyticKind, AnalyticLight, Material, Mesh, Node, Primitive, Scene, SceneData};
-
-    /// A floor that faces +z below a lamp, and a point light at `light`. The lamp shines down on the floor, or up, where nothing
-    /// is.
-    pub fn room(is_lit: bool, light: Option<[f32; 3]>) -> Scene {
+    /// A floor that faces +z below a lamp, which shines down on the floor, or up, where nothing is.
+    pub fn room(is_lit: bool) -> Scene {
         let triangle = |positions: [[f32; 3]; 3], material| Primitive {
             positions: positions.to_vec(),
             triangles: vec![[0, 1, 2]],
@@ -52,16 +48,10 @@ pub(super) mod tests {
         }
         Scene::new(SceneData {
             name: String::from("room"),
-            nodes: vec![
-                Node {
-                    mesh: Some(0),
-                    ..Node::default()
-                },
-                Node {
-                    transform: Transform::at(light.unwrap_or_default()),
-                    ..Node::default()
-                },
-            ],
+            nodes: vec![Node {
+                mesh: Some(0),
+                ..Node::default()
+            }],
             meshes: vec![Mesh {
                 name: String::new(),
                 primitives: vec![floor, lamp],
@@ -72,17 +62,6 @@ pub(super) mod tests {
                     ..Material::default()
                 })
                 .to_vec(),
-            analytic: light
-                .iter()
-                .map(|_| AnalyticLight {
-                    name: String::new(),
-                    node: 1,
-                    kind: AnalyticKind::Point,
-                    color: [1.0; 3],
-                    intensity: 1.0,
-                    range: None,
-                })
-                .collect(),
             ..SceneData::default()
         })
         .expect("valid")

@@ -4,7 +4,6 @@ use std::ffi::OsString;
 use std::ops::Range;
 use std::path::PathBuf;
 
-use lightbvh_kernels::shading::direct::MAX_CANDIDATES;
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::view::{CameraName, Up, camera};
@@ -13,7 +12,7 @@ use crate::cli::frames;
 use crate::cli::reading::Reading;
 use crate::cli::reading::{BackendName, positive};
 use crate::error::HostError;
-use crate::method::{Builder, Importance, Method, Recipe, SampleBudget};
+use crate::method::{Method, Recipe, SampleBudget};
 
 /// Most reflections of a path.
 const DEFAULT_BOUNCES: u32 = 8;
@@ -69,21 +68,12 @@ pub struct Args {
     /// How lights are chosen.
     #[arg(long, value_enum, default_value_t = Method::TwoLevelMoments)]
     pub(super) sampler: Method,
-    /// Candidates of each light sample, 1 to 256 [default: 1; of two-level-moments-resampled, 8].
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_CANDIDATES)))]
-    pub(super) candidates: Option<u32>,
     /// Light reflected once, or along whole paths.
     #[arg(long, value_enum, default_value_t = IntegratorName::Direct)]
     pub(super) integrator: IntegratorName,
     /// Most reflections of a path, 1 to 64, with --integrator path; 1 is direct lighting [default: 8].
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_BOUNCES)))]
     pub(super) bounces: Option<u32>,
-    /// What lights of a BVH are chosen by: moments, or the paper's Eq. 4 [default: the sampler's].
-    #[arg(long, value_enum)]
-    pub(super) importance: Option<Importance>,
-    /// How the light BVH is built [default: the sampler's; with --importance, ward, or saoh for eq4].
-    #[arg(long, value_enum)]
-    pub(super) heuristic: Option<Builder>,
     /// What renders.
     #[arg(long, value_enum, default_value_t = BackendName::Cpu)]
     pub(super) backend: BackendName,
@@ -127,18 +117,10 @@ pub(super) fn recipe(args: &Args) -> Result<Recipe, HostError> {
         budget: SampleBudget::CameraRays,
         ..args.sampler.recipe()
     };
-    if let Some(importance) = args.importance {
-        (recipe.importance, recipe.builder) = (importance, importance.builder());
-    }
-    recipe.builder = args.heuristic.unwrap_or(recipe.builder);
     let usage = |option, needs| Err(HostError::Usage { option, needs });
-    recipe.candidates = args.candidates.unwrap_or(recipe.candidates);
     if args.integrator == IntegratorName::Path {
         if recipe.candidates > 1 {
-            return usage(
-                "--integrator path",
-                "a --sampler without candidates, and no --candidates",
-            );
+            return usage("--integrator path", "a --sampler without candidates");
         }
         recipe.integrator = Integrator::Path {
             bounces: args.bounces.unwrap_or(DEFAULT_BOUNCES),

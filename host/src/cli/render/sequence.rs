@@ -40,7 +40,7 @@ impl Sequence<'_> {
             .recipe
             .runner(&Step::new(self.scene, start, &first.lights), target)?;
         let mut exposure = args.exposure;
-        let mut was_black = false;
+        let mut is_told = false;
         let mut reports = Vec::new();
         let mut arrays = Some(first);
         for frame in start..=last {
@@ -56,21 +56,16 @@ impl Sequence<'_> {
             }
             let image = runner.image(&step, &arrays, &params)?;
             let film = Film::new(args.width, args.height, image.value)?;
-            // A frame that is black at the greatest exposure fixes none.
-            let is_black = match args.exposure {
-                Some(_) => film.is_black(),
-                None => !film.shows_anything(),
-            };
-            // Once of what any exposure shows as black, and of what is exposed by itself.
-            if is_black && !was_black || exposure.is_none() && !is_black {
-                self.tell_of_darkness(frame, &film);
-            }
-            was_black |= is_black;
-            // All frames of a sequence are exposed as its first one that shows something.
-            let exposure = match exposure {
-                Some(exposure) => exposure,
-                None if is_black => film.auto_exposure(),
-                None => *exposure.insert(film.auto_exposure()),
+            // All frames of a sequence are exposed as its first one that is not dark.
+            let exposure = match (exposure, film.darkness()) {
+                (Some(exposure), _) => exposure,
+                (None, None) => *exposure.insert(film.auto_exposure()),
+                (None, Some(words)) => {
+                    if !std::mem::replace(&mut is_told, true) {
+                        news!("{}: frame {frame}: {words}", self.scene.name());
+                    }
+                    film.auto_exposure()
+                }
             };
             let output = match &args.animate {
                 Some(_) => frames::numbered(&args.output, frame),
@@ -98,19 +93,6 @@ impl Sequence<'_> {
             }));
         }
         Ok(reports)
-    }
-
-    fn tell_of_darkness(&self, frame: u32, film: &Film) {
-        let Some(words) = film.darkness() else { return };
-        let of = match self.args.animate {
-            Some(_) => format!("frame {frame}: "),
-            None => String::new(),
-        };
-        let advice = match self.scene.data().environment {
-            Some(_) => "",
-            None => "; --environment FILE.hdr lights it by a sky",
-        };
-        news!("{}: {of}{words}{advice}", self.scene.name());
     }
 
     fn arrays<L: SceneLight>(&self, frame: u32) -> Result<SceneArrays<L>, HostError> {

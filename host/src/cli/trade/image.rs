@@ -85,8 +85,8 @@ pub(super) struct Images {
     pub error: f64,
     /// The error over the default's, seed by seed.
     pub error_ratio: Interval,
-    /// The error by as many shadow rays as fit into the default's frame beside the update: between the errors of images by the
-    /// whole numbers beside that; where less than one fits, the error of one by what fits of it.
+    /// The error by as many shadow rays as fit into the default's frame next to the update: that of the nearest whole number, by
+    /// its ratio to them.
     pub error_equal_time: f64,
     /// The same over the default's, seed by seed; as unsure as the ratio of the frames, which says how many fit, is besides.
     pub equal_time_ratio: Interval,
@@ -172,27 +172,14 @@ impl Measured {
             let left: Vec<f64> = default.iter().map(|frame| frame - update).collect();
             let fits = (f64::from(budget.samples) * Interval::of_ratios(&left, &of.times[begin..]).median)
                 .max(LEAST_SAMPLES);
-            let fewer = (fits.floor() as u32).max(1);
-            // Errors fall by powers of the samples between them; by their inverse below one.
-            let share =
-                (fits.max(1.0) / f64::from(fewer)).ln() / (f64::from(fewer + 1) / f64::from(fewer)).ln();
-            let nearest = if fits - f64::from(fewer) < 0.5 {
-                fewer
-            } else {
-                fewer + 1
-            };
+            // Errors fall by the inverse of the rays.
+            let rays = (fits.round() as u32).max(1);
             of.shown = None;
             for seed in budget.seeds..budget.seeds + budget.seeds.div_ceil(2) {
-                let mut beside = [0.0; 2];
-                for (error, samples) in beside.iter_mut().zip([fewer, fewer + 1]) {
-                    let film = Film::new(size.0, size.1, image(at, samples, seed).value)?;
-                    *error = error_of(&reference, &film).max(1e-9);
-                    if samples == nearest && of.shown.is_none() {
-                        of.shown = Some((film, samples));
-                    }
-                }
-                let [a, b] = beside;
-                of.equal_time.push(a * (b / a).powf(share) / fits.min(1.0));
+                let film = Film::new(size.0, size.1, image(at, rays, seed).value)?;
+                let error = error_of(&reference, &film).max(1e-9);
+                of.equal_time.push(error * f64::from(rays) / fits);
+                of.shown.get_or_insert((film, rays));
             }
             of.fits.push(fits);
         }
@@ -215,10 +202,7 @@ impl Measured {
             samples_equal_time: mean(&of.fits),
             bias: Estimate::of(&of.biases).filter(|bias| bias.mean.is_finite()),
             quality: mean_quality(&of.qualities),
-            shown: of
-                .shown
-                .clone()
-                .expect("one of the two counts of rays is the nearest"),
+            shown: of.shown.clone().expect("an image of each frame"),
             times: of.times.clone(),
             errors: of.errors.clone(),
         };

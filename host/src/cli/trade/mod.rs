@@ -1,15 +1,12 @@
 //! `lightbvh trade`: speed against accuracy, measured for what a user can choose: times, bytes, variance, and the error of
 //! images at equal samples and at equal time.
 
-mod arithmetic;
 mod choices;
 mod front;
 mod image;
-mod pick;
 pub(super) mod report;
 mod structure;
 mod subject;
-mod variance;
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -19,13 +16,12 @@ use serde_json::json;
 use self::choices::all;
 use self::front::{Point, front};
 use self::image::{Budget, Measured};
-use self::pick::{Goal, Pick};
 use self::report::Report;
 use self::structure::{Arriving, structures};
 use self::subject::Axis;
 use super::measure::points;
-use super::reading::{Reading, positive};
-use super::{Context, Outcome, devices, table};
+use super::reading::Reading;
+use super::{Context, Outcome, table};
 use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::method::Step;
@@ -45,27 +41,12 @@ pub(super) struct Args {
     /// Last frame measured; trees are built at frame 0, images taken at a third and two thirds as well.
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(..=10_000))]
     frame: u32,
-    /// Size of the images, in place of 320x180, or 96x54 of --quick.
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    size: Option<(u32, u32)>,
     /// Also write to this folder: trade.html with plots and images, trade.json.
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["time", "error"])]
+    #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Instead of a table, the least error in a frame of this many milliseconds, update and image.
-    #[arg(long, value_name = "MS", value_parser = positive::<f64>, conflicts_with = "error", allow_negative_numbers = true)]
-    time: Option<f64>,
-    /// Instead of a table, the fastest frame of this error: root mean square, a share of white.
-    #[arg(long, value_name = "E", value_parser = positive::<f64>, allow_negative_numbers = true)]
-    error: Option<f64>,
     /// One scene, fewer turns, smaller images: within a minute; everything takes about half an hour.
     #[arg(long)]
     quick: bool,
-    /// Only the exact variance of one sample, at --points points on surfaces: no images, no times.
-    #[arg(long, conflicts_with_all = ["time", "error", "out", "size", "device", "validation"])]
-    variance: bool,
-    /// Points of --variance on the surfaces of each scene.
-    #[arg(long, requires = "variance", default_value_t = 400, value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    points: u32,
 }
 
 impl Args {
@@ -76,29 +57,12 @@ impl Args {
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
-    let mut budget = if args.quick { Budget::QUICK } else { Budget::FULL };
-    if let Some((width, height)) = args.size {
-        (budget.width, budget.height) = (width, height);
-    }
+    let budget = if args.quick { Budget::QUICK } else { Budget::FULL };
     let named: Vec<String> = match (&args.scene[..], args.quick) {
         ([], true) => vec!["street".to_owned()],
         ([], false) => ["street", "square", "carousel"].map(String::from).into(),
         (named, _) => named.to_vec(),
     };
-    if args.variance {
-        return variance::run(context, args, &named);
-    }
-    if let Some(goal) = args.time.map(Goal::Time).or(args.error.map(Goal::Error)) {
-        return picks(context, args, &named, &budget, goal);
-    }
-    // Devices take long: only where the axis is named, or nothing is hurried.
-    let by_devices = args.axes.contains(&Axis::Arithmetic) || (args.axes.is_empty() && !args.quick);
-    let opened = if by_devices {
-        devices::open(context)?
-    } else {
-        Vec::new()
-    };
-    let mut by_arithmetic = Vec::new();
     let mut all_points = Vec::new();
     let mut all_steps = Vec::new();
     let mut report = args
@@ -115,20 +79,11 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             report.scene(&args.reading.open(&name)?, args.frame, &points, &judge)?;
         }
         all_points.extend(points);
-        if by_devices {
-            by_arithmetic.extend(arithmetic::measure(
-                &args.reading.open(&name)?,
-                args.frame,
-                &opened,
-                budget.turns,
-            )?);
-        }
         news!("{name}: {:.1} s", start.elapsed().as_secs_f64());
     }
     let measured = json!({
         "frame": args.frame, "frames": budget.measured_frames(args.frame), "samples": budget.samples, "width": budget.width, "height": budget.height,
         "turns": budget.turns, "threads": rayon::current_num_threads(), "points": all_points, "steps": all_steps,
-        "arithmetic": by_arithmetic,
     });
     if let (Some(report), Some(folder)) = (&report, &args.out) {
         report.write(folder, &measured)?;
@@ -140,40 +95,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         for step in all_steps {
             say!("{step}")?;
         }
-        arithmetic::print(&by_arithmetic)?;
-    }
-    devices::close(opened)?;
-    Ok(Outcome::Good)
-}
-
-/// The best of each scene within a budget.
-fn picks(
-    context: &Context,
-    args: &Args,
-    scenes: &[String],
-    budget: &Budget,
-    goal: Goal,
-) -> Result<Outcome, HostError> {
-    let mut picks: Vec<Option<Pick>> = Vec::new();
-    for name in scenes {
-        let (points, _) = scene_points(name, args, budget)?;
-        let picked = goal.pick(&points, budget.samples);
-        let text = match &picked {
-            Ok(picked) => format!("{name}: {}", picked.sentence),
-            Err(why) => format!("{name}: {why}"),
-        };
-        match context.json {
-            true if picked.is_err() => news!("{text}"),
-            true => {}
-            false => say!("{text}")?,
-        }
-        picks.push(picked.ok());
-    }
-    if context.json {
-        table::print_json(&json!({
-            "frame": args.frame, "processor": "cpu", "width": budget.width, "height": budget.height,
-            "threads": rayon::current_num_threads(), "pick": picks,
-        }))?;
     }
     Ok(Outcome::Good)
 }
@@ -215,8 +136,7 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
     news!("{name}: times and variances of samples");
     let lights = lights_at(scene, last)?;
     let points = points::on_surfaces(scene, last, budget.points);
-    let arrays = arrays_at(scene, last, budget.width, budget.height)?;
-    let arriving = Arriving::new(&lights, &points, &arrays.rays.surfaces());
+    let arriving = Arriving::new(&lights, &points);
     let structures = structures(&subjects, &Step::new(scene, last, &lights), &arriving, budget)?;
     let (images, judge) = measured.finish();
     let all = subjects.iter().zip(structures.into_iter().zip(images));
@@ -230,17 +150,6 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
         pareto: false,
     });
     Ok((points.collect(), judge))
-}
-
-/// `WxH`, pixels.
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let range = 1..=4096;
-    let parsed = text
-        .split_once('x')
-        .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
-    parsed
-        .filter(|(width, height)| range.contains(width) && range.contains(height))
-        .ok_or_else(|| format!("{text} is no size such as 320x180, of 1 to 4096 pixels each way"))
 }
 
 /// A table for each scene; the JSON has more.

@@ -3,29 +3,52 @@
 
 use std::ops::Range;
 
+use bytemuck::cast_slice;
 use indicatif::ProgressBar;
 use lightbvh::exact::hash;
-use lightbvh_kernels::query::Query;
+use serde::Serialize;
 
-use super::tally::{Kind, Side, Tallies};
-use crate::backend::{Sampler, SceneArrays};
+use crate::backend::{Integrator, PIXEL_RECORD, Sampler, SceneArrays};
 use crate::error::HostError;
-use crate::method::{Importance, Method, MethodLight, Recipe, Runner, Step, Target};
+use crate::method::{Method, MethodLight, Recipe, Runner, Step, Target};
 use crate::scene::{Scene, SceneLight};
+use crate::tally::{Kind, Side, Tallies};
 use crate::words::Record;
 use crate::workload::{arrays_lit_by, queries, render_params};
 
-/// Images are small: an animation has thousands of them, and SwiftShader takes a millisecond for a pixel of some.
-const SIZE: (u32, u32) = (16, 9);
+/// Images are small: an animation has thousands of them, and SwiftShader takes a millisecond for a pixel of some. Those of the
+/// last frame are larger.
+const SIZES: [(u32, u32); 2] = [(16, 9), (48, 27)];
+/// Most reflections of the paths of the last frame: enough for some to end by chance.
+const BOUNCES: u32 = 5;
+/// Queries answered at a time.
+const BATCH: u64 = 1 << 19;
+/// Methods by a light BVH of their own.
+pub(super) const METHODS: u64 = 6;
 
 /// The work of each frame.
 pub(super) struct Plan {
     pub frames: Range<u32>,
     /// Lights sampled and pmfs evaluated per frame and method.
-    pub queries: u32,
+    pub queries: u64,
     pub seed: u32,
-    /// Only methods by these, and those without a light BVH.
-    pub importances: &'static [Importance],
+}
+
+/// A tree in one frame, and whether every invariant of it holds.
+#[derive(Debug, Serialize)]
+pub(super) struct Tree {
+    pub scene: String,
+    pub method: &'static str,
+    pub importance: &'static str,
+    pub structure: Sampler,
+    pub frame: u32,
+    pub valid: bool,
+    pub said: String,
+    pub lights: usize,
+    pub mesh_lights: usize,
+    pub nodes: usize,
+    pub depth: u32,
+    pub bytes_per_light: f64,
 }
 
 /// A method on the CPU and on each device.
@@ -35,21 +58,20 @@ struct Lane<'d, L: SceneLight> {
     devices: Vec<Box<dyn Runner<L> + 'd>>,
 }
 
-/// Compares all methods over the frames of `scene` with `targets`, which `tallies` are of.
+/// Compares all methods over the frames of `scene` with `targets`, which `tallies` are of; returns the trees.
 pub(super) fn compare<L: MethodLight>(
     scene: &Scene,
     plan: &Plan,
     targets: &[Target<'_>],
     tallies: &mut Tallies,
     progress: &ProgressBar,
-) -> Result<(), HostError> {
-    let mut lanes = Vec::new();
+) -> Result<Vec<Tree>, HostError> {
+    let (mut lanes, mut trees) = (Vec::new(), Vec::new());
     for frame in plan.frames.clone() {
-        let arrays = arrays_lit_by::<L>(scene, frame, SIZE.0, SIZE.1)?;
+        let arrays = arrays_lit_by::<L>(scene, frame, SIZES[0].0, SIZES[0].1)?;
         let step = Step::new(scene, frame, &arrays.lights);
-        let asked = queries(&arrays, hash(plan.seed.wrapping_add(frame)), 0, plan.queries);
         if lanes.is_empty() {
-            lanes = start(plan, &step, &arrays, targets)?;
+            lanes = start(&step, &arrays, targets)?;
         } else {
             for lane in &mut lanes {
                 lane.advance(&step)?;
@@ -57,25 +79,24 @@ pub(super) fn compare<L: MethodLight>(
         }
         for lane in &mut lanes {
             progress.set_message(format!("{} frame {frame}: {}", scene.name(), lane.recipe.name));
-            lane.compare(&step, &arrays, &asked, plan.seed, tallies)?;
+            lane.compare(&step, &arrays, plan, tallies)?;
+            trees.extend(lane.tree(&step));
         }
         progress.inc(1);
     }
-    Ok(())
+    Ok(trees)
 }
 
 /// All methods at the first frame; those that choose by power only where there is a table for it.
 fn start<'d, L: MethodLight>(
-    plan: &Plan,
     step: &Step<'_, L>,
     arrays: &SceneArrays<L>,
     targets: &[Target<'d>],
 ) -> Result<Vec<Lane<'d, L>>, HostError> {
     let mut lanes = Vec::new();
     for recipe in Method::ALL.iter().map(|method| method.recipe()) {
-        let known = L::IMPORTANCES.contains(&recipe.importance);
-        let wanted = known && (!recipe.lights.needs_bvh() || plan.importances.contains(&recipe.importance));
-        if wanted && (recipe.lights != Sampler::Power || !arrays.thresholds.is_empty()) {
+        let is_known = L::IMPORTANCES.contains(&recipe.importance);
+        if is_known && (recipe.lights != Sampler::Power || !arrays.thresholds.is_empty()) {
             lanes.push(Lane {
                 recipe,
                 cpu: recipe.runner(step, Target::Cpu)?,
@@ -103,8 +124,7 @@ impl<L: MethodLight> Lane<'_, L> {
         &mut self,
         step: &Step<'_, L>,
         arrays: &SceneArrays<L>,
-        asked: &[Query],
-        seed: u32,
+        plan: &Plan,
         tallies: &mut Tallies,
     ) -> Result<(), HostError> {
         let recipe = self.recipe;
@@ -119,23 +139,60 @@ impl<L: MethodLight> Lane<'_, L> {
                 let (_, found) = nodes(&mut **device)?;
                 tally.take(Kind::Nodes, &what("refit"), &record, &expected, &found)?;
             }
-            let devices = self.devices.iter_mut().map(|device| device.backend());
-            let mut side = Side {
-                cpu: self.cpu.backend(),
-                devices: devices.collect(),
-            };
             let lights = (arrays.lights.triangles(), recipe.lights == Sampler::SingleLevel);
-            side.compare_queries(tallies, &what, asked.to_vec(), lights)?;
+            let seed = hash(plan.seed.wrapping_add(step.frame));
+            for first in (0..plan.queries).step_by(BATCH as usize) {
+                let count = u64::min(plan.queries - first, BATCH) as u32;
+                let asked = queries(arrays, seed, first as u32, count);
+                self.side().compare_queries(tallies, &what, asked, lights)?;
+            }
         }
 
+        let is_last = step.frame + 1 == plan.frames.end;
         let background = step.scene.data().background;
-        let params = render_params(SIZE, 1, seed.wrapping_add(step.frame), background);
+        let seed = plan.seed.wrapping_add(step.frame);
+        let params = render_params(SIZES[usize::from(is_last)], 1, seed, background);
+        if is_last && recipe.candidates == 1 {
+            let path = Integrator::Path { bounces: BOUNCES };
+            let mut side = self.side();
+            side.compare(tallies, Kind::Pixels, &what("path"), &PIXEL_RECORD, |backend| {
+                Ok(backend.render(arrays, &params, recipe.lights, path)?.value)
+            })?;
+        }
         let expected = self.cpu.image(step, arrays, &params)?.value;
         for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
             let found = device.image(step, arrays, &params)?.value;
-            tally.take_pixels(&what("render"), &expected, &found)?;
+            let (expected, found) = (cast_slice(&expected), cast_slice(&found));
+            tally.take(Kind::Pixels, &what("render"), &PIXEL_RECORD, expected, found)?;
         }
         Ok(())
+    }
+
+    fn side(&mut self) -> Side<'_, L> {
+        Side {
+            cpu: self.cpu.backend(),
+            devices: self.devices.iter_mut().map(|device| device.backend()).collect(),
+        }
+    }
+
+    fn tree(&self, step: &Step<'_, L>) -> Option<Tree> {
+        let lights = step.lights.triangles().len();
+        // Candidates change the image alone.
+        let found = self.cpu.tree().filter(|_| self.recipe.candidates == 1);
+        found.map(|found| Tree {
+            scene: step.scene.name().to_owned(),
+            method: self.recipe.name,
+            importance: self.recipe.importance.name(),
+            structure: self.recipe.lights,
+            frame: step.frame,
+            valid: found.violation.is_none(),
+            said: found.violation.unwrap_or_else(|| "hold".to_owned()),
+            lights,
+            mesh_lights: step.lights.mesh_count(),
+            nodes: found.nodes,
+            depth: found.depth,
+            bytes_per_light: found.bytes as f64 / lights.max(1) as f64,
+        })
     }
 }
 

@@ -1,14 +1,13 @@
 //! `lightbvh verify --soak`: frames of random edits, with rebuilds in the background and followed by devices.
 
-use std::collections::BTreeMap;
-
-use bytemuck::{Pod, cast_slice};
+use bytemuck::cast_slice;
 use lightbvh::bvh::{InstanceId, MeshId, Swap};
 use lightbvh::node::{Node as _, kind};
+use lightbvh::refit::BlasRoot;
 use lightbvh::tree::{INVALID, OPENED, TreeWords};
-use lightbvh::{Edit, EmissiveTriangle, Rebuilder, RebuilderParams, Transform};
+use lightbvh::{Edit, EmissiveTriangle, Instance, Rebuilder, RebuilderParams, Transform};
 use lightbvh_gpu::Mirror;
-use lightbvh_kernels::bvh::WIDTH;
+use lightbvh_kernels::bvh::{Node, WIDTH};
 use serde::Serialize;
 
 use crate::backend::{Bvh, DeviceArrays, DeviceBackend, Follow};
@@ -17,6 +16,8 @@ use crate::cli::measure::times::{Spread, thread_us};
 use crate::cli::table::{self, say};
 use crate::error::HostError;
 use crate::stability::random::Random;
+use crate::tally::{Kind, Tally};
+use crate::words::Record;
 
 /// Frames from one check of all invariants and words to the next.
 const CHECKED: u32 = 1_000;
@@ -33,6 +34,13 @@ const NEAR: f32 = 0.5;
 const GROWTH: f64 = 1.2;
 /// The process has room besides the scene, bytes: lists that keep their capacity, and the allocator's own.
 const ROOM: f64 = 16e6;
+/// Words of a node.
+const NODE: usize = size_of::<Node>() / 4;
+/// Arrays are compared word by word.
+const WORD: Record = Record {
+    name: "word in use",
+    words: 1,
+};
 /// The parts of a frame, in their order.
 const PHASES: [&str; 4] = ["begin-frame", "apply", "refit", "end-frame"];
 
@@ -90,7 +98,15 @@ pub(super) struct Report {
     invalid: Option<String>,
     memory: Means,
     process: Means,
-    devices: Vec<Tally>,
+    devices: Vec<Compared>,
+}
+
+/// The words of a device.
+#[derive(Clone, Debug, Serialize)]
+struct Compared {
+    name: String,
+    #[serde(flatten)]
+    tally: Tally,
 }
 
 pub(super) fn soak(plan: &Plan, opened: &[Opened], is_quiet: bool) -> Result<Report, HostError> {
@@ -101,7 +117,7 @@ pub(super) fn soak(plan: &Plan, opened: &[Opened], is_quiet: bool) -> Result<Rep
     let mut devices = Vec::new();
     for o in opened {
         let device: DeviceBackend<'_> = DeviceBackend::new(&o.device, &world.bvh)?;
-        devices.push((device, Tally::new(o.device.name())));
+        devices.push((device, Tally::default()));
     }
     // Written once before the first frame, so that memory does not grow by it.
     let mut times: [Vec<f32>; 4] = std::array::from_fn(|_| vec![f32::MAX; plan.frames as usize]);
@@ -153,7 +169,7 @@ pub(super) fn soak(plan: &Plan, opened: &[Opened], is_quiet: bool) -> Result<Rep
             }
             let words = layout.words(&world.bvh);
             for (device, tally) in &mut devices {
-                tally.take(frame, &world.bvh, &device.arrays()?, &words);
+                compare(tally, frame, &world.bvh, &device.arrays()?, &words)?;
             }
             counts.checked += 1;
         }
@@ -176,7 +192,14 @@ pub(super) fn soak(plan: &Plan, opened: &[Opened], is_quiet: bool) -> Result<Rep
         invalid,
         memory: memory.means(0.0, judged),
         process: process.means(ROOM, judged),
-        devices: devices.into_iter().map(|(_, tally)| tally).collect(),
+        devices: opened
+            .iter()
+            .zip(devices)
+            .map(|(o, (_, tally))| Compared {
+                name: o.device.name().to_owned(),
+                tally,
+            })
+            .collect(),
     })
 }
 
@@ -443,99 +466,91 @@ struct Means {
     judged: bool,
 }
 
-/// Words of a device compared so far.
-#[derive(Clone, Debug, Serialize)]
-struct Tally {
-    name: String,
-    compared: u64,
-    different: u64,
-    /// Different words by array.
-    arrays: BTreeMap<&'static str, u64>,
-    /// Frame of the first.
-    first: Option<u32>,
-}
-
-impl Tally {
-    fn new(name: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            compared: 0,
-            different: 0,
-            arrays: BTreeMap::new(),
-            first: None,
-        }
-    }
-
-    /// Compares all words that are in use.
-    fn take(&mut self, frame: u32, bvh: &Bvh, found: &DeviceArrays, words: &TreeWords) {
-        let (tree, all) = (bvh.tree(), bvh.plan_of_everything());
-        let (bottom, top) = (all.bottom.nodes(), all.top.nodes());
-        let records: Vec<u32> = (0..tree.instances.len() as u32).collect();
-        let live = records.iter().copied();
-        let live: Vec<u32> = live.filter(|&index| bvh.instance_id(index).is_some()).collect();
-        let lights: Vec<u32> = live
-            .iter()
-            .map(|&index| tree.instances[index as usize])
-            .flat_map(|own| own.first_triangle..own.first_triangle + own.count)
-            .collect();
-        let opened = live
-            .iter()
-            .map(|&index| (index, tree.links.places[index as usize]));
-        let opened = opened.filter(|(_, place)| (OPENED..INVALID).contains(place));
-        let parts: Vec<u32> = opened
-            .flat_map(|(index, place)| {
-                let root = &bvh.nodes()[tree.instances[index as usize].root as usize];
-                let count = (0..WIDTH).filter(|&slot| root.kind(slot) == kind::INNER).count() as u32;
-                place - OPENED..place - OPENED + count
-            })
-            .collect();
-        let behind = size_of_val(bvh.nodes()) / 4;
-        let [above, places, first] = [words.above, words.places, words.parts].map(|word| word as usize);
-        let trails = &found.trails;
-        self.array(frame, "nodes", bvh.nodes(), &found.nodes, bottom);
-        self.array(frame, "top", bvh.top_nodes(), &found.nodes[behind..], top);
-        self.array(frame, "roots", bvh.roots(), &found.roots, &all.roots);
-        self.array(frame, "instances", tree.instances, &found.instances, &records);
-        self.array(frame, "triangles", bvh.triangles(), &found.triangles, &lights);
-        match tree.trail_words {
-            1 => self.array(frame, "trails", tree.trails, trails, &lights),
-            _ => self.array::<[u32; 2]>(frame, "trails", cast_slice(tree.trails), trails, &lights),
-        }
-        self.array(frame, "above", tree.links.above, &trails[above..], top);
-        self.array(frame, "places", tree.links.places, &trails[places..], &live);
-        self.array(frame, "parts", tree.links.parts, &trails[first..], &parts);
-    }
-
-    /// The elements of an array that are in use.
-    fn array<T: Pod>(
-        &mut self,
-        frame: u32,
-        array: &'static str,
-        expected: &[T],
-        found: &[u32],
-        indices: &[u32],
-    ) {
-        let width = size_of::<T>() / 4;
-        for &index in indices {
-            let expected: &[u32] = cast_slice(&expected[index as usize..][..1]);
-            let different = match found.get(index as usize * width..(index as usize + 1) * width) {
-                Some(found) => expected.iter().zip(found).filter(|(a, b)| a != b).count(),
-                None => width,
-            };
-            self.compared += width as u64;
-            if different > 0 {
-                self.different += different as u64;
-                *self.arrays.entry(array).or_default() += different as u64;
-                self.first.get_or_insert(frame);
-            }
-        }
-    }
+/// Compares all words of a device that are in use.
+fn compare(
+    tally: &mut Tally,
+    frame: u32,
+    bvh: &Bvh,
+    found: &DeviceArrays,
+    words: &TreeWords,
+) -> Result<(), HostError> {
+    let (tree, all) = (bvh.tree(), bvh.plan_of_everything());
+    let (bottom, top) = (all.bottom.nodes(), all.top.nodes());
+    let records: Vec<u32> = (0..tree.instances.len() as u32).collect();
+    let live = records.iter().copied();
+    let live: Vec<u32> = live.filter(|&index| bvh.instance_id(index).is_some()).collect();
+    let lights: Vec<u32> = live
+        .iter()
+        .map(|&index| tree.instances[index as usize])
+        .flat_map(|own| own.first_triangle..own.first_triangle + own.count)
+        .collect();
+    let opened = live
+        .iter()
+        .map(|&index| (index, tree.links.places[index as usize]));
+    let opened = opened.filter(|(_, place)| (OPENED..INVALID).contains(place));
+    let parts: Vec<u32> = opened
+        .flat_map(|(index, place)| {
+            let root = &bvh.nodes()[tree.instances[index as usize].root as usize];
+            let count = (0..WIDTH).filter(|&slot| root.kind(slot) == kind::INNER).count() as u32;
+            place - OPENED..place - OPENED + count
+        })
+        .collect();
+    let behind = size_of_val(bvh.nodes()) / 4;
+    let [above, places, first] = [words.above, words.places, words.parts].map(|word| word as usize);
+    let mut take = |name, words: usize, expected: &[u32], found: &[u32], indices: &[u32]| {
+        let of = |all: &[u32]| -> Vec<u32> {
+            let each = indices.iter().map(|&index| index as usize * words);
+            each.flat_map(|at| all.get(at..at + words).unwrap_or_default().to_vec())
+                .collect()
+        };
+        let what = format!("frame {frame} {name}");
+        tally.take(Kind::Arrays, &what, &WORD, &of(expected), &of(found))
+    };
+    let [root, instance, light] = [
+        size_of::<BlasRoot>(),
+        size_of::<Instance>(),
+        size_of::<EmissiveTriangle>(),
+    ]
+    .map(|bytes| bytes / 4);
+    take("nodes", NODE, cast_slice(bvh.nodes()), &found.nodes, bottom)?;
+    take(
+        "top",
+        NODE,
+        cast_slice(bvh.top_nodes()),
+        &found.nodes[behind..],
+        top,
+    )?;
+    take("roots", root, cast_slice(bvh.roots()), &found.roots, &all.roots)?;
+    take(
+        "instances",
+        instance,
+        cast_slice(tree.instances),
+        &found.instances,
+        &records,
+    )?;
+    take(
+        "triangles",
+        light,
+        cast_slice(bvh.triangles()),
+        &found.triangles,
+        &lights,
+    )?;
+    take(
+        "trails",
+        tree.trail_words as usize,
+        tree.trails,
+        &found.trails,
+        &lights,
+    )?;
+    take("above", 1, tree.links.above, &found.trails[above..], top)?;
+    take("places", 1, tree.links.places, &found.trails[places..], &live)?;
+    take("parts", 1, tree.links.parts, &found.trails[first..], &parts)
 }
 
 impl Report {
     /// Whether memory is flat, all is valid, and no word of a device differs.
     pub fn is_good(&self) -> bool {
-        let equal = self.devices.iter().all(|device| device.different == 0);
+        let equal = self.devices.iter().all(|device| device.tally.different == 0);
         let flat = [self.memory, self.process]
             .iter()
             .all(|own| own.flat || !own.judged);
@@ -553,25 +568,9 @@ pub(super) fn print(report: &Report) -> Result<(), HostError> {
             ("most", |r| format!("{:.1}", r.us.most)),
         ],
     )?;
-    let edits = &report.edits;
-    say!(
-        "\n{} frames, {} instances and {} lights at the end: {} added, {} removed, {} moved, {} dimmed; meshes: {} deformed, {} \
-         exchanged, {} rebuilt; {} top levels swapped in; frames that waited for a build: {}, that built: {}; valid at {} checks",
-        report.frames,
-        report.instances,
-        report.lights,
-        edits.added,
-        edits.removed,
-        edits.moved,
-        edits.dimmed,
-        edits.deformed,
-        edits.exchanged,
-        edits.rebuilt,
-        edits.swapped,
-        edits.waited,
-        edits.inline,
-        edits.checked
-    )?;
+    let edits = serde_json::to_value(report.edits).map_err(std::io::Error::from)?;
+    let (frames, instances, lights) = (report.frames, report.instances, report.lights);
+    say!("\n{frames} frames, {instances} instances and {lights} lights at the end; edits: {edits}")?;
     for (what, means) in [("scene", &report.memory), ("process", &report.process)] {
         say!(
             "memory of the {what}: {:.2} MB in the second quarter, {:.2} MB in the last: {}",
@@ -584,12 +583,10 @@ pub(super) fn print(report: &Report) -> Result<(), HostError> {
             }
         )?;
     }
-    for device in &report.devices {
-        let (name, compared, different) = (&device.name, device.compared, device.different);
-        say!(
-            "{name}: {compared} words compared, {different} different {:?}",
-            device.arrays
-        )?;
+    for Compared { name, tally } in &report.devices {
+        let first = tally.first_difference.as_deref().unwrap_or("");
+        let (compared, different) = (tally.compared, tally.different);
+        say!("{name}: {compared} words compared, {different} different {first}")?;
     }
     if let Some(invalid) = &report.invalid {
         say!("INVALID: {invalid}")?;

@@ -53,13 +53,13 @@ impl Scene {
     }
 }
 
-/// All scenes. A quick run has fewer frames and points, and leaves the largest scenes out.
-pub(super) fn scenes(is_quick: bool) -> Vec<Scene> {
-    let mut scenes = vec![
-        mix(1_000, 20),
-        mix(10_000, 50),
-        mix(100_000, 50),
-        mix(1_000_000, 50),
+/// All scenes.
+pub(super) fn scenes() -> Vec<Scene> {
+    vec![
+        mix("20 random edits", 1_000, 20),
+        mix("50 random edits", 10_000, 50),
+        mix("50 random edits", 100_000, 50),
+        mix("50 random edits", 1_000_000, 50),
         toggle(10_000),
         convoy(),
         road(5_000, 5),
@@ -72,21 +72,9 @@ pub(super) fn scenes(is_quick: bool) -> Vec<Scene> {
         clusters(16),
         fade(10_000),
         wall(),
-    ];
-    if is_quick {
-        for scene in &mut scenes {
-            let (frames, points) = if scene.lamps.len() < 50_000 {
-                (80, 20)
-            } else {
-                (50, 4)
-            };
-            scene.frames = scene.frames.min(frames);
-            scene.points = scene.points.min(points);
-        }
-    } else {
-        scenes.extend([jump(100_000), clusters(64)]);
-    }
-    scenes
+        jump(100_000),
+        clusters(64),
+    ]
 }
 
 /// A tenth of a metre wide, shining down.
@@ -125,7 +113,7 @@ fn scattered(count: usize) -> Vec<Lamp> {
 }
 
 /// A quarter of the edits adds, a quarter removes, half move anywhere.
-fn mix(count: usize, edits: usize) -> Scene {
+fn mix(name: &'static str, count: usize, edits: usize) -> Scene {
     let (mut random, side) = (Random::new(2), side(count));
     let step = move |_, world: &mut World| {
         for _ in 0..edits {
@@ -135,11 +123,6 @@ fn mix(count: usize, edits: usize) -> Scene {
                 _ => world.place(world.some(&mut random), anywhere(&mut random, side)),
             }
         }
-    };
-    let name = if edits == 20 {
-        "20 random edits"
-    } else {
-        "50 random edits"
     };
     Scene::new(name, scattered(count), step)
 }

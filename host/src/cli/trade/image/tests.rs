@@ -85,10 +85,12 @@ fn equal_time_is_what_fits_beside_the_update() {
             (known(1.0, STEP), 5.0),
             // No time for half a ray.
             (known(40.0, 0.5), 1.0),
+            // Two rays and a half.
+            (known(4.8, STEP), 1.0),
         ],
         1.0,
     );
-    let [default, same, slow, late, slowest] = &images[..] else {
+    let [default, same, slow, late, slowest, between] = &images[..] else {
         panic!("{}", images.len());
     };
     assert_eq!(
@@ -104,6 +106,9 @@ fn equal_time_is_what_fits_beside_the_update() {
     near(late.frame_ratio.median, 17.0 / 13.0, 1e-9);
     near(late.samples_equal_time, 8.0, 1e-9);
     near(late.equal_time_ratio.median, 1.5, BYTES);
+    near(between.samples_equal_time, 2.5, 1e-9);
+    near(between.equal_time_ratio.median, 12.0 / 2.5, BYTES);
+    assert_eq!(between.shown.1, 3);
     // The error of one ray, which a display bends, by what fits of it.
     near(slowest.samples_equal_time, 12.0 / 40.0, 1e-9);
     let one = slowest.error_equal_time * 0.3;
@@ -113,15 +118,6 @@ fn equal_time_is_what_fits_beside_the_update() {
             .iter()
             .all(|images| images.bias.expect("images").mean.abs() < 1e-3)
     );
-}
-
-/// Between whole numbers of rays errors are powers of them.
-#[test]
-fn between_whole_rays_errors_are_powers() {
-    let images = measured(vec![(known(12.0 / 2.5, STEP), 0.0)], 0.0);
-    near(images[1].samples_equal_time, 2.5, 1e-9);
-    near(images[1].equal_time_ratio.median, 12.0 / 2.5, 0.15);
-    assert_eq!(images[1].shown.1, 3);
 }
 
 #[test]

@@ -39,7 +39,6 @@ const measures = {
   ns: { label: "time of a sample, ns", of: (p) => exactly(p.ns_per_sample), less: true },
   variance: { label: "variance without shadows, mean", of: (p) => exactly(p.variance), less: true },
   median: { label: "variance without shadows, median", of: (p) => exactly(p.variance_median), less: true },
-  shadowed: { label: "variance with shadows, mean", of: (p) => exactly(p.shadowed_variance), less: true },
   bytes: { label: "bytes for a light", of: (p) => exactly(p.bytes_per_light), less: true },
   build: { label: "build, ms", of: (p) => exactly(p.build_ms), less: true },
   update: { label: "update of a frame, ms", of: (p) => exactly(p.update_ms), less: true },

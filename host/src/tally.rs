@@ -8,8 +8,7 @@ use lightbvh::exact::hash;
 use lightbvh_kernels::query::Query;
 use serde::Serialize;
 
-use super::structures::Tree;
-use crate::backend::{Backend, BackendError, PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD};
+use crate::backend::{Backend, BackendError, PMF_RECORD, SAMPLED_RECORD};
 use crate::error::HostError;
 use crate::scene::SceneLight;
 use crate::words::{Record, compare_words};
@@ -18,11 +17,13 @@ use crate::words::{Record, compare_words};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
-pub(in crate::cli) enum Kind {
+pub(crate) enum Kind {
     Nodes,
     Samples,
     Pmfs,
     Pixels,
+    /// Whole arrays of a light BVH.
+    Arrays,
 }
 
 impl Kind {
@@ -34,20 +35,19 @@ impl Kind {
 
 /// Words of one kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub(in crate::cli) struct Words {
+pub(crate) struct Words {
     pub compared: u64,
     pub different: u64,
 }
 
-/// Counts of one device. Nodes, samples, pmfs and pixels are counted as such, the others in words.
+/// Counts of one device.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub(in crate::cli) struct Tally {
+pub(crate) struct Tally {
     pub compared: u64,
     pub different: u64,
-    pub nodes: u64,
-    pub samples: u64,
-    pub pmfs: u64,
-    pub pixels: u64,
+    /// Nodes, samples, pmfs and pixels, each counted as such.
+    #[serde(flatten)]
+    pub records: BTreeMap<Kind, u64>,
     /// Words by kind; together `compared` and `different`.
     pub words: BTreeMap<Kind, Words>,
     /// Scene, method, frame and kernel, then record, index, field and both words.
@@ -56,11 +56,9 @@ pub(in crate::cli) struct Tally {
 
 /// Counts of each device, and of words that the CPU computes twice.
 #[derive(Default)]
-pub(super) struct Tallies {
+pub(crate) struct Tallies {
     pub devices: Vec<Tally>,
     pub cpu: Tally,
-    /// Trees that were checked on the CPU.
-    pub trees: Vec<Tree>,
 }
 
 impl Tally {
@@ -74,13 +72,7 @@ impl Tally {
         device: &[u32],
     ) -> Result<(), HostError> {
         let comparison = compare_words(record, cpu, device)?;
-        let records = (cpu.len() / record.words().max(1)) as u64;
-        match kind {
-            Kind::Nodes => self.nodes += records,
-            Kind::Samples => self.samples += records,
-            Kind::Pmfs => self.pmfs += records,
-            Kind::Pixels => self.pixels += records,
-        }
+        *self.records.entry(kind).or_default() += (cpu.len() / record.words.max(1)) as u64;
         self.compared += comparison.compared;
         self.different += comparison.different;
         let words = self.words.entry(kind).or_default();
@@ -91,21 +83,10 @@ impl Tally {
         }
         Ok(())
     }
-
-    /// Compares images.
-    pub fn take_pixels(
-        &mut self,
-        what: &str,
-        cpu: &[[f32; 3]],
-        device: &[[f32; 3]],
-    ) -> Result<(), HostError> {
-        let (cpu, device) = (cast_slice(cpu), cast_slice(device));
-        self.take(Kind::Pixels, what, &PIXEL_RECORD, cpu, device)
-    }
 }
 
 /// One backend on the CPU and on each device.
-pub(super) struct Side<'a, L: SceneLight> {
+pub(crate) struct Side<'a, L: SceneLight> {
     pub cpu: &'a mut dyn Backend<L>,
     pub devices: Vec<&'a mut dyn Backend<L>>,
 }
@@ -176,7 +157,7 @@ mod tests {
     use lightbvh_kernels::render::RenderParams;
 
     use super::*;
-    use crate::backend::{Bvh, CpuBackend, Integrator, Sampler, SceneArrays, Timed};
+    use crate::backend::{Bvh, CpuBackend, Integrator, PIXEL_RECORD, Sampler, SceneArrays, Timed};
     use crate::scene::Scene;
     use crate::workload::{arrays_at, build, queries, render_params};
 
@@ -237,9 +218,9 @@ mod tests {
         for (wrong, said) in [
             (None, ""),
             (Some(Kind::Nodes), "street nodes: node "),
-            (Some(Kind::Samples), "street sample: sampled light 32, light: "),
-            (Some(Kind::Pmfs), "street pmf: pmf 32, pmf: "),
-            (Some(Kind::Pixels), "street render: pixel 72, radiance[0]: "),
+            (Some(Kind::Samples), "street sample: sampled light 32, word 0: "),
+            (Some(Kind::Pmfs), "street pmf: pmf 32, word 0: "),
+            (Some(Kind::Pixels), "street render: pixel 72, word 0: "),
         ] {
             let mut cpu: CpuBackend<Paper, 4> = CpuBackend::new(bvh.clone());
             let mut device = Corrupt {
@@ -277,7 +258,7 @@ mod tests {
             assert_eq!(tallies.cpu.different, 0);
             let tally = &tallies.devices[0];
             let words: u64 = tally.words.values().map(|words| words.compared).sum();
-            assert_eq!((words, tally.pixels), (tally.compared, 16 * 9));
+            assert_eq!((words, tally.records[&Kind::Pixels]), (tally.compared, 16 * 9));
             assert_eq!(tally.different, u64::from(wrong.is_some()), "{wrong:?}");
             if let Some(kind) = wrong {
                 assert_eq!(tally.words[&kind].different, 1);
