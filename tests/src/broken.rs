@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 use rspirv::binary::Assemble;
 use rspirv::dr::{Builder, Instruction, Module, Operand};
-use rspirv::spirv::{Decoration, GlslStd450Op, Op, Word};
+use rspirv::spirv::{Decoration, Op, Word};
 
 /// What is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,9 +18,7 @@ pub enum Variant {
     Unchanged,
     /// No decoration `NoContraction`: the device may do as it likes.
     Undecorated,
-    /// The device's own `Fma` for each sum or difference with a product in it.
-    Fma,
-    /// The same by arithmetic, fused on every device.
+    /// Each sum or difference with a product in it rounded once, by arithmetic: fused on every device.
     Contracted,
     /// `(a + b) + c` as `a + (b + c)`, and products likewise.
     Reassociated,
@@ -68,7 +66,6 @@ struct Types {
 
 struct Rewriter {
     builder: Builder,
-    glsl: Word,
     /// By float type.
     types: HashMap<Word, Types>,
     /// New float operations.
@@ -80,10 +77,6 @@ struct Rewriter {
 impl Rewriter {
     fn new(module: Module) -> Self {
         let mut builder = Builder::new_from_module(module);
-        let glsl = match builder.module_ref().ext_inst_imports.first() {
-            Some(import) => import.result_id.expect("an id"),
-            None => builder.ext_inst_import("GLSL.std.450"),
-        };
         let (float, uint, boolean) = (
             builder.type_float(32, None),
             builder.type_int(32, 0),
@@ -109,7 +102,6 @@ impl Rewriter {
         }
         Self {
             builder,
-            glsl,
             types,
             undecorated: Vec::new(),
             out: Vec::new(),
@@ -148,7 +140,7 @@ impl Rewriter {
         };
         let operands = ids(&inst);
         match variant {
-            Variant::Fma | Variant::Contracted if sum => {
+            Variant::Contracted if sum => {
                 let factors = |k: usize| {
                     made.get(&operands[k])
                         .filter(|of| of.class.opcode == Op::FMul)
@@ -167,21 +159,7 @@ impl Rewriter {
                     };
                     *negated = self.float(types, Op::FNegate, &[*negated]);
                 }
-                if variant == Variant::Fma {
-                    let mut list = vec![
-                        Operand::IdRef(self.glsl),
-                        Operand::LiteralExtInstInteger(GlslStd450Op::Fma as u32),
-                    ];
-                    list.extend([factors[0], factors[1], addend].map(Operand::IdRef));
-                    self.out.push(Instruction::new(
-                        Op::ExtInst,
-                        Some(types.float),
-                        Some(result),
-                        list,
-                    ));
-                } else {
-                    self.fused(types, factors[0], factors[1], addend, result);
-                }
+                self.fused(types, factors[0], factors[1], addend, result);
             }
             Variant::Reassociated if op != Op::FSub => {
                 // (x y) c as x (y c).

@@ -9,7 +9,6 @@ pub mod oracle;
 pub mod placing;
 pub mod scenes;
 pub mod self_test;
-pub mod slowed;
 pub mod soup;
 pub mod statistics;
 pub mod world;

@@ -45,8 +45,8 @@ pub fn write_crate(choice: &Model, root: &Path, out: &Path) -> Result<PathBuf, E
     std::fs::create_dir_all(&sources).map_err(cannot("create", &sources))?;
     let core = root.join("core");
     let core = core.canonicalize().map_err(cannot("resolve", &core))?;
-    files::replace(&folder.join("Cargo.toml"), manifest(&core).as_bytes())?;
-    files::replace(&sources.join("lib.rs"), entry_points(choice).as_bytes())?;
+    files::write(&folder.join("Cargo.toml"), manifest(&core).as_bytes())?;
+    files::write(&sources.join("lib.rs"), entry_points(choice).as_bytes())?;
     Ok(folder)
 }
 

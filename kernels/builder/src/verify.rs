@@ -6,7 +6,6 @@
 //! products are correctly rounded, comparisons and moves are exact, division has 2.5 ULP, and so on.
 
 mod permitted;
-mod search;
 
 use crate::decorate::{float_operations, float_types, uncontracted};
 use crate::{Error, load};
@@ -171,9 +170,6 @@ fn bodies(module: &Module, findings: &mut Findings) {
         .filter_map(|inst| inst.result_id)
         .collect();
     let holders = holders_of_pointers(module);
-    for function in &module.functions {
-        search::searches(function, findings);
-    }
     for inst in module
         .functions
         .iter()

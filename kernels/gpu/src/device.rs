@@ -23,30 +23,14 @@ pub const PUSH_CONSTANTS: u32 = 128;
 mod tests {
     use super::*;
     use crate::KERNELS;
-    use crate::spirv::words::{instructions, op};
 
-    /// `Shader`, which every Vulkan device has, and `VulkanMemoryModel`.
-    const CAPABILITIES: [u32; 2] = [1, 5345];
-
+    /// Capabilities are those that the builder's verifier permits.
     #[test]
     fn no_kernel_needs_more() {
         let most = KERNELS.iter().map(|kernel| kernel.bindings.len()).max();
         assert_eq!(most, Some(STORAGE_BUFFERS as usize));
         for kernel in KERNELS {
             assert!(kernel.push_constants <= PUSH_CONSTANTS, "{}", kernel.name);
-            let words = kernel.words();
-            let list = instructions(&words).expect(kernel.name);
-            let asked = list
-                .iter()
-                .filter(|instruction| instruction.opcode == op::CAPABILITY);
-            for capability in asked {
-                let number = capability.operand(0).expect(kernel.name);
-                assert!(
-                    CAPABILITIES.contains(&number),
-                    "{}: capability {number}",
-                    kernel.name
-                );
-            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Operations, types, modes and constants outside of what Vulkan defines exactly.
 
+use lightbvh_gpu::spirv::Interface;
 use lightbvh_kernels_builder::decorate::decorate;
-use lightbvh_kernels_builder::reflect::reflect;
 use rspirv::binary::Assemble;
 use rspirv::dr::{Builder, Instruction, Operand};
 use rspirv::spirv::{Capability, ExecutionMode, GlslStd450Op, Op, StorageClass};
@@ -27,7 +27,7 @@ fn an_undecorated_operation_is_refused_and_a_decorated_one_is_not() {
         decorated,
         "decorating twice changes nothing"
     );
-    assert_eq!(reflect(&decorated, &[]).unwrap().workgroup, [64, 1, 1]);
+    assert_eq!(Interface::read(&decorated).unwrap().workgroup, [64, 1, 1]);
 }
 
 type Case = (fn(&mut Builder, Types), &'static [&'static str]);
@@ -227,6 +227,6 @@ fn a_buffer_outside_the_common_layout_is_refused() {
     module
         .types_global_values
         .push(Instruction::new(Op::Variable, pointer, Some(999), vec![class]));
-    let error = reflect(&module.assemble(), &[]).unwrap_err().to_string();
+    let error = Interface::read(&module.assemble()).unwrap_err().to_string();
     assert!(error.contains("outside descriptor set 0"), "{error}");
 }

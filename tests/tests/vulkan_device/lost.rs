@@ -1,14 +1,76 @@
 //! A device that is lost in mid-frame: an error that says so, whichever call finds it; another device takes over.
 #![cfg(debug_assertions)]
 
-use lightbvh_host::backend::{Backend, BackendError, DeviceBackend, Follow};
+use lightbvh::{Edit, InstanceId, LightBvh, MeshId, ShadingPoint, Transform};
+use lightbvh_host::backend::{
+    Backend, BackendError, CpuBackend, DeviceBackend, Follow, node_words, nodes_in_use,
+};
 use lightbvh_host::vulkan::{Options, VulkanError};
 use lightbvh_kernels::bvh::Standard;
+use lightbvh_kernels::query::Query;
 use lightbvh_tests::devices::{devices, open};
-
-use super::frames::{assert_follows, queries, step, world};
+use lightbvh_tests::generate::small_triangles;
 
 type OnDevice<'d> = DeviceBackend<'d, Standard, 8>;
+
+fn place(k: u32, time: u32) -> Transform {
+    let at = |n: u32| (k.wrapping_mul(n) % 101) as f32 + 0.01 * time as f32;
+    Transform::at([at(7), at(31), at(59)])
+}
+
+/// `count` lamps of a mesh.
+fn world(count: u32) -> (LightBvh, MeshId, Vec<InstanceId>) {
+    let mut bvh = LightBvh::default();
+    let lamp = small_triangles(3, 3, 1.0, 0.4, false, 1);
+    let mesh = bvh.add_mesh(lamp).expect("within the domain");
+    let add = (0..count).map(|k| Edit::AddInstance {
+        mesh,
+        transform: place(k, 0),
+        radiance: 1.0,
+    });
+    let ids = bvh.apply(add.collect()).expect("within the domain").instances;
+    bvh.refit();
+    (bvh, mesh, ids)
+}
+
+/// Every `stride`-th lamp takes a step.
+fn step(bvh: &mut LightBvh, ids: &[InstanceId], stride: usize, time: u32) {
+    let moved = (0..).zip(ids).step_by(stride);
+    let edits = moved.map(|(k, &instance)| Edit::SetTransform {
+        instance,
+        transform: place(k, time),
+    });
+    bvh.apply(edits.collect()).expect("within the domain");
+}
+
+fn queries(count: u32) -> Vec<Query> {
+    (0..count)
+        .map(|k| Query {
+            point: ShadingPoint {
+                p: [(k % 97) as f32, (k % 89) as f32, (k % 83) as f32],
+                n: [0.0, 1.0, 0.0],
+            },
+            words: [k.wrapping_mul(0x9e37_79b9), k],
+        })
+        .collect()
+}
+
+/// Compares the nodes in use, and samples.
+fn assert_follows(what: &str, bvh: &LightBvh, backend: &mut OnDevice<'_>) {
+    let asked = queries(300);
+    let mut cpu = CpuBackend::<Standard, 8>::new(bvh.clone());
+    let found = backend.sample(&asked).expect("samples").value;
+    assert!(
+        found == cpu.sample(&asked).expect("samples").value,
+        "{what}: samples"
+    );
+    let found = backend.nodes().expect("nodes");
+    let (expected, words) = (node_words(bvh), size_of_val(&bvh.nodes()[0]) / 4);
+    for node in nodes_in_use(bvh) {
+        let at = node as usize * words..(node as usize + 1) * words;
+        assert!(found[at.clone()] == expected[at], "{what}: node {node}");
+    }
+}
 
 #[test]
 fn where_a_device_is_lost_another_takes_over() {
@@ -21,14 +83,11 @@ fn where_a_device_is_lost_another_takes_over() {
         // In each call that may find it, one after the other, until a frame has no more of them.
         for calls in 0.. {
             let lost = open(info, options);
-            let (mut bvh, meshes, mut ids) = world(60);
+            let (mut bvh, mesh, mut ids) = world(60);
             let mut backend = OnDevice::new(&lost, &bvh).expect("an upload");
             backend.sample(&queries(1)).expect("a sample");
             lost.lose_after(calls);
-            ids.push(
-                bvh.add_instance(meshes[0], lightbvh::Transform::IDENTITY)
-                    .expect("a place"),
-            );
+            ids.push(bvh.add_instance(mesh, Transform::IDENTITY).expect("a place"));
             step(&mut bvh, &ids, 4, 1);
             bvh.refit();
             let result = backend.follow(&bvh).and_then(|_| backend.sample(&queries(50)));

@@ -4,18 +4,18 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use bytemuck::{cast_slice, cast_slice_mut};
-use lightbvh::importance::ImportanceModel;
-use lightbvh::light::{AnyLight, BoxLight, PointLight, SphereLight};
-use lightbvh::node::{Lit, Node, SpotMomentNode};
-use lightbvh::refit::{self, BlasRoot, Child, LIMITED_ROWS, PLAIN_ROWS};
-use lightbvh::summary::Summary;
+use lightbvh::importance::Flux;
+use lightbvh::refit::{self, BlasRoot};
 use lightbvh::{
-    Bvh, CompactNode, Edit, EmissiveTriangle, Instance, LightTree, MomentNode, Random64, ShadingPoint,
-    Transform,
+    Bvh, CompactNode, Defensive, Edit, EmissiveTriangle, Instance, LightNode, LightTree, MomentNode,
+    Random64, ShadingPoint, Transform,
 };
 
 use super::*;
 use crate::refit::Pass;
+
+/// Children are chosen by flux alone, and one light in four by its path.
+type Choice = Defensive<Flux, 2>;
 
 /// What a device would hold, as words.
 #[derive(Default)]
@@ -24,26 +24,12 @@ struct Device {
     buffers: [Vec<u32>; Buffer::ALL.len()],
 }
 
-/// Puts a child where a kernel does.
-fn put<N: Node<W>, const W: usize>(child: &Child<N::Summary>, children: &mut [u32], place: u32, slot: usize) {
-    if refit::child_rows::<N, W>() == LIMITED_ROWS {
-        child.put::<W, LIMITED_ROWS>(cast_slice_mut(children), place, slot);
-    } else {
-        child.put::<W, PLAIN_ROWS>(cast_slice_mut(children), place, slot);
-    }
-}
-
-/// The copies of the buffers after this one.
-fn regions_after(frame: &Frame, number: usize) -> Vec<(Buffer, Vec<Region>)> {
-    frame.regions(0).split_off(number + 1)
-}
-
 impl Device {
     fn buffer(&self, buffer: Buffer) -> &[u32] {
         &self.buffers[buffer as usize]
     }
 
-    fn follow<N: Node<W>, const W: usize>(&mut self, scene: &Bvh<N, (), W>) -> Frame {
+    fn follow<N: LightNode<W>, const W: usize>(&mut self, scene: &Bvh<N, (), W>) -> Frame {
         let frame = self.mirror.frame(scene);
         for &(buffer, bytes) in &frame.resizes {
             // New memory holds anything.
@@ -56,8 +42,8 @@ impl Device {
             staging.extend(copy.source(scene));
         }
         assert_eq!(staging.len() as u64, start as u64 + frame.staged_bytes());
-        let regions = frame.regions(start as u64);
-        for (number, (buffer, regions)) in regions.iter().enumerate() {
+        let all = frame.regions(start as u64);
+        for (number, (buffer, regions)) in all.iter().enumerate() {
             let to: &mut [u8] = cast_slice_mut(&mut self.buffers[*buffer as usize]);
             for region in regions {
                 let Region { from, to: at, bytes } = region;
@@ -69,64 +55,50 @@ impl Device {
                 to[at..at + bytes].copy_from_slice(&staging[from..from + bytes]);
             }
             let is_same = |(other, _): &(Buffer, Vec<Region>)| other == buffer;
-            assert!(!regions.is_empty() && !regions_after(&frame, number).iter().any(is_same));
+            assert!(!regions.is_empty() && !all[number + 1..].iter().any(is_same));
         }
-        let mut children = vec![0xdead_beef; frame.refit.children as usize / 4];
+        let mut level = Pass::Bottom;
         for dispatch in &frame.refit.dispatches {
-            let [first, count, top] = dispatch.push();
-            for i in 0..count {
-                let list = &frame.refit.list[first as usize..];
-                self.compute::<N, W>(dispatch.pass, list, i, top, &mut children);
+            let [first, count, top] = dispatch.push().map(|word| word as usize);
+            match dispatch.pass {
+                // Children are computed with their nodes here.
+                Pass::Bottom | Pass::Top => level = dispatch.pass,
+                Pass::Roots | Pass::Nodes => {
+                    for &entry in &frame.refit.list[first..first + count] {
+                        self.compute::<N, W>(dispatch.pass, level, entry, top as u32);
+                    }
+                }
             }
         }
         frame
     }
 
-    /// Invocation `i` of a dispatch over `list`.
-    fn compute<N: Node<W>, const W: usize>(
-        &mut self,
-        pass: Pass,
-        list: &[u32],
-        i: u32,
-        top: u32,
-        children: &mut [u32],
-    ) {
-        let (place, slot) = match pass {
-            Pass::Bottom | Pass::Top => (i / W as u32, i as usize % W),
-            Pass::Roots | Pass::Nodes => (i, 0),
-        };
-        let entry = list[place as usize];
+    /// A root, or a node of a level of `level`.
+    fn compute<N: LightNode<W>, const W: usize>(&mut self, pass: Pass, level: Pass, entry: u32, top: u32) {
         let nodes: &[N] = cast_slice(self.buffer(Buffer::Nodes));
         let roots: &[BlasRoot] = cast_slice(self.buffer(Buffer::Roots));
-        let triangles: &[N::Light] = cast_slice(self.buffer(Buffer::Triangles));
-        let instances: &[Instance] = cast_slice(self.buffer(Buffer::Instances));
         let at = entry as usize;
-        match pass {
-            Pass::Bottom => {
-                let child = refit::bottom_child::<N, W>(nodes, triangles, entry, slot);
-                put::<N, W>(&child, children, place, slot);
-            }
-            Pass::Roots => {
-                let root = refit::root::<N, W>(nodes, roots[at].node);
-                cast_slice_mut::<u32, BlasRoot>(&mut self.buffers[Buffer::Roots as usize])[at] = root;
-            }
-            Pass::Top => {
-                let child = refit::top_child::<N, W>(nodes, top, instances, roots, entry, slot);
-                put::<N, W>(&child, children, place, slot);
-            }
-            Pass::Nodes => {
-                let node = if refit::child_rows::<N, W>() == LIMITED_ROWS {
-                    refit::assembled::<N, W, LIMITED_ROWS>(nodes, entry, cast_slice(children), place)
-                } else {
-                    refit::assembled::<N, W, PLAIN_ROWS>(nodes, entry, cast_slice(children), place)
-                };
-                cast_slice_mut::<u32, N>(&mut self.buffers[Buffer::Nodes as usize])[at] = node;
-            }
+        if pass == Pass::Roots {
+            let root = refit::root::<N, W>(nodes, roots[at].node);
+            cast_slice_mut::<u32, BlasRoot>(&mut self.buffers[Buffer::Roots as usize])[at] = root;
+            return;
         }
+        let node = match level {
+            Pass::Top => {
+                let instances: &[Instance] = cast_slice(self.buffer(Buffer::Instances));
+                refit::top(nodes, top, instances, roots, entry)
+            }
+            _ => refit::bottom(nodes, cast_slice(self.buffer(Buffer::Triangles)), entry),
+        };
+        cast_slice_mut::<u32, N>(&mut self.buffers[Buffer::Nodes as usize])[at] = node;
     }
 
     /// Checks that words in use are bit-identical, and walks too.
-    fn assert_is<N: Node<W>, const W: usize>(&self, scene: &Bvh<N, (), W>, frame: impl core::fmt::Display) {
+    fn assert_is<N: LightNode<W>, const W: usize>(
+        &self,
+        scene: &Bvh<N, (), W>,
+        frame: impl core::fmt::Display,
+    ) {
         let used = scene.plan_of_everything();
         let top = self.mirror.top::<N>();
         let nodes: &[N] = cast_slice(self.buffer(Buffer::Nodes));
@@ -176,80 +148,26 @@ impl Device {
     }
 }
 
-/// Children are chosen by flux alone, in any layout, and one light in four by its path.
-#[derive(Clone, Copy)]
-struct Choice;
-
-impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for Choice {
-    const UNIFORM_HALVINGS: u32 = 2;
-
-    fn weights_in(node: &N, _: &ShadingPoint, _: f32) -> [f32; W] {
-        core::array::from_fn(|slot| node.summary(slot).phi())
-    }
-}
-
-/// A light for the meshes here.
-trait Lamp: Sized {
-    fn numbered(number: u32) -> Self;
-}
-
-impl Lamp for EmissiveTriangle {
-    fn numbered(number: u32) -> Self {
-        let number = number as f32;
+fn mesh(count: u32, seed: u32) -> Vec<EmissiveTriangle> {
+    let lamp = |i: u32| {
+        let number = (i * 7 + seed) as f32;
         let p = [number % 13.0, number % 5.0, number % 7.0];
-        Self {
+        EmissiveTriangle {
             p: [p, [p[0] + 0.5, p[1], p[2]], [p[0], p[1] + 0.5, p[2] + 0.1]],
             radiance: [1.0 + number % 3.0, 1.0, 1.0],
             mesh: 0,
             flags: 0,
         }
-    }
-}
-
-impl Lamp for AnyLight {
-    fn numbered(number: u32) -> Self {
-        let triangle = EmissiveTriangle::numbered(number);
-        let (p, shine, mesh) = (triangle.p[0], triangle.radiance, 0);
-        let size = 0.1 + 0.01 * p[0];
-        match number % 4 {
-            0 => triangle.into(),
-            1 => PointLight {
-                p,
-                intensity: shine,
-                range: 0.0,
-                mesh,
-            }
-            .into(),
-            2 => SphereLight {
-                p,
-                radius: size,
-                radiance: shine,
-                mesh,
-            }
-            .into(),
-            _ => BoxLight {
-                p,
-                half: [[size, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.1, size]],
-                radiance: shine,
-                mesh,
-            }
-            .into(),
-        }
-    }
-}
-
-fn mesh<L: Lamp>(count: u32, seed: u32) -> Vec<L> {
-    (0..count).map(|i| L::numbered(i * 7 + seed)).collect()
+    };
+    (0..count).map(lamp).collect()
 }
 
 /// A frame of edits of each kind; meshes and instances come and go, so that every buffer grows.
-fn edit<N: Node<W>, const W: usize>(
+fn edit<N: LightNode<W>, const W: usize>(
     scene: &mut Bvh<N, (), W>,
     ids: &mut (Vec<lightbvh::MeshId>, Vec<lightbvh::InstanceId>),
     frame: u32,
-) where
-    N::Light: Lamp,
-{
+) {
     let transform = Transform::at([frame as f32, 1.0, 0.5 * frame as f32]);
     let (meshes, instances) = ids;
     if frame.is_multiple_of(3) {
@@ -286,10 +204,7 @@ fn edit<N: Node<W>, const W: usize>(
 }
 
 /// Two devices, one of which skips frames.
-fn follows<N: Node<W>, const W: usize>(rebuilds: bool)
-where
-    N::Light: Lamp,
-{
+fn follows<N: LightNode<W>, const W: usize>(rebuilds: bool) {
     let mut scene = Bvh::<N, (), W>::default();
     let (mut devices, mut ids) = (<[Device; 2]>::default(), Default::default());
     for frame in 0..40 {
@@ -311,14 +226,12 @@ where
 fn device_follows_edits() {
     follows::<MomentNode<8>, 8>(false);
     follows::<CompactNode<4>, 4>(false);
-    follows::<Lit<SpotMomentNode<8>, AnyLight>, 8>(false);
 }
 
 #[test]
 fn device_follows_rebuilds() {
     follows::<MomentNode<8>, 8>(true);
     follows::<CompactNode<4>, 4>(true);
-    follows::<Lit<SpotMomentNode<8>, AnyLight>, 8>(true);
 }
 
 #[test]
