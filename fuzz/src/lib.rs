@@ -4,7 +4,6 @@
 //! A function panics where the crate is wrong, and returns where the bytes are too few or the input is refused.
 
 mod edits;
-pub mod exact;
 #[cfg(feature = "gltf")]
 mod gltf;
 pub mod input;
@@ -16,30 +15,22 @@ mod trees;
 
 use std::ops::Range;
 
-pub use edits::edits;
-pub use exact::exact;
 #[cfg(feature = "gltf")]
-pub use gltf::{gltf, gltf_document};
-pub use node_words::node_words;
-pub use read_words::read_words;
-#[cfg(feature = "gltf")]
-pub use texts::texts;
-pub use trees::trees;
+pub use gltf::gltf_document;
 
 /// A target's name and body.
 pub type Target = (&'static str, fn(&[u8], Forms));
 
 /// All targets.
 pub const TARGETS: &[Target] = &[
-    ("edits", edits),
-    ("exact", exact),
+    ("edits", edits::edits),
     #[cfg(feature = "gltf")]
-    ("gltf", gltf),
-    ("node_words", node_words),
-    ("read_words", read_words),
+    ("gltf", gltf::gltf),
+    ("node_words", node_words::node_words),
+    ("read_words", read_words::read_words),
     #[cfg(feature = "gltf")]
-    ("texts", texts),
-    ("trees", trees),
+    ("texts", texts::texts),
+    ("trees", trees::trees),
 ];
 
 /// Which forms of a tree (layout, width, levels) an input goes through, where a target knows several.

@@ -14,8 +14,6 @@ use rspirv::spirv::{Decoration, Op, Word};
 /// What is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variant {
-    /// Nothing: taken apart and put together again.
-    Unchanged,
     /// No decoration `NoContraction`: the device may do as it likes.
     Undecorated,
     /// Each sum or difference with a product in it rounded once, by arithmetic: fused on every device.
@@ -39,7 +37,6 @@ pub fn module(name: &str, variant: Variant) -> Vec<u32> {
     let kernel = lightbvh_gpu::Kernel::named(name).unwrap_or_else(|| panic!("no kernel {name}"));
     let module = rspirv::dr::load_words(kernel.words()).expect("a module");
     let module = match variant {
-        Variant::Unchanged => module,
         Variant::Undecorated => undecorated(module),
         _ => Rewriter::new(module).rewrite(variant),
     };

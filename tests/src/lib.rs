@@ -1,5 +1,6 @@
 //! Generators, oracles, statistics and devices shared by the tests.
 
+pub mod arithmetic;
 pub mod broken;
 pub mod devices;
 pub mod direct;

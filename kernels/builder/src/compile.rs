@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::decorate::decorate;
 use crate::files::{self, cannot};
-use crate::manifest::{FORMAT, Manifest, ModuleRecord};
+use crate::manifest::{Manifest, ModuleRecord};
 use crate::names::buffer_names;
 use crate::sources::{self, ALWAYS};
 use crate::verify::verify;
@@ -67,7 +67,6 @@ pub fn compile(root: &Path) -> Result<Built, Error> {
         .map(|(record, words)| (record.clone(), (record.file, words)))
         .unzip();
     let manifest = Manifest {
-        format: FORMAT,
         source_sha256: sources::hash(root, &source_files)?,
         source_files,
         compiler,

@@ -151,9 +151,9 @@ fn write(root: &Path, built: &Built) -> Result<(), Error> {
     Ok(())
 }
 
-/// Fails unless the committed modules have the bytes just built and the manifest agrees with the sources.
+/// Fails unless the committed modules have the bytes just built, and the manifest lists them. That it agrees with the sources is a test.
 fn compare(root: &Path, built: &Built) -> Result<(), Error> {
-    let committed = manifest::check(root)?;
+    let committed = manifest::read(root)?;
     for (file, words) in &built.modules {
         let path = root.join(place(file));
         if files::read(&path)? != files::bytes(words) {
@@ -187,7 +187,7 @@ fn describe(record: &ModuleRecord, words: &[u32]) -> Result<String, Error> {
     Ok(format!(
         "{}: {} words, workgroup {x}x{y}x{z}, {} buffers, {} bytes of push constants",
         record.file,
-        record.words,
+        words.len(),
         interface.buffers.len(),
         interface.push_constants
     ))

@@ -6,9 +6,6 @@ use lightbvh_gpu::spirv::{Interface, words};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// Version of the manifest's format.
-pub const FORMAT: u32 = 2;
-
 /// Directory of the manifest and of the tree's modules, below the repository's root.
 pub const DIRECTORY: &str = "kernels/gpu/spirv";
 
@@ -32,8 +29,6 @@ const REBUILD: &str = "run build-kernels (kernels/README.md) and commit what it 
 /// The committed modules and their origin.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// [`FORMAT`].
-    pub format: u32,
     /// SHA-256 over the sources and the dependencies of the kernels ([`sources::hash`]).
     pub source_sha256: String,
     /// The files that the hash covers, relative to the root, sorted.
@@ -55,8 +50,6 @@ pub struct ModuleRecord {
     pub file: String,
     /// Names of the buffers, by binding.
     pub buffers: Vec<String>,
-    /// Length in 32-bit words.
-    pub words: usize,
     /// SHA-256 of the file.
     pub sha256: String,
 }
@@ -68,7 +61,6 @@ impl ModuleRecord {
         Self {
             file,
             buffers,
-            words: words.len(),
             sha256: sources::hash_bytes(&files::bytes(words)),
         }
     }
@@ -103,14 +95,8 @@ impl ModuleRecord {
 /// When there is none, or none that this program understands.
 pub fn read(root: &Path) -> Result<Manifest, Error> {
     let path = root.join(DIRECTORY).join(FILE);
-    let manifest: Manifest = serde_json::from_slice(&files::read(&path)?)
-        .map_err(|error| Error(format!("{}: not a manifest: {error}; {REBUILD}", path.display())))?;
-    match manifest.format {
-        FORMAT => Ok(manifest),
-        found => Err(Error(format!(
-            "manifest format {found}, this program knows {FORMAT}; {REBUILD}"
-        ))),
-    }
+    serde_json::from_slice(&files::read(&path)?)
+        .map_err(|error| Error(format!("{}: not a manifest: {error}; {REBUILD}", path.display())))
 }
 
 /// Reads the words of a recorded module.

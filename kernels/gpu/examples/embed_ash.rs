@@ -1,12 +1,18 @@
 //! Moving lights on the engine's own Vulkan device: twenty frames, every word compared with the CPU.
 //!
-//! `cargo run --release -p lightbvh-gpu --example embed_ash`
+//! `cargo run --release -p lightbvh-gpu --example embed_ash [-- target/embed_shader/direct.spv]`
+//!
+//! The argument is the module of a compute shader of one's own, which then lights points with the same arrays: the crate
+//! `kernels/examples/embed_shader` says how it is built.
 //!
 //! The folder `common` is the engine: it opens the device, owns buffers and pipelines, and knows nothing of lights. This file
 //! is what an engine adds for lightbvh. Each frame it copies what the edits changed, dispatches the refit, and samples.
 
 #[path = "common/mod.rs"]
 mod common;
+/// What the shader computes, as the shader's crate has it.
+#[path = "common/direct.rs"]
+mod direct;
 
 use std::process::ExitCode;
 use std::rc::Rc;
@@ -19,12 +25,18 @@ use common::gpu::Gpu;
 use common::pipeline::Pipeline;
 use common::words::compare;
 use common::world::{World, points};
+use direct::direct_light;
 use lightbvh::node::DefaultNode;
-use lightbvh::{LightBvh, Random64, SampledLight};
+use lightbvh::{LightBvh, Random64, SampledLight, ShadingPoint};
+use lightbvh_gpu::spirv::{self, Interface};
 use lightbvh_gpu::{Buffer as Array, Frame, MOMENTS, Mirror, Pass, Query, query_push, self_test};
 
 const FRAMES: u16 = 20;
 const QUERIES: u32 = 10_000;
+/// Bindings of the shader of one's own, in the order of its parameters; how many points it lights, by how many samples each.
+const BINDINGS: [&str; 6] = ["nodes", "instances", "trails", "triangles", "points", "results"];
+const POINTS: u32 = 4096;
+const SAMPLES: u32 = 16;
 
 /// What an engine keeps for the lights of one scene.
 struct DeviceLights {
@@ -147,6 +159,33 @@ impl DeviceLights {
         Ok(outgrown)
     }
 
+    /// Lights points by a shader of one's own.
+    fn light(&self, bvh: &LightBvh, module: &[u32], points: &[ShadingPoint]) -> Result<Vec<u8>> {
+        let interface = Interface::read(module)?;
+        if interface.buffers.len() != BINDINGS.len() {
+            return Err("this is another shader's module; build it again".into());
+        }
+        let (name, width) = (&*interface.entry_point, interface.workgroup[0]);
+        let shader = Pipeline::new(&self.gpu, module, name, BINDINGS, interface.push_constants, width)?;
+        let asked = Buffer::staged(&self.gpu, cast_slice(points))?;
+        let results = Buffer::storage(&self.gpu, size_of::<[f32; 3]>() as u64 * points.len() as u64)?;
+        let back = Buffer::staging(&self.gpu, results.bytes)?;
+        shader.bind(|name| match (Array::named(name), name) {
+            (Some(array), _) => &self.arrays[array as usize],
+            (None, "points") => &asked,
+            (None, _) => &results,
+        });
+        let mut push = vec![points.len() as u32, SAMPLES];
+        push.extend(bytemuck::cast::<_, [u32; 9]>(self.mirror.words(bvh)));
+        self.gpu.run(|commands| {
+            shader.dispatch(commands, &push, points.len() as u32);
+            self.gpu.barrier(commands);
+            results.copy_to(commands, 0, &back, 0, results.bytes);
+            self.gpu.barrier(commands);
+        })?;
+        back.read()
+    }
+
     fn refit(&self, wanted: Pass) -> &Pipeline {
         let found = self.refits.iter().find(|(pass, _)| *pass == wanted);
         &found.expect("there is one for each pass").1
@@ -176,8 +215,8 @@ fn check(gpu: &Rc<Gpu>) -> Result<()> {
     Ok(self_test::defect(&back.read()?).map_or(Ok(()), Err)?)
 }
 
-/// Runs all frames on one device. Returns how many words were compared.
-fn run(gpu: &Rc<Gpu>) -> Result<u64> {
+/// Runs all frames on one device, then a shader of one's own. Returns how many words were compared.
+fn run(gpu: &Rc<Gpu>, shader: Option<&[u32]>) -> Result<u64> {
     check(gpu)?;
     let mut world = World::new()?;
     let mut lights = DeviceLights::new(gpu)?;
@@ -204,21 +243,34 @@ fn run(gpu: &Rc<Gpu>) -> Result<u64> {
         )?;
         words += compare("sample", &samples, &device.samples)?;
     }
+    if let Some(module) = shader {
+        let (points, _): (Vec<_>, Vec<_>) = points(0, POINTS).into_iter().unzip();
+        let (tree, triangles) = (world.bvh.tree(), world.bvh.triangles());
+        let cpu: Vec<[f32; 3]> = (0..)
+            .zip(&points)
+            .map(|(seed, point)| direct_light(&tree, triangles, point, SAMPLES, seed))
+            .collect();
+        words += compare("point", &cpu, &lights.light(&world.bvh, module, &points)?)?;
+    }
     Ok(words)
 }
 
+/// On each device; `shader` is the file of a module.
+fn on_all(shader: Option<String>) -> Result<()> {
+    let bytes = shader.map(|path| std::fs::read(&path).map_err(|error| format!("{path}: {error}")));
+    let module = bytes.transpose()?.map(|bytes| spirv::words(&bytes));
+    for gpu in Gpu::all()? {
+        let words = run(&gpu, module.as_deref()).map_err(|error| format!("{}: {error}", gpu.name))?;
+        println!(
+            "{}: {FRAMES} frames, {words} words compared, none different",
+            gpu.name
+        );
+    }
+    Ok(())
+}
+
 fn main() -> ExitCode {
-    let done = Gpu::all().and_then(|gpus| {
-        for gpu in gpus {
-            let words = run(&gpu).map_err(|error| format!("{}: {error}", gpu.name))?;
-            println!(
-                "{}: {FRAMES} frames, {words} words compared, none different",
-                gpu.name
-            );
-        }
-        Ok(())
-    });
-    match done {
+    match on_all(std::env::args().nth(1)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("embed_ash: {error}");
@@ -232,6 +284,6 @@ fn main() -> ExitCode {
 fn every_word_agrees() {
     match Gpu::all() {
         Err(error) if std::env::var_os("LIGHTBVH_REQUIRE_VULKAN").is_none() => println!("skipped: {error}"),
-        _ => assert_eq!(main(), ExitCode::SUCCESS),
+        _ => on_all(None).expect("equal words"),
     }
 }

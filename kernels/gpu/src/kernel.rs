@@ -97,16 +97,3 @@ impl Kernel {
         groups(invocations, self.workgroup[0])
     }
 }
-
-#[cfg(all(test, feature = "kernels"))]
-mod tests {
-    use crate::{KERNELS, Kernel};
-
-    #[test]
-    fn kernels_are_found_by_name() {
-        for &kernel in KERNELS {
-            assert_eq!(Kernel::named(kernel.name), Some(kernel));
-        }
-        assert_eq!(Kernel::named("no_such_kernel"), None);
-    }
-}

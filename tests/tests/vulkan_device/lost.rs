@@ -2,9 +2,7 @@
 #![cfg(debug_assertions)]
 
 use lightbvh::{Edit, InstanceId, LightBvh, MeshId, ShadingPoint, Transform};
-use lightbvh_host::backend::{
-    Backend, BackendError, CpuBackend, DeviceBackend, Follow, node_words, nodes_in_use,
-};
+use lightbvh_host::backend::{Backend, BackendError, CpuBackend, DeviceBackend, Follow};
 use lightbvh_host::vulkan::{Options, VulkanError};
 use lightbvh_kernels::bvh::Standard;
 use lightbvh_kernels::query::Query;
@@ -35,19 +33,19 @@ fn world(count: u32) -> (LightBvh, MeshId, Vec<InstanceId>) {
 
 /// Every `stride`-th lamp takes a step.
 fn step(bvh: &mut LightBvh, ids: &[InstanceId], stride: usize, time: u32) {
-    let moved = (0..).zip(ids).step_by(stride);
-    let edits = moved.map(|(k, &instance)| Edit::SetTransform {
-        instance,
-        transform: place(k, time),
-    });
-    bvh.apply(edits.collect()).expect("within the domain");
+    for (k, &instance) in (0..).zip(ids).step_by(stride) {
+        bvh.set_transform(instance, place(k, time))
+            .expect("within the domain");
+    }
+    bvh.refit();
 }
 
 fn queries(count: u32) -> Vec<Query> {
+    let at = |k: u32| [k % 97, k % 89, k % 83].map(|x| x as f32);
     (0..count)
         .map(|k| Query {
             point: ShadingPoint {
-                p: [(k % 97) as f32, (k % 89) as f32, (k % 83) as f32],
+                p: at(k),
                 n: [0.0, 1.0, 0.0],
             },
             words: [k.wrapping_mul(0x9e37_79b9), k],
@@ -55,21 +53,12 @@ fn queries(count: u32) -> Vec<Query> {
         .collect()
 }
 
-/// Compares the nodes in use, and samples.
+/// Compares samples, which have the bits of the nodes in them.
 fn assert_follows(what: &str, bvh: &LightBvh, backend: &mut OnDevice<'_>) {
-    let asked = queries(300);
-    let mut cpu = CpuBackend::<Standard, 8>::new(bvh.clone());
+    let asked = queries(1000);
+    let expected = CpuBackend::<Standard, 8>::new(bvh.clone()).sample(&asked);
     let found = backend.sample(&asked).expect("samples").value;
-    assert!(
-        found == cpu.sample(&asked).expect("samples").value,
-        "{what}: samples"
-    );
-    let found = backend.nodes().expect("nodes");
-    let (expected, words) = (node_words(bvh), size_of_val(&bvh.nodes()[0]) / 4);
-    for node in nodes_in_use(bvh) {
-        let at = node as usize * words..(node as usize + 1) * words;
-        assert!(found[at.clone()] == expected[at], "{what}: node {node}");
-    }
+    assert!(found == expected.expect("samples").value, "{what}");
 }
 
 #[test]
@@ -89,7 +78,6 @@ fn where_a_device_is_lost_another_takes_over() {
             lost.lose_after(calls);
             ids.push(bvh.add_instance(mesh, Transform::IDENTITY).expect("a place"));
             step(&mut bvh, &ids, 4, 1);
-            bvh.refit();
             let result = backend.follow(&bvh).and_then(|_| backend.sample(&queries(50)));
             let what = format!("{}, lost after {calls} calls", info.probe.name);
             let Err(error) = result else {
@@ -112,7 +100,6 @@ fn where_a_device_is_lost_another_takes_over() {
             let mut heir = OnDevice::new(&second, &bvh).expect("an upload of everything");
             assert_follows(&what, &bvh, &mut heir);
             step(&mut bvh, &ids, 3, 2);
-            bvh.refit();
             heir.follow(&bvh).expect("a frame");
             assert_follows(&what, &bvh, &mut heir);
             drop((backend, heir));

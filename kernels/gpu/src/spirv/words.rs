@@ -4,7 +4,7 @@
 
 use alloc::vec::Vec;
 use core::fmt;
-use core::ops::RangeInclusive;
+use core::ops::{Range, RangeInclusive};
 
 /// First word of every module.
 const MAGIC: u32 = 0x0723_0203;
@@ -57,6 +57,11 @@ impl Instruction<'_> {
             .get(index)
             .copied()
             .ok_or_else(|| self.error("the instruction is too short"))
+    }
+
+    /// Its words in the module.
+    pub(crate) fn range(&self) -> Range<usize> {
+        self.at..self.at + 1 + self.operands.len()
     }
 
     pub(crate) fn error(&self, what: &'static str) -> ModuleError {
