@@ -102,9 +102,13 @@ pub fn read(root: &Path) -> Result<Manifest, Error> {
 /// Reads the words of a recorded module.
 ///
 /// # Errors
-/// When the file cannot be read.
+/// When the file cannot be read or is not whole words.
 pub fn read_module(root: &Path, record: &ModuleRecord) -> Result<Vec<u32>, Error> {
-    Ok(words(&files::read(&root.join(place(&record.file)))?))
+    let bytes = files::read(&root.join(place(&record.file)))?;
+    match bytes.len() % 4 {
+        0 => Ok(words(&bytes)),
+        _ => Err(record.wrong("not whole words")),
+    }
 }
 
 /// Checks, without a compiler, that the committed modules are those of the sources beside them, and the table that of the modules.

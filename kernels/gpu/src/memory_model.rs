@@ -68,6 +68,8 @@ mod tests {
                 "{}",
                 kernel.name
             );
+            let model = [3 << 16 | u32::from(op::MEMORY_MODEL), 0, GLSL450];
+            assert!(patched.windows(3).any(|words| words == model), "{}", kernel.name);
             // It has nothing left to change.
             assert_eq!(without_vulkan_memory_model(&patched).expect(kernel.name), patched);
         }
