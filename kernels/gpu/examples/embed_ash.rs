@@ -28,7 +28,7 @@ use common::world::{World, points};
 use direct::direct_light;
 use lightbvh::node::DefaultNode;
 use lightbvh::{LightBvh, Random64, SampledLight, ShadingPoint};
-use lightbvh_gpu::spirv::{self, Interface};
+use lightbvh_gpu::spirv;
 use lightbvh_gpu::{Buffer as Array, Frame, MOMENTS, Mirror, Pass, Query, query_push, self_test};
 
 const FRAMES: u16 = 20;
@@ -75,7 +75,7 @@ impl DeviceLights {
     /// Updates the device to the light BVH, and samples there.
     fn frame(&mut self, bvh: &LightBvh, queries: &[Query]) -> Result<Results> {
         let frame = self.mirror.frame(bvh);
-        let outgrown = self.grow(&frame)?;
+        self.grow(&frame)?;
         // The bytes of all copies, one after another.
         let staging: Vec<u8> = frame
             .copies
@@ -109,10 +109,7 @@ impl DeviceLights {
         let push = query_push(queries.len() as u32, frame.words);
         let gpu = &self.gpu;
         gpu.run(|commands| {
-            for (array, old) in &outgrown {
-                let new = &self.arrays[*array as usize];
-                old.copy_to(commands, 0, new, 0, old.bytes.min(new.bytes));
-            }
+            // After the frame before, and the growth.
             gpu.barrier(commands);
             // One command for each array, of as many regions as there are.
             for (array, regions) in frame.regions(0) {
@@ -145,28 +142,24 @@ impl DeviceLights {
         })
     }
 
-    /// Makes larger what became too small. What it held is still to be copied, so the old buffers are returned.
-    fn grow(&mut self, frame: &Frame) -> Result<Vec<(Array, Buffer)>> {
-        let mut outgrown = Vec::new();
+    /// Makes larger what became too small, and copies what it held.
+    fn grow(&mut self, frame: &Frame) -> Result<()> {
         for &(array, bytes) in &frame.resizes {
             let held = &mut self.arrays[array as usize];
             if bytes > held.bytes {
                 // Half as much again: most frames then need no new buffer.
                 let new = Buffer::storage(&self.gpu, bytes + bytes / 8 * 4)?;
-                outgrown.push((array, std::mem::replace(held, new)));
+                self.gpu
+                    .run(|commands| held.copy_to(commands, 0, &new, 0, held.bytes))?;
+                *held = new;
             }
         }
-        Ok(outgrown)
+        Ok(())
     }
 
     /// Lights points by a shader of one's own.
     fn light(&self, bvh: &LightBvh, module: &[u32], points: &[ShadingPoint]) -> Result<Vec<u8>> {
-        let interface = Interface::read(module)?;
-        if interface.buffers.len() != BINDINGS.len() {
-            return Err("this is another shader's module; build it again".into());
-        }
-        let (name, width) = (&*interface.entry_point, interface.workgroup[0]);
-        let shader = Pipeline::new(&self.gpu, module, name, BINDINGS, interface.push_constants, width)?;
+        let shader = Pipeline::new(&self.gpu, module, BINDINGS)?;
         let asked = Buffer::staged(&self.gpu, cast_slice(points))?;
         let results = Buffer::storage(&self.gpu, size_of::<[f32; 3]>() as u64 * points.len() as u64)?;
         let back = Buffer::staging(&self.gpu, results.bytes)?;
@@ -192,11 +185,10 @@ impl DeviceLights {
     }
 }
 
-/// A pipeline of a kernel: all that Vulkan wants to know stands beside its module.
+/// A pipeline of a kernel, whose bindings have names.
 fn kernel(gpu: &Rc<Gpu>, kernel: &lightbvh_gpu::Kernel) -> Result<Pipeline> {
     let names = kernel.bindings.iter().map(|binding| binding.name);
-    let (push, width) = (kernel.push_constants, kernel.workgroup[0]);
-    Pipeline::new(gpu, &kernel.words(), kernel.name, names, push, width)
+    Pipeline::new(gpu, &kernel.words(), names)
 }
 
 /// Does the device calculate exactly? An engine asks once for each device and driver.

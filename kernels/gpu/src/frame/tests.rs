@@ -1,4 +1,4 @@
-//! What a frame lists. That devices then hold the light BVH, frame after frame, `tests/tests/device_words.rs` compares.
+//! Copies and regions of a frame. `tests/tests/device_words.rs` compares what devices then hold, frame after frame.
 
 use lightbvh::{Edit, EmissiveTriangle, InstanceId, LightNode, MomentNode, Transform};
 
