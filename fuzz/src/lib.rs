@@ -3,49 +3,34 @@
 //!
 //! A function panics where the crate is wrong, and returns where the bytes are too few or the input is refused.
 
-mod build_validate;
 mod edits;
-pub mod exact;
 #[cfg(feature = "gltf")]
 mod gltf;
 pub mod input;
 mod node_words;
 mod read_words;
-mod refit_equals_rebuild;
-mod sample_pmf;
 #[cfg(feature = "gltf")]
 mod texts;
+mod trees;
 
 use std::ops::Range;
 
-pub use build_validate::build_validate;
-pub use edits::edits;
-pub use exact::exact;
 #[cfg(feature = "gltf")]
-pub use gltf::{gltf, gltf_document};
-pub use node_words::node_words;
-pub use read_words::read_words;
-pub use refit_equals_rebuild::refit_equals_rebuild;
-pub use sample_pmf::sample_pmf;
-#[cfg(feature = "gltf")]
-pub use texts::texts;
+pub use gltf::gltf_document;
 
 /// A target's name and body.
 pub type Target = (&'static str, fn(&[u8], Forms));
 
 /// All targets.
 pub const TARGETS: &[Target] = &[
-    ("build_validate", build_validate),
-    ("edits", edits),
-    ("exact", exact),
+    ("edits", edits::edits),
     #[cfg(feature = "gltf")]
-    ("gltf", gltf),
-    ("node_words", node_words),
-    ("read_words", read_words),
-    ("refit_equals_rebuild", refit_equals_rebuild),
-    ("sample_pmf", sample_pmf),
+    ("gltf", gltf::gltf),
+    ("node_words", node_words::node_words),
+    ("read_words", read_words::read_words),
     #[cfg(feature = "gltf")]
-    ("texts", texts),
+    ("texts", texts::texts),
+    ("trees", trees::trees),
 ];
 
 /// Which forms of a tree (layout, width, levels) an input goes through, where a target knows several.

@@ -9,18 +9,14 @@ use std::collections::HashMap;
 
 use rspirv::binary::Assemble;
 use rspirv::dr::{Builder, Instruction, Module, Operand};
-use rspirv::spirv::{Decoration, GlslStd450Op, Op, Word};
+use rspirv::spirv::{Decoration, Op, Word};
 
 /// What is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variant {
-    /// Nothing: taken apart and put together again.
-    Unchanged,
     /// No decoration `NoContraction`: the device may do as it likes.
     Undecorated,
-    /// The device's own `Fma` for each sum or difference with a product in it.
-    Fma,
-    /// The same by arithmetic, fused on every device.
+    /// Each sum or difference with a product in it rounded once, by arithmetic: fused on every device.
     Contracted,
     /// `(a + b) + c` as `a + (b + c)`, and products likewise.
     Reassociated,
@@ -41,7 +37,6 @@ pub fn module(name: &str, variant: Variant) -> Vec<u32> {
     let kernel = lightbvh_gpu::Kernel::named(name).unwrap_or_else(|| panic!("no kernel {name}"));
     let module = rspirv::dr::load_words(kernel.words()).expect("a module");
     let module = match variant {
-        Variant::Unchanged => module,
         Variant::Undecorated => undecorated(module),
         _ => Rewriter::new(module).rewrite(variant),
     };
@@ -68,7 +63,6 @@ struct Types {
 
 struct Rewriter {
     builder: Builder,
-    glsl: Word,
     /// By float type.
     types: HashMap<Word, Types>,
     /// New float operations.
@@ -80,10 +74,6 @@ struct Rewriter {
 impl Rewriter {
     fn new(module: Module) -> Self {
         let mut builder = Builder::new_from_module(module);
-        let glsl = match builder.module_ref().ext_inst_imports.first() {
-            Some(import) => import.result_id.expect("an id"),
-            None => builder.ext_inst_import("GLSL.std.450"),
-        };
         let (float, uint, boolean) = (
             builder.type_float(32, None),
             builder.type_int(32, 0),
@@ -109,7 +99,6 @@ impl Rewriter {
         }
         Self {
             builder,
-            glsl,
             types,
             undecorated: Vec::new(),
             out: Vec::new(),
@@ -148,7 +137,7 @@ impl Rewriter {
         };
         let operands = ids(&inst);
         match variant {
-            Variant::Fma | Variant::Contracted if sum => {
+            Variant::Contracted if sum => {
                 let factors = |k: usize| {
                     made.get(&operands[k])
                         .filter(|of| of.class.opcode == Op::FMul)
@@ -167,21 +156,7 @@ impl Rewriter {
                     };
                     *negated = self.float(types, Op::FNegate, &[*negated]);
                 }
-                if variant == Variant::Fma {
-                    let mut list = vec![
-                        Operand::IdRef(self.glsl),
-                        Operand::LiteralExtInstInteger(GlslStd450Op::Fma as u32),
-                    ];
-                    list.extend([factors[0], factors[1], addend].map(Operand::IdRef));
-                    self.out.push(Instruction::new(
-                        Op::ExtInst,
-                        Some(types.float),
-                        Some(result),
-                        list,
-                    ));
-                } else {
-                    self.fused(types, factors[0], factors[1], addend, result);
-                }
+                self.fused(types, factors[0], factors[1], addend, result);
             }
             Variant::Reassociated if op != Op::FSub => {
                 // (x y) c as x (y c).

@@ -3,7 +3,6 @@
 use lightbvh::cone::{Cone, normalized};
 use lightbvh::{BuildParams, EmissiveTriangle, Heuristic, LightBounds, Lights, ShadingPoint, exact};
 pub use lightbvh_host::stability::random::Random;
-use proptest::prelude::*;
 
 /// `count` random small triangles of edge about `edge` in a box of side `side`, in meshes of `per_mesh`; the triangles
 /// of a mesh lie near each other when `clustered`.
@@ -179,79 +178,4 @@ pub fn moved(lights: &Lights, seed: u32) -> Lights {
         }
     });
     Lights::new(triangles.collect()).expect("the same mesh lights")
-}
-
-/// How a generated set of triangles is degenerate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// Not at all.
-    General,
-    /// All vertices on a coarse grid: many coincide, many triangles have no area.
-    Grid,
-    /// All in one plane.
-    Plane,
-    /// All along one axis.
-    Line,
-    /// All at one place.
-    Point,
-}
-
-/// Sets of 1..=`most` triangles in meshes of random size, of every [`Shape`], with flux over many orders and with
-/// zeros, partly two-sided.
-pub fn lights(most: u32) -> impl Strategy<Value = Lights> {
-    let shape = prop_oneof![
-        3 => Just(Shape::General),
-        2 => Just(Shape::Grid),
-        1 => Just(Shape::Plane),
-        1 => Just(Shape::Line),
-        1 => Just(Shape::Point),
-    ];
-    (1..=most, shape, any::<u32>(), 0..4u32)
-        .prop_map(|(count, shape, seed, flux)| make(count, shape, seed, flux))
-}
-
-fn make(count: u32, shape: Shape, seed: u32, flux: u32) -> Lights {
-    let mut random = Random::new(seed);
-    let mut mesh = 0;
-    let triangles = (0..count)
-        .map(|i| {
-            if i > 0 && random.below(4) == 0 {
-                mesh += 1;
-            }
-            let corner = match shape {
-                Shape::General => [0; 3].map(|_| random.between(0.0, 10.0)),
-                Shape::Grid => [0; 3].map(|_| random.below(4) as f32),
-                Shape::Plane => [random.between(0.0, 10.0), 2.0, random.between(0.0, 10.0)],
-                Shape::Line => [random.below(1000) as f32, 0.0, 0.0],
-                Shape::Point => [1.0, 2.0, 3.0],
-            };
-            let mut vertex = |k: usize| match shape {
-                Shape::General => corner.map(|c| c + random.unit()),
-                Shape::Grid => corner.map(|c| c + random.below(2) as f32),
-                Shape::Plane => [corner[0] + random.unit(), corner[1], corner[2] + random.unit()],
-                Shape::Line | Shape::Point => {
-                    let mut v = corner;
-                    if k > 0 {
-                        v[k] += 0.5;
-                    }
-                    v
-                }
-            };
-            let p = [vertex(0), vertex(1), vertex(2)];
-            let scale = match flux {
-                0 => 1.0,
-                1 => f32::from(random.below(3) > 0),
-                2 => exact::pow2(random.below(80) as i32 - 40),
-                _ => exact::pow2(if random.below(16) == 0 { 40 } else { 0 }),
-            };
-            let radiance = [0; 3].map(|_| scale * (0.25 + random.unit()));
-            EmissiveTriangle {
-                p,
-                radiance,
-                mesh,
-                flags: u32::from(random.below(4) == 0),
-            }
-        })
-        .collect();
-    Lights::new(triangles).expect("generated lights are within the domain")
 }

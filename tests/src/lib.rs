@@ -1,5 +1,6 @@
 //! Generators, oracles, statistics and devices shared by the tests.
 
+pub mod arithmetic;
 pub mod broken;
 pub mod devices;
 pub mod direct;
@@ -9,7 +10,6 @@ pub mod oracle;
 pub mod placing;
 pub mod scenes;
 pub mod self_test;
-pub mod slowed;
 pub mod soup;
 pub mod statistics;
 pub mod world;

@@ -55,17 +55,6 @@ pub fn all_pmfs<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         .collect()
 }
 
-/// Asserts that pmfs are probabilities, and sum to one.
-///
-/// # Panics
-/// If they are not.
-pub fn assert_sum_is_one<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    pmfs: impl IntoIterator<Item = f32>,
-    point: &ShadingPoint,
-) {
-    sum_is_one(&pmfs.into_iter().collect::<Vec<_>>(), I::UNIFORM_HALVINGS, point);
-}
-
 /// The leaves of a tree in the order of its slots: (triangle, instance), without an instance in a single-level tree.
 #[must_use]
 pub fn leaves<N: LightNode<W>, I, const W: usize>(tree: &LightTree<'_, N, I, W>) -> Vec<(u32, Option<u32>)> {

@@ -6,7 +6,7 @@ use lightbvh::cone::Cone;
 use lightbvh::{EmissiveTriangle, LightBounds};
 use lightbvh_tests::generate::{Random, any_bounds, extreme_triangle};
 use lightbvh_tests::oracle::{Triangle, assert_cone_contains, box_contains, half_angle};
-use proptest::prelude::*;
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
 const ULP: f64 = 1.0 / 16_777_216.0;
@@ -73,25 +73,15 @@ fn merge_contains_its_parts(a: &LightBounds, b: &LightBounds) {
     assert!((f64::from(both.phi) - sum).abs() <= ULP * sum);
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
-
-    #[test]
-    fn triangles(seed: u32) {
+#[test]
+fn triangles_and_merges() {
+    (0..256).into_par_iter().for_each(|seed| {
         let random = &mut Random::new(seed);
         for _ in 0..256 {
             of_triangle_contains_it(&extreme_triangle(random));
-        }
-    }
-
-    #[test]
-    fn merges(seed: u32) {
-        let random = &mut Random::new(seed);
-        for _ in 0..256 {
             merge_contains_its_parts(&any_bounds(random), &any_bounds(random));
         }
-    }
-
+    });
 }
 
 /// Every pair of cones of a grid of half-angles, at every angle of it apart, exactly parallel and opposite axes in it.

@@ -7,7 +7,7 @@ use lightbvh::{
 };
 use lightbvh_tests::each_node;
 use lightbvh_tests::generate::{self, Random, split};
-use lightbvh_tests::oracle::assert_sum_is_one;
+use lightbvh_tests::oracle::sum_is_one;
 
 fn triangle(corner: [f32; 3], size: f32, radiance: f32, mesh: u32) -> EmissiveTriangle {
     let [x, y, z] = corner;
@@ -138,7 +138,7 @@ where
                 let lights = scene.lights_of(id).expect("there");
                 pmfs.extend(lights.map(|light| tree.pmf(&point, light, id.index())));
             }
-            assert_sum_is_one::<N, Eq4, W>(pmfs, &point);
+            sum_is_one(&pmfs, 0, &point);
         }
     }
 }

@@ -185,7 +185,11 @@ fn same<T: Pod>(device: &Device, what: &str, found: &[T], expected: &[T]) {
 
 /// On every device that is exact.
 fn on_exact(test: impl Fn(&Device)) {
-    on_each_device(Options::default(), |device| {
+    on_exact_by(Options::default(), test);
+}
+
+fn on_exact_by(options: Options, test: impl Fn(&Device)) {
+    on_each_device(options, |device| {
         if device.self_test().expect("a verdict").exact {
             test(device);
         } else {
@@ -194,7 +198,8 @@ fn on_exact(test: impl Fn(&Device)) {
     });
 }
 
-/// Six frames of instances under any maps that move, come and go, and of meshes that change; returns the lights sampled, and for whom.
+/// Seven frames of instances under any maps that move, come and go, and of meshes that change and come, beyond the room of every
+/// array, with new trees now and then. Two mirrors follow, one of them every third frame. Returns the lights sampled, and for whom.
 fn frames<N: Node<W>, I: ImportanceModel<N, W, P>, P: Ask, const W: usize>(
     device: &Device,
     kernels: KernelSet,
@@ -222,13 +227,14 @@ where
     };
     let all = (0..60).map(|k| add(random, k)).collect();
     let mut ids = bvh.apply(all).expect("instances").instances;
-    let mut held = Held::new(device, kernels);
+    let mut mirrors = [Held::new(device, kernels), Held::new(device, kernels)];
     let mut seen = Vec::new();
-    for frame in 0..6 {
+    for frame in 0..7 {
         if frame > 0 {
-            let mut edits: Vec<_> = (0..10)
+            // Every second one: many short regions.
+            let mut edits: Vec<_> = (0..30)
                 .map(|k| Edit::SetTransform {
-                    instance: ids[(7 * frame + k) % 60],
+                    instance: ids[(7 * frame + 2 * k) % 60],
                     transform: place(random, k),
                 })
                 .collect();
@@ -237,25 +243,35 @@ where
                 triangles: mesh(random, counts[frame % 3]),
             });
             let at = (7 * frame + 20) % 60;
-            edits.extend([Edit::RemoveInstance(ids[at]), add(random, frame)]);
+            edits.push(Edit::RemoveInstance(ids[at]));
+            edits.extend((0..20).map(|k| add(random, frame + k)));
             ids[at] = bvh.apply(edits).expect("edits").instances[0];
+            bvh.add_mesh(mesh(random, 100)).expect("a mesh");
         }
         bvh.refit();
+        if frame % 3 == 2 {
+            bvh.rebuild();
+        }
         let points: Vec<_> = (0..QUERIES)
             .map(|k| ShadingPoint {
                 p: [0; 3].map(|_| random.between(-30.0, 30.0)),
                 n: if k % 3 == 0 { [0.0; 3] } else { random.direction() },
             })
             .collect();
-        let sampled = held.compare::<I, P>(&bvh, &points, random).into_iter();
-        seen.extend(sampled.map(|(own, sample)| (own, bvh.triangle(sample.light, sample.instance))));
+        for (held, every) in mirrors.iter_mut().zip([1, 3]) {
+            if frame % every == 0 {
+                let sampled = held.compare::<I, P>(&bvh, &points, random).into_iter();
+                seen.extend(sampled.map(|(own, sample)| (own, bvh.triangle(sample.light, sample.instance))));
+            }
+        }
     }
     seen
 }
 
-/// Trees in one level and in two, as built and refitted to other lights.
+/// Trees in one level and in two, as built and refitted to other lights; one mirror meets all of them.
 fn built<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(device: &Device, kernels: KernelSet) {
     let random = &mut Random::new(31);
+    let mut held = Held::new(device, kernels);
     let points: Vec<_> = trees::points().into_iter().cycle().take(1000).collect();
     for (lights, params) in [
         (trees::lights(), BuildParams::default()),
@@ -263,7 +279,7 @@ fn built<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(device: &Dev
     ] {
         let later = moved(&lights, 31);
         for build in [Bvh::<N, (), W>::single_level, Bvh::two_level] as [fn(&Lights, &BuildParams) -> _; 2] {
-            let (mut held, mut bvh) = (Held::new(device, kernels), build(&lights, &params));
+            let mut bvh = build(&lights, &params);
             held.compare::<I, ShadingPoint>(&bvh, &points, random);
             bvh.follow(&later).expect("as many lights");
             held.compare::<I, ShadingPoint>(&bvh, &points, random);
@@ -280,8 +296,12 @@ fn triangles_by_moments() {
 }
 
 #[test]
-fn triangles_by_eq_4() {
-    on_exact(|device| {
+fn triangles_by_eq_4_through_staging_buffers() {
+    let options = Options {
+        force_staging: true,
+        ..Options::default()
+    };
+    on_exact_by(options, |device| {
         frames::<PaperNode, Eq4, ShadingPoint, 4>(device, EQ4);
         built::<PaperNode, Eq4, 4>(device, EQ4);
     });

@@ -1,12 +1,12 @@
-//! Node layouts against f64: what a slot decodes to contains what was put into it, and its neighbours stay as they are.
+//! Node layouts against f64: what a slot decodes to contains what was put into it. That neighbours stay as they are, and no flux is
+//! lost, the fuzz targets `trees` and `edits` find.
 
 use glam::Vec3;
 use lightbvh::bounds::MIN_PHI;
 use lightbvh::cone::{Cone, normalized};
 use lightbvh::node::kind;
-use lightbvh::{BoundsNode, CompactNode, Instance, LightBounds, LightNode, Summary, exact};
-use lightbvh_tests::each_node;
-use lightbvh_tests::generate::{self, Random, any_bounds, extreme_triangle};
+use lightbvh::{BoundsNode, CompactNode, LightBounds, exact};
+use lightbvh_tests::generate::{Random, any_bounds};
 use lightbvh_tests::oracle::{assert_cone_contains, box_contains, half_angle};
 use rayon::prelude::*;
 
@@ -84,89 +84,6 @@ fn encodings() {
             encoding_is_outward::<CompactNode<16>, 16>(&bounds, random.below(16) as usize);
         }
     });
-}
-
-/// Kinds and links are kept apart from summaries, and from each other; what is said of a child does not touch the others.
-fn children_keep_to_their_slots<N: LightNode<W>, const W: usize>() {
-    let mut random = Random::new(W as u32);
-    let mut node = N::EMPTY;
-    let words = |node: &N, slot: usize| node.summary(slot).to_words().map(f32::to_bits);
-    for round in 0..64 {
-        for slot in 0..W {
-            let before = node;
-            let to = [kind::EMPTY, kind::INNER, kind::LIGHT, kind::MESH][(round + slot) % 4];
-            let link = if round.is_multiple_of(3) {
-                u32::MAX
-            } else {
-                random.bits()
-            };
-            node.set_child(slot, to, link);
-            assert_eq!((node.kind(slot), node.link(slot)), (to, link));
-            assert_eq!(node.summary(slot).phi(), 0.0, "set anew, it has no summary");
-            node.relink(slot, !link);
-            assert_eq!((node.kind(slot), node.link(slot)), (to, !link));
-            for other in (0..W).filter(|&other| other != slot) {
-                assert_eq!(
-                    (node.kind(other), node.link(other)),
-                    (before.kind(other), before.link(other))
-                );
-                assert_eq!(words(&node, other), words(&before, other));
-            }
-        }
-        let before = node;
-        node.set_summaries(&std::array::from_fn(|_| {
-            N::Summary::of_triangle(&extreme_triangle(&mut random))
-        }));
-        for slot in 0..W {
-            assert_eq!(
-                (node.kind(slot), node.link(slot)),
-                (before.kind(slot), before.link(slot))
-            );
-        }
-    }
-}
-
-#[test]
-fn kinds_and_links() {
-    each_node!(children_keep_to_their_slots());
-}
-
-/// Flux that is not zero never becomes zero on its way into a node, up its parents and into the world.
-fn flux_is_kept<N: LightNode<W>, const W: usize>() {
-    let mut random = Random::new(W as u32);
-    for _ in 0..2000 {
-        let children: [N::Summary; W] =
-            std::array::from_fn(|_| N::Summary::of_triangle(&extreme_triangle(&mut random)));
-        let mut node = N::EMPTY;
-        for slot in 0..W {
-            node.set_child(slot, kind::LIGHT, 0);
-        }
-        node.set_summaries(&children);
-        let mut any = false;
-        for (slot, child) in children.iter().enumerate() {
-            assert_eq!(node.summary(slot).phi() > 0.0, child.phi() > 0.0, "{child:?}");
-            any |= child.phi() > 0.0;
-        }
-        let all = node.merged();
-        assert_eq!(all.phi() > 0.0, any, "{children:?}");
-        let flux = generate::log_uniform(&mut random, -100, 99);
-        for flux in [flux, exact::pow2(-100), exact::pow2(100), 0.0] {
-            let instance = Instance {
-                flux,
-                ..Instance::IDENTITY
-            };
-            let world = all.to_world::<lightbvh::EmissiveTriangle>(&instance).phi();
-            assert_eq!(world > 0.0, any && flux > 0.0, "{all:?} times {flux}");
-            assert!(world == 0.0 || (MIN_PHI..=exact::pow2(126)).contains(&world));
-        }
-        let words = all.to_words();
-        assert_eq!(N::Summary::from_words(&words), all);
-    }
-}
-
-#[test]
-fn flux_stays_flux() {
-    each_node!(flux_is_kept());
 }
 
 /// A quantiser's hardest inputs: what a code stands for, and its neighbours.

@@ -1,8 +1,8 @@
-//! The arithmetic over all its inputs, by the checks of the fuzz target `exact`: all significands, all pairs of structured numbers, and a
+//! The arithmetic over all its inputs: all significands, all pairs of structured numbers, and a
 //! share of all 2^32 words; on demand all of them.
 
 use lightbvh::exact::{hash, rsqrt};
-use lightbvh_fuzz::exact::{floors, flushed, integers, order, parts, quotient, reciprocals, root};
+use lightbvh_tests::arithmetic::{floors, flushed, integers, order, parts, quotient, reciprocals, root};
 use rayon::prelude::*;
 
 const FRACTION: u32 = 0x007f_ffff;

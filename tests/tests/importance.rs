@@ -3,12 +3,12 @@
 use glam::Vec3;
 use lightbvh::node::kind;
 use lightbvh::{
-    BuildParams, Bvh, EmissiveTriangle, ImportanceModel, LightNode, Lights, ShadingPoint, Summary, exact,
+    BuildParams, EmissiveTriangle, ImportanceModel, LightNode, Lights, ShadingPoint, Summary, exact,
 };
 use lightbvh_tests::each_layout;
 use lightbvh_tests::generate::{self, Random, extreme_triangle, log_uniform};
-use lightbvh_tests::oracle::{Triangle, all_pmfs};
-use proptest::prelude::*;
+use lightbvh_tests::oracle::{Triangle, all_pmfs, built};
+use rayon::prelude::*;
 
 /// A point where it is hard to say whether `light` arrives: in its plane, just before or behind it, on it, within its
 /// box, just above the horizon of a surface, far away.
@@ -89,16 +89,16 @@ fn weights_are_sound<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     }
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 128, failure_persistence: None, ..ProptestConfig::default() })]
-
-    /// Lights of any kind, at the ends of the domain, and of one size beside each other, so that boxes and cones are not degenerate.
-    #[test]
-    fn positive_wherever_there_is_flux(seed: u32) {
+/// Lights of any kind, at the ends of the domain, and of one size beside each other, so that boxes and cones are not degenerate.
+#[test]
+fn positive_wherever_there_is_flux() {
+    (0..128).into_par_iter().for_each(|seed| {
         let random = &mut Random::new(seed);
         let scale = exact::pow2(random.below(60) as i32 - 30);
         for round in 0..128 {
-            let mut lights: Vec<_> = (0..1 + random.below(4)).map(|_| extreme_triangle(random)).collect();
+            let mut lights: Vec<_> = (0..1 + random.below(4))
+                .map(|_| extreme_triangle(random))
+                .collect();
             if round % 4 == 0 {
                 lights[0].radiance = [exact::pow2(100 - 200 * random.below(2) as i32); 3];
             }
@@ -108,28 +108,56 @@ proptest! {
                 point.p = [0; 3].map(|_| [0.0, far, -far, exact::pow2(-100)][random.below(4) as usize]);
             }
             each_layout!(weights_are_sound(&lights, &point));
-            let lights: Vec<_> = generate::small_triangles(4, 4, 4.0, 1.0, random.below(2) == 0, random.bits())
-                .into_iter()
-                .map(|t| EmissiveTriangle { p: t.p.map(|v| v.map(|x| x * scale)), ..t })
-                .collect();
+            let lights: Vec<_> =
+                generate::small_triangles(4, 4, 4.0, 1.0, random.below(2) == 0, random.bits())
+                    .into_iter()
+                    .map(|t| EmissiveTriangle {
+                        p: t.p.map(|v| v.map(|x| x * scale)),
+                        ..t
+                    })
+                    .collect();
             let point = adversarial_point(random, &lights[0]);
             each_layout!(weights_are_sound(&lights, &point));
         }
-    }
+    });
+}
 
-    /// Lengths and flux times powers of two: not one bit of a pmf changes while everything stays within the domain.
-    #[test]
-    fn scales_do_not_matter(lights in generate::lights(60), seed: u32, metres in -12..=12i32, watts in -20..=10i32) {
+/// Lights in meshes of any size, some flat, some on a plane or without area, some dark, with flux over many orders.
+fn lights(random: &mut Random) -> Vec<EmissiveTriangle> {
+    let (count, per_mesh, flat) = (1 + random.below(60), 1 + random.below(9), random.below(3) == 0);
+    let mut all = generate::small_triangles(count, per_mesh, 10.0, 1.0, random.below(2) == 0, random.bits());
+    for triangle in &mut all {
+        match random.below(6) {
+            0 => triangle.p = [triangle.p[0]; 3],
+            1 => triangle.radiance = [0.0; 3],
+            2 => triangle.radiance = [exact::pow2(random.below(80) as i32 - 40); 3],
+            3 => triangle.flags = EmissiveTriangle::TWO_SIDED,
+            _ => {}
+        }
+        if flat {
+            triangle.p.iter_mut().for_each(|v| v[1] = 0.0);
+        }
+    }
+    all
+}
+
+/// Lengths and flux times powers of two: not one bit of a pmf changes while everything stays within the domain.
+#[test]
+fn scales_do_not_matter() {
+    (0..128).into_par_iter().for_each(|seed| {
         let random = &mut Random::new(seed);
+        let (metres, watts) = (random.below(25) as i32 - 12, random.below(31) as i32 - 20);
         let (length, flux) = (exact::pow2(metres), exact::pow2(watts));
-        let scaled = lights.triangles().iter().map(|t| EmissiveTriangle {
+        let triangles = lights(random);
+        let scaled = triangles.iter().map(|t| EmissiveTriangle {
             p: t.p.map(|v| v.map(|x| x * length)),
             radiance: t.radiance.map(|x| x * flux),
             ..*t
         });
         let scaled = Lights::new(scaled.collect()).expect("within the domain");
+        let lights = Lights::new(triangles).expect("within the domain");
         each_layout!(same_pmfs(&lights, &scaled, length, random));
-    }
+    });
 }
 
 fn same_pmfs<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
@@ -138,18 +166,8 @@ fn same_pmfs<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     length: f32,
     random: &mut Random,
 ) {
-    let params = BuildParams::default();
-    let (a, b) = if random.below(2) == 0 {
-        (
-            Bvh::<N, (), W>::two_level(lights, &params),
-            Bvh::<N, (), W>::two_level(scaled, &params),
-        )
-    } else {
-        (
-            Bvh::<N, (), W>::single_level(lights, &params),
-            Bvh::<N, (), W>::single_level(scaled, &params),
-        )
-    };
+    let two = random.below(2) == 0;
+    let [a, b] = [lights, scaled].map(|lights| built::<N, W>(lights, &BuildParams::default(), two));
     for _ in 0..4 {
         let point = generate::point(random, 10.0);
         let far = ShadingPoint {

@@ -1,11 +1,11 @@
-//! Instances under any affine map: bounds in the world, and points in the mesh's space. That no light is lost is the fuzz target
-//! `edits`.
+//! Instances under any affine map: bounds in the world, and points in the mesh's space. Normals and cones are in core's own tests;
+//! that no light is lost is the fuzz target `edits`.
 
-use glam::{DMat3, DVec3};
+use glam::DMat3;
 use lightbvh::exact::pow2;
 use lightbvh::{Bvh, CompactNode, Instance, LightBounds, ShadingPoint, Summary, Transform};
 use lightbvh_tests::generate::{self, Random};
-use lightbvh_tests::oracle::{angle, half_angle, vector};
+use lightbvh_tests::oracle::vector;
 use lightbvh_tests::placing::{self, Kind};
 
 /// A map of `kind`, scaled by up to 2^±`exponent`.
@@ -60,22 +60,6 @@ fn points_come_back() {
             off <= size * 2f64.powi(-21),
             "{off} of {size}: {transform:?} {p:?}"
         );
-
-        // The horizon goes with the point: heights above it are those above the local one, times one factor.
-        let normal = vector(local.n);
-        assert!((normal.length() - 1.0).abs() < 1.0 / 256.0, "{local:?}");
-        let height = |to: DVec3| vector(n).dot(forward * to);
-        let factor = height(normal) / normal.length_squared();
-        for _ in 0..4 {
-            let to = vector(random.direction());
-            let off = height(to) - factor * normal.dot(to);
-            assert!(
-                off.abs() <= norm(&forward) * 2f64.powi(-18),
-                "{} and {}: {transform:?}",
-                height(to),
-                factor * normal.dot(to)
-            );
-        }
     }
 }
 
@@ -109,8 +93,7 @@ fn normals_that_are_lost() {
     }
 }
 
-/// Bounds in the world hold what is there, within the rounding of the map; a similarity turns the cone with the normals, and the
-/// flux is that of the lights there.
+/// Bounds in the world hold what is there, within the rounding of the map, and under a similarity the flux is that of the lights there.
 #[test]
 fn bounds_in_the_world() {
     let random = &mut Random::new(5);
@@ -137,12 +120,6 @@ fn bounds_in_the_world() {
             let [a, b, c] = local.p.map(vector);
             let forward = matrix(&transform.columns);
             let normal = (forward * (b - a)).cross(forward * (c - a));
-            let normal = if instance.mirrored == 1 { -normal } else { normal };
-            let off = angle(bounds.axis.as_dvec3(), normal) - half_angle(bounds.cos_theta_o);
-            assert!(
-                off <= 1e-3,
-                "the normal of {world:?} is {off} rad out of {bounds:?}"
-            );
             let area = 0.5 * normal.length();
             let ratio = area / (0.5 * (b - a).cross(c - a).length());
             let found = f64::from(bounds.phi) / f64::from(known.phi);

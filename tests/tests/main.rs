@@ -14,7 +14,6 @@ mod instance;
 mod instanced;
 mod kinds_render;
 mod known_words;
-mod light_identity;
 mod messages;
 mod methods;
 mod metrics;

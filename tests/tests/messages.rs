@@ -162,15 +162,9 @@ fn files() {
     says(&read(&|words| words[0] = 7), &["0x00000007", "to_words"]);
     says(&read(&|words| words.clear()), &["0 words", "expected", "damaged"]);
     says(&read(&|words| words.push(0)), &["words", "cut or damaged"]);
-    let error = Bvh::<CompactNode<4>, (), 4>::from_words(&words).expect_err("another layout");
-    says(&error, &["another layout", "as what was written"]);
     says(
         &read(&|words| words[1] = 9),
         &["format 9, expected", "build the light BVH anew"],
-    );
-    says(
-        &read(&|words| words[4] = 16),
-        &["nodes of 16 children, expected 8"],
     );
     says(
         &read(&|words| words[5] = 99),
@@ -189,20 +183,7 @@ fn files() {
 }
 
 #[test]
-fn violations() {
-    let lights = Lights::new(vec![LAMP; 4]).expect("lights");
-    let bvh = lightbvh::LightBvh::single_level(&lights, &lightbvh::BuildParams::default());
-    let broken = |change: fn(&mut [u32])| {
-        let mut bvh = bvh.clone();
-        change(bvh.parts_mut().trails);
-        bvh.validate().expect_err("broken")
-    };
-    let text = broken(|trails| trails[3] = 7).to_string();
-    assert!(
-        text.starts_with("node 0, slot ") && text.ends_with(", found 7"),
-        "{text}"
-    );
-    assert!(text.contains("low trail word: expected "), "{text}");
+fn panics() {
     let message = String::from("out of luck");
     says(
         &RebuildError::Panicked { message },

@@ -53,7 +53,10 @@ pub fn hang(data: &mut SceneData) {
         data.analytic.push(AnalyticLight {
             name: String::from("measured"),
             node: data.nodes.len() as u32 - 1,
-            kind: AnalyticKind::profile(index, &data.profiles[index as usize]),
+            kind: AnalyticKind::Profile {
+                profile: index,
+                sent: data.profiles[index as usize].sent,
+            },
             color: [1.0, 0.7, 0.5],
             intensity: 0.6,
             range: None,
@@ -78,7 +81,10 @@ fn floors_get_what_the_table_says() {
         data.analytic.push(AnalyticLight {
             name: String::from("measured"),
             node: data.nodes.len() as u32 - 1,
-            kind: AnalyticKind::profile(0, &data.profiles[0]),
+            kind: AnalyticKind::Profile {
+                profile: 0,
+                sent: data.profiles[0].sent,
+            },
             color: [1.0, 0.5, 0.25],
             intensity: 2.0,
             range: None,

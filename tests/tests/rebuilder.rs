@@ -1,21 +1,73 @@
 //! Builds in the background by nodes that can be held up or made to panic: nothing is lost when the worker is slow, panics, or is
 //! dropped. That trees do not depend on its speed is in core's own tests.
 
-use std::sync::mpsc;
+use std::sync::{Mutex, MutexGuard, PoisonError, mpsc};
 use std::thread;
 use std::time::Duration;
 
+use bytemuck::{Pod, Zeroable};
+use lightbvh::bounds::LightBounds;
 use lightbvh::bvh::Swap;
-use lightbvh::{Bvh, Edit, MeshId, RebuildError, Rebuilder, RebuilderParams};
+use lightbvh::node::Holds;
+use lightbvh::summary::Lanes;
+use lightbvh::{
+    Bvh, CompactNode, Edit, EmissiveTriangle, MeshId, Node, RebuildError, Rebuilder, RebuilderParams,
+};
 use lightbvh_tests::generate::{self, Random};
 use lightbvh_tests::placing::{self, Kind};
-use lightbvh_tests::slowed::{self, Pace, Slowed};
-
-type Tree<const TEST: usize> = Bvh<Slowed<TEST>, (), 4>;
 
 const REACH: f32 = 20.0;
 
-fn rebuilder<const TEST: usize>(swap: Swap) -> Rebuilder<Slowed<TEST>, 4> {
+/// The worker passes it for each child: it waits while a test holds it, and panics if it is true.
+static GATE: Mutex<bool> = Mutex::new(false);
+/// The tests share the gate, so only one runs at a time.
+static SERIAL: Mutex<()> = Mutex::new(());
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A [`CompactNode`] of width 4 whose building on the rebuilder's thread the gate governs.
+#[repr(transparent)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+struct Gated(CompactNode<4>);
+
+impl Holds for Gated {
+    type Light = EmissiveTriangle;
+}
+
+impl Node<4> for Gated {
+    type Summary = LightBounds;
+
+    const EMPTY: Self = Self(<CompactNode<4> as Node<4>>::EMPTY);
+    const NAME: &'static str = "gated";
+
+    fn kind(&self, slot: usize) -> u32 {
+        self.0.kind(slot)
+    }
+    fn link(&self, slot: usize) -> u32 {
+        self.0.link(slot)
+    }
+    fn summary(&self, slot: usize) -> LightBounds {
+        self.0.summary(slot)
+    }
+    fn set_child(&mut self, slot: usize, kind: u32, link: u32) {
+        if thread::current().name() == Some("lightbvh-rebuild") {
+            assert!(!*lock(&GATE), "told to panic");
+        }
+        self.0.set_child(slot, kind, link);
+    }
+    fn relink(&mut self, slot: usize, link: u32) {
+        self.0.relink(slot, link);
+    }
+    fn set_lanes(&mut self, summaries: &Lanes<4>) {
+        self.0.set_lanes(summaries);
+    }
+}
+
+type Tree = Bvh<Gated, (), 4>;
+
+fn rebuilder(swap: Swap) -> Rebuilder<Gated, 4> {
     Rebuilder::new(RebuilderParams {
         after: 1,
         swap,
@@ -25,9 +77,9 @@ fn rebuilder<const TEST: usize>(swap: Swap) -> Rebuilder<Slowed<TEST>, 4> {
 }
 
 /// A scene of 30 instances of a mesh, refitted.
-fn town<const TEST: usize>(seed: u32) -> (Tree<TEST>, MeshId) {
+fn town(seed: u32) -> (Tree, MeshId) {
     let random = &mut Random::new(seed);
-    let mut scene = Tree::<TEST>::default();
+    let mut scene = Tree::default();
     let triangles = generate::small_triangles(40, 40, 2.0, 0.2, false, seed);
     let mesh = scene.add_mesh(triangles).expect("a mesh");
     let add = (0..30).map(|_| Edit::AddInstance {
@@ -41,7 +93,7 @@ fn town<const TEST: usize>(seed: u32) -> (Tree<TEST>, MeshId) {
 }
 
 /// Moves, adds and removes instances: alike in equal scenes.
-fn edit<const TEST: usize>(seed: u32, scene: &mut Tree<TEST>) {
+fn edit(seed: u32, scene: &mut Tree) {
     let random = &mut Random::new(seed);
     let all = 0..scene.instances().len() as u32;
     let ids: Vec<_> = all.filter_map(|k| scene.instance_id(k)).collect();
@@ -61,14 +113,14 @@ fn edit<const TEST: usize>(seed: u32, scene: &mut Tree<TEST>) {
 }
 
 /// The words of the scene with rebuilt trees.
-fn rebuilt<const TEST: usize>(scene: &Tree<TEST>) -> Vec<u32> {
+fn rebuilt(scene: &Tree) -> Vec<u32> {
     let mut scene = scene.clone();
     scene.rebuild();
     scene.to_words()
 }
 
 /// Runs frames without edits until nothing is left to build.
-fn converge<const TEST: usize>(rebuilder: &mut Rebuilder<Slowed<TEST>, 4>, scene: &mut Tree<TEST>) {
+fn converge(rebuilder: &mut Rebuilder<Gated, 4>, scene: &mut Tree) {
     loop {
         rebuilder.end_frame(scene);
         if !rebuilder.is_busy() {
@@ -82,14 +134,12 @@ fn converge<const TEST: usize>(rebuilder: &mut Rebuilder<Slowed<TEST>, 4>, scene
 
 #[test]
 fn edits_during_a_build_lose_nothing_and_wait_for_nothing() {
-    const TEST: usize = 0;
-    slowed::spare();
-    let ((mut scene, _), (mut twin, _)) = (town::<TEST>(20), town::<TEST>(20));
+    let _alone = lock(&SERIAL);
+    let ((mut scene, _), (mut twin, _)) = (town(20), town(20));
     let mut rebuilder = rebuilder(Swap::WhenReady);
-    slowed::set::<TEST>(Pace::Held);
     rebuilder.begin_frame(&mut scene).expect("nothing is due");
+    let held = lock(&GATE);
     rebuilder.end_frame(&scene);
-    slowed::wait_until_held::<TEST>();
     for frame in 0..20 {
         // The worker is held: if a call waited for it, the test would stop here.
         let start = rebuilder.begin_frame(&mut scene).expect("no panic");
@@ -98,7 +148,7 @@ fn edits_during_a_build_lose_nothing_and_wait_for_nothing() {
         edit(frame, &mut twin);
         rebuilder.end_frame(&scene);
     }
-    slowed::set::<TEST>(Pace::Full);
+    drop(held);
     let built = loop {
         let start = rebuilder.begin_frame(&mut scene).expect("no panic");
         if start.swapped {
@@ -111,16 +161,13 @@ fn edits_during_a_build_lose_nothing_and_wait_for_nothing() {
     converge(&mut rebuilder, &mut scene);
     assert_eq!(scene.world_lights(), twin.world_lights());
     assert!(scene.to_words() == rebuilt(&scene));
-    fn sends<T: Send + 'static>(_: T) {}
-    sends(rebuilder);
 }
 
 #[test]
 fn a_panic_is_reported_once_and_the_next_build_is_sound() {
-    const TEST: usize = 1;
+    let _alone = lock(&SERIAL);
     for swap in [Swap::Deterministic, Swap::WhenReady] {
-        slowed::spare();
-        let (mut scene, mesh) = town::<TEST>(30);
+        let (mut scene, mesh) = town(30);
         let mut rebuilder = rebuilder(swap);
         // Builds of the top level and of the mesh, in turn.
         for _ in 0..4 {
@@ -129,7 +176,7 @@ fn a_panic_is_reported_once_and_the_next_build_is_sound() {
             scene.set_triangles(mesh, triangles).expect("as many");
             scene.refit();
             let before = scene.to_words();
-            slowed::set::<TEST>(Pace::Panic);
+            *lock(&GATE) = true;
             rebuilder.end_frame(&scene);
             let error = loop {
                 match rebuilder.begin_frame(&mut scene) {
@@ -147,40 +194,31 @@ fn a_panic_is_reported_once_and_the_next_build_is_sound() {
             scene.refit();
             assert!(scene.to_words() == before, "the trees are as they were");
         }
-        slowed::set::<TEST>(Pace::Full);
+        *lock(&GATE) = false;
         converge(&mut rebuilder, &mut scene);
         assert!(scene.to_words() == rebuilt(&scene));
         scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
     }
 }
 
+/// Never used; idle after a build; in the middle of one.
 #[test]
 fn dropped_while_it_builds_it_ends() {
-    const TEST: usize = 2;
+    let _alone = lock(&SERIAL);
+    let (mut scene, _) = town(40);
+    let [unused, mut idle, mut busy] = [(); 3].map(|()| rebuilder(Swap::Deterministic));
+    idle.end_frame(&scene);
+    idle.begin_frame(&mut scene).expect("no panic");
+    let held = lock(&GATE);
+    busy.end_frame(&scene);
     let (done, ended) = mpsc::channel();
-    let dropping = thread::spawn(move || {
-        slowed::spare();
-        let (mut scene, _) = town::<TEST>(40);
-        // Never used; idle after a build; in the middle of one.
-        drop(rebuilder::<TEST>(Swap::WhenReady));
-        let mut idle = rebuilder(Swap::Deterministic);
-        idle.end_frame(&scene);
-        idle.begin_frame(&mut scene).expect("no panic");
-        drop(idle);
-        let mut busy = rebuilder(Swap::Deterministic);
-        slowed::set::<TEST>(Pace::Held);
-        busy.end_frame(&scene);
-        slowed::wait_until_held::<TEST>();
-        let release = thread::spawn(|| {
-            thread::sleep(Duration::from_millis(30));
-            slowed::set::<TEST>(Pace::Full);
-        });
-        drop(busy);
-        release.join().expect("released");
+    thread::spawn(move || {
+        drop((unused, idle, busy));
         done.send(()).expect("someone listens");
     });
+    thread::sleep(Duration::from_millis(30));
+    drop(held);
     ended
         .recv_timeout(Duration::from_secs(60))
         .expect("dropping ends");
-    dropping.join().expect("no panic");
 }

@@ -5,7 +5,7 @@ use lightbvh_host::render::power_thresholds;
 use lightbvh_host::scene::SceneLight;
 use lightbvh_kernels::shading::pick::{MAX_PICKABLE, PickLight, Power, Uniform};
 use lightbvh_kernels::shading::trace::NONE;
-use lightbvh_tests::generate::{Random, point, small_triangles};
+use lightbvh_tests::generate::Random;
 use lightbvh_tests::soup::in_cube;
 
 const ANYWHERE: ShadingPoint = ShadingPoint {
@@ -20,8 +20,9 @@ const LAMP: EmissiveTriangle = EmissiveTriangle {
     flags: 0,
 };
 
-/// The lights that all 2^24 distinct random numbers lead to, each with its pmf, in order.
-fn every_choice(picker: &impl PickLight) -> Vec<(u32, u32, f32)> {
+/// The lights that all 2^24 distinct random numbers lead to, each with its pmf, in order. The pmf picked with is the pmf evaluated,
+/// and what is no light has none.
+fn every_choice(picker: &impl PickLight, count: u32) -> Vec<(u32, u32, f32)> {
     let mut runs: Vec<(u32, u32, f32)> = Vec::new();
     for random in 0..1_u32 << 24 {
         let picked = picker.pick(&ANYWHERE, Random64::from((random << 8) | (random & 0xff)));
@@ -33,13 +34,19 @@ fn every_choice(picker: &impl PickLight) -> Vec<(u32, u32, f32)> {
             _ => runs.push((picked.light, 1, picked.pmf)),
         }
     }
+    for &(light, _, pmf) in &runs {
+        assert_eq!(picker.pmf(&ANYWHERE, light, 0).to_bits(), pmf.to_bits());
+    }
+    for beyond in [count, count + 1, MAX_PICKABLE, NONE] {
+        assert_eq!(picker.pmf(&ANYWHERE, beyond, 0), 0.0, "{beyond} is no light");
+    }
     runs
 }
 
 #[test]
 fn uniform_pmfs_are_the_exact_frequencies() {
     for count in [1, 2, 3, 7, 1000, 65_537, 1 << 20] {
-        let choices = every_choice(&Uniform { count });
+        let choices = every_choice(&Uniform { count }, count);
         assert_eq!(choices.len(), count as usize);
         let least = MAX_PICKABLE / count;
         for (index, &(light, chances, pmf)) in choices.iter().enumerate() {
@@ -82,9 +89,10 @@ fn many_lights(count: usize) -> Vec<EmissiveTriangle> {
 fn power_pmfs_are_the_exact_frequencies_and_sum_to_one() {
     let lights = many_lights(10_000);
     let thresholds = power_thresholds(&lights).unwrap();
-    let choices = every_choice(&Power {
+    let power = Power {
         thresholds: &thresholds,
-    });
+    };
+    let choices = every_choice(&power, lights.len() as u32);
     let emitters: Vec<usize> = (0..lights.len())
         .filter(|&i| SceneLight::flux(&lights[i]) > 0.0)
         .collect();
@@ -125,49 +133,4 @@ fn power_tables_at_the_edges() {
     ] {
         assert_eq!(pick(&hostile, 0x1234_5678).light, NONE, "{hostile:?}");
     }
-}
-
-/// What a picker returns and what it says about each light are one distribution: the pmfs sum to one, the pmf picked
-/// with is the pmf evaluated, and what is no light has none.
-fn pmf_is_of_the_pick(what: &str, picker: &impl PickLight, lights: &[EmissiveTriangle]) {
-    let mut random = Random::new(7);
-    let count = lights.len() as u32;
-    for _ in 0..64 {
-        let point = point(&mut random, 10.0);
-        let pmfs: Vec<f32> = (0..count)
-            .map(|i| picker.pmf(&point, i, lights[i as usize].mesh))
-            .collect();
-        let sum: f64 = pmfs.iter().map(|&p| f64::from(p)).sum();
-        let reachable = pmfs.iter().any(|&p| p > 0.0);
-        assert!(!reachable || sum == 1.0, "{what}: {sum} at {point:?}");
-        for _ in 0..256 {
-            let picked = picker.pick(&point, random.bits().into());
-            assert_eq!(picked.light == NONE, !reachable, "{what} at {point:?}");
-            if reachable {
-                let evaluated = pmfs[picked.light as usize];
-                assert_eq!(picked.pmf.to_bits(), evaluated.to_bits(), "{what} at {point:?}");
-            }
-        }
-        for beyond in [count, count + 1, MAX_PICKABLE, NONE] {
-            assert_eq!(
-                picker.pmf(&point, beyond, 0),
-                0.0,
-                "{what}: no light has number {beyond}"
-            );
-        }
-    }
-}
-
-#[test]
-fn evaluated_pmfs_are_those_of_the_pick() {
-    let triangles = small_triangles(300, 12, 10.0, 0.5, true, 3);
-    for count in [1, 2, 3, 7, 300] {
-        pmf_is_of_the_pick("uniform", &Uniform { count }, &triangles[..count as usize]);
-    }
-    let uneven = many_lights(400);
-    let thresholds = power_thresholds(&uneven).unwrap();
-    let power = Power {
-        thresholds: &thresholds,
-    };
-    pmf_is_of_the_pick("power", &power, &uneven);
 }

@@ -81,9 +81,8 @@ impl Dispatch {
             if buffer.memory.shared.id != shared.id {
                 return Err(foreign(format!("buffer {binding} of kernel `{}`", kernel.name)));
             }
-            let given = buffer.element_bytes;
-            let stride = declared.map(|declared| declared.stride);
-            if let Some(expected) = stride.filter(|stride| *stride as usize != given) {
+            let (given, expected) = (buffer.element_bytes, declared.stride);
+            if expected as usize != given {
                 return Err(bad(format!(
                     "buffer {binding} has elements of {given} bytes, not {expected}"
                 )));

@@ -12,8 +12,7 @@
 
 mod selection;
 
-use self::selection::{Selection, index, phis, predecessors, rename};
-pub(crate) use self::selection::{id_at, label};
+use self::selection::{Selection, id_at, index, label, phis, predecessors, rename};
 use rspirv::dr::{Block, Function, Instruction, Module, Operand};
 use rspirv::spirv::Op;
 use std::collections::{HashMap, HashSet};
@@ -112,7 +111,7 @@ fn drop_empty_arms(function: &mut Function) {
 
 /// `if c { A } else { B }` becomes `if c { A }` and `if c {} else { B }`.
 fn split_arms(function: &mut Function, ids: &mut Ids) {
-    let mut at = index(function);
+    let at = index(function);
     let mut before = predecessors(function);
     let headers: Vec<u32> = function.blocks.iter().map(label).collect();
     let mut between: HashMap<u32, Block> = HashMap::new();
@@ -183,7 +182,6 @@ fn split_arms(function: &mut Function, ids: &mut Ids) {
         function.blocks.push(block);
         function.blocks.extend(middle);
     }
-    at.clear();
 }
 
 /// The arms that `from`, which leads to the merge block, lies in; none when only the merge block itself leads there, and

@@ -3,10 +3,11 @@
 use crate::Error;
 use crate::decorate::decorate;
 use crate::files::{self, cannot};
-use crate::manifest::{self, FORMAT, Manifest, ModuleRecord};
+use crate::manifest::{Manifest, ModuleRecord};
 use crate::names::buffer_names;
 use crate::sources::{self, ALWAYS};
 use crate::verify::verify;
+use lightbvh_gpu::spirv::words;
 use spirv_builder::{Capability, CompileResult, ModuleResult, SpirvBuilder};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
@@ -66,7 +67,6 @@ pub fn compile(root: &Path) -> Result<Built, Error> {
         .map(|(record, words)| (record.clone(), (record.file, words)))
         .unzip();
     let manifest = Manifest {
-        format: FORMAT,
         source_sha256: sources::hash(root, &source_files)?,
         source_files,
         compiler,
@@ -89,7 +89,7 @@ pub fn compile_crate(path: &Path, out: &Path) -> Result<Vec<(ModuleRecord, Vec<u
     let compiled = modules(prebuilt()?, &path, &target, &path, &named.to_string_lossy())?;
     std::fs::create_dir_all(out).map_err(cannot("create", out))?;
     for (record, words) in &compiled.modules {
-        files::replace(&out.join(&record.file), &files::bytes(words))?;
+        files::write(&out.join(&record.file), &files::bytes(words))?;
     }
     Ok(compiled.modules)
 }
@@ -125,8 +125,7 @@ fn modules(
     let mut modules = Vec::new();
     for (entry_point, path) in &raw {
         let file = format!("{entry_point}.spv");
-        // What is not whole words is no module.
-        let words = files::words(&files::read(path)?).unwrap_or_default();
+        let words = words(&files::read(path)?);
         let words = decorate(&words).map_err(|error| Error(format!("{file}: {error}")))?;
         verify(&file, &words)?;
         let buffers = names.remove(entry_point).unwrap_or_default();
@@ -134,14 +133,6 @@ fn modules(
     }
     let raw = any.clone();
     Ok(Compiled { modules, raw })
-}
-
-/// Writes what [`compile`] made.
-///
-/// # Errors
-/// Names the file that could not be written.
-pub fn install(root: &Path, built: &Built) -> Result<(), Error> {
-    manifest::write(root, &built.manifest, &built.modules)
 }
 
 fn run(
@@ -170,7 +161,7 @@ fn run(
 
 /// The names of buffers by entry point, from what the compiler left in `file`.
 fn names(file: &Path) -> Result<BTreeMap<String, Vec<String>>, Error> {
-    let words = files::words(&files::read(file)?).unwrap_or_default();
+    let words = words(&files::read(file)?);
     buffer_names(&words).map_err(|error| Error(format!("{}: {error}", file.display())))
 }
 

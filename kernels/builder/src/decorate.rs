@@ -10,7 +10,7 @@ use crate::branches::one_armed;
 use crate::{Error, load};
 use rspirv::binary::Assemble;
 use rspirv::dr::{Instruction, Module, Operand};
-use rspirv::spirv::{Capability, Decoration, ExecutionMode, Op};
+use rspirv::spirv::{Capability, Decoration, Op};
 use std::collections::HashSet;
 
 /// Returns the module with `NoContraction` on the result of every float operation, without debug information (it
@@ -113,16 +113,9 @@ fn strip_debug(module: &mut Module) {
     }
 }
 
-/// Drops the capability `SignedZeroInfNanPreserve` unless an execution mode needs it. The build declares it only
-/// because `spirv-opt` leaves float algebra alone in a module that has it.
+/// Drops the capability `SignedZeroInfNanPreserve`. The build declares it only because `spirv-opt` leaves float algebra alone in a
+/// module that has it.
 fn strip_brake(module: &mut Module) {
-    let mode = Operand::ExecutionMode(ExecutionMode::SignedZeroInfNanPreserve);
-    if !module
-        .execution_modes
-        .iter()
-        .any(|inst| inst.operands.contains(&mode))
-    {
-        let brake = Operand::Capability(Capability::SignedZeroInfNanPreserve);
-        module.capabilities.retain(|inst| !inst.operands.contains(&brake));
-    }
+    let brake = Operand::Capability(Capability::SignedZeroInfNanPreserve);
+    module.capabilities.retain(|inst| !inst.operands.contains(&brake));
 }

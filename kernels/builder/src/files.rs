@@ -1,4 +1,4 @@
-//! Files of words, written whole or not at all.
+//! Files, and errors that name them.
 
 use std::path::Path;
 use std::{fs, io};
@@ -18,29 +18,12 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Error> {
     fs::read(path).map_err(cannot("read", path))
 }
 
-/// Replaces a file: writes a temporary beside it, then renames, so that no reader sees half of it.
+/// Writes a file.
 ///
 /// # Errors
-/// Names the file when it cannot be written; the old one is then untouched.
-pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.tmp", std::process::id()));
-    let temporary = path.with_file_name(name);
-    fs::write(&temporary, bytes)
-        .and_then(|()| fs::rename(&temporary, path))
-        .inspect_err(|_| {
-            // Best effort: the error that matters is the first one.
-            let _ = fs::remove_file(&temporary);
-        })
-        .map_err(cannot("write", path))
-}
-
-/// SPIR-V words from the bytes of a file (little endian), or `None` when the length is no multiple of four.
-#[must_use]
-pub fn words(bytes: &[u8]) -> Option<Vec<u32>> {
-    let (words, rest) = bytes.as_chunks::<4>();
-    rest.is_empty()
-        .then(|| words.iter().map(|word| u32::from_le_bytes(*word)).collect())
+/// Names the file when it cannot be written.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    fs::write(path, bytes).map_err(cannot("write", path))
 }
 
 /// The bytes of a file of SPIR-V words (little endian).

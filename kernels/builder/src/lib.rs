@@ -4,9 +4,8 @@
 //! 1. [`decorate`] forbids contraction and re-association of every float operation, strips what is not needed, takes
 //!    empty arms out of branches,
 //! 2. [`verify`] refuses whatever Vulkan does not define to the bit on every device,
-//! 3. [`reflect`] reads the interface that the host must offer, to which [`names`] gives the names of the parameters,
-//! 4. [`manifest`] records sources, compiler and hashes beside the committed modules,
-//! 5. [`table`] writes them all down as constants of the package `lightbvh-gpu`.
+//! 3. [`manifest`] records sources, compiler, hashes and the parameters' [`names`] next to the committed modules,
+//! 4. [`table`] writes them all down as constants of the package `lightbvh-gpu`.
 //!
 //! This library is everything but the compiler, so the tests hold the committed modules to the same rules without
 //! it. The compiler itself is behind the features `prebuilt-backend` and `upstream` (`kernels/README.md`).
@@ -18,7 +17,6 @@ pub mod decorate;
 pub mod files;
 pub mod manifest;
 pub mod names;
-pub mod reflect;
 pub mod sources;
 pub mod table;
 pub mod verify;

@@ -1,13 +1,10 @@
 //! `kernels/gpu/spirv/manifest.json`: where the committed modules come from, and what they are.
 
 use crate::files::{self, cannot};
-use crate::reflect::{KernelInterface, reflect};
 use crate::{Error, sources, table};
+use lightbvh_gpu::spirv::{Interface, words};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-
-/// Version of the manifest's format.
-pub const FORMAT: u32 = 2;
 
 /// Directory of the manifest and of the tree's modules, below the repository's root.
 pub const DIRECTORY: &str = "kernels/gpu/spirv";
@@ -32,8 +29,6 @@ const REBUILD: &str = "run build-kernels (kernels/README.md) and commit what it 
 /// The committed modules and their origin.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// [`FORMAT`].
-    pub format: u32,
     /// SHA-256 over the sources and the dependencies of the kernels ([`sources::hash`]).
     pub source_sha256: String,
     /// The files that the hash covers, relative to the root, sorted.
@@ -55,8 +50,6 @@ pub struct ModuleRecord {
     pub file: String,
     /// Names of the buffers, by binding.
     pub buffers: Vec<String>,
-    /// Length in 32-bit words.
-    pub words: usize,
     /// SHA-256 of the file.
     pub sha256: String,
 }
@@ -68,7 +61,6 @@ impl ModuleRecord {
         Self {
             file,
             buffers,
-            words: words.len(),
             sha256: sources::hash_bytes(&files::bytes(words)),
         }
     }
@@ -76,14 +68,17 @@ impl ModuleRecord {
     /// What the module takes; `words` are its own.
     ///
     /// # Errors
-    /// When its interface is not one that the host offers.
-    pub fn interface(&self, words: &[u32]) -> Result<KernelInterface, Error> {
-        let interface = reflect(words, &self.buffers);
+    /// When its interface is not one that the host offers, or the names are not those of its buffers.
+    pub fn interface(&self, words: &[u32]) -> Result<Interface, Error> {
+        let interface = Interface::read(words);
         let interface = interface.map_err(|error| Error(format!("{}: {error}", self.file)))?;
-        match self.file.strip_suffix(".spv") {
-            Some(name) if name == interface.entry_point => Ok(interface),
-            _ => Err(self.wrong("entry point")),
+        if self.file.strip_suffix(".spv") != Some(&*interface.entry_point) {
+            return Err(self.wrong("entry point"));
         }
+        if self.buffers.len() != interface.buffers.len() {
+            return Err(self.wrong("names of buffers"));
+        }
+        Ok(interface)
     }
 
     fn wrong(&self, what: &str) -> Error {
@@ -100,14 +95,8 @@ impl ModuleRecord {
 /// When there is none, or none that this program understands.
 pub fn read(root: &Path) -> Result<Manifest, Error> {
     let path = root.join(DIRECTORY).join(FILE);
-    let manifest: Manifest = serde_json::from_slice(&files::read(&path)?)
-        .map_err(|error| Error(format!("{}: not a manifest: {error}; {REBUILD}", path.display())))?;
-    match manifest.format {
-        FORMAT => Ok(manifest),
-        found => Err(Error(format!(
-            "manifest format {found}, this program knows {FORMAT}; {REBUILD}"
-        ))),
-    }
+    serde_json::from_slice(&files::read(&path)?)
+        .map_err(|error| Error(format!("{}: not a manifest: {error}; {REBUILD}", path.display())))
 }
 
 /// Reads the words of a recorded module.
@@ -115,8 +104,11 @@ pub fn read(root: &Path) -> Result<Manifest, Error> {
 /// # Errors
 /// When the file cannot be read or is not whole words.
 pub fn read_module(root: &Path, record: &ModuleRecord) -> Result<Vec<u32>, Error> {
-    let bytes = files::read(&root.join(folder(&record.file)).join(&record.file))?;
-    files::words(&bytes).ok_or_else(|| record.wrong("not whole words"))
+    let bytes = files::read(&root.join(place(&record.file)))?;
+    match bytes.len() % 4 {
+        0 => Ok(words(&bytes)),
+        _ => Err(record.wrong("not whole words")),
+    }
 }
 
 /// Checks, without a compiler, that the committed modules are those of the sources beside them, and the table that of the modules.
@@ -138,7 +130,7 @@ pub fn check(root: &Path) -> Result<Manifest, Error> {
         if ModuleRecord::new(record.file.clone(), &words, record.buffers.clone()) != *record {
             return Err(record.wrong("hash"));
         }
-        interfaces.push(record.interface(&words)?);
+        interfaces.push((record, record.interface(&words)?));
     }
     for (file, text) in tables(&interfaces) {
         if files::read(&root.join(file))? != text.as_bytes() {
@@ -170,10 +162,15 @@ pub fn place(file: &str) -> String {
 }
 
 /// The files of the tables, below the root, and their texts.
-fn tables(kernels: &[KernelInterface]) -> [(&'static str, String); 2] {
+fn tables(kernels: &[(&ModuleRecord, Interface)]) -> [(&'static str, String); 2] {
     FOLDERS.map(|(directory, file, gpu)| {
-        let own = |kernel: &&KernelInterface| folder(&kernel.entry_point) == directory;
-        (file, table::render(gpu, kernels.iter().filter(own)))
+        let own = kernels
+            .iter()
+            .filter(|(record, _)| folder(&record.file) == directory);
+        (
+            file,
+            table::render(gpu, own.map(|(record, own)| (&*record.buffers, own))),
+        )
     })
 }
 
@@ -183,8 +180,8 @@ fn tables(kernels: &[KernelInterface]) -> [(&'static str, String); 2] {
 /// Names the file that could not be written, or the module whose interface is not one that the host offers.
 pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -> Result<(), Error> {
     let interfaces = manifest.modules.iter().zip(modules);
-    let interfaces: Result<Vec<_>, _> = interfaces
-        .map(|(record, (_, words))| record.interface(words))
+    let interfaces: Result<Vec<_>, Error> = interfaces
+        .map(|(record, (_, words))| Ok((record, record.interface(words)?)))
         .collect();
     let tables = tables(&interfaces?);
     for (directory, ..) in FOLDERS {
@@ -192,7 +189,7 @@ pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -
         std::fs::create_dir_all(&directory).map_err(cannot("create", &directory))?;
     }
     for (file, words) in modules {
-        files::replace(&root.join(place(file)), &files::bytes(words))?;
+        files::write(&root.join(place(file)), &files::bytes(words))?;
     }
     for file in module_files(root)? {
         if modules.iter().all(|(kept, _)| place(kept) != file) {
@@ -201,13 +198,13 @@ pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -
         }
     }
     for (file, text) in tables {
-        files::replace(&root.join(file), text.as_bytes())?;
+        files::write(&root.join(file), text.as_bytes())?;
     }
     let path = root.join(DIRECTORY).join(FILE);
     let mut json = serde_json::to_string_pretty(manifest)
         .map_err(|error| Error(format!("{}: {error}", path.display())))?;
     json.push('\n');
-    files::replace(&path, json.as_bytes())
+    files::write(&path, json.as_bytes())
 }
 
 /// The `.spv` files that are there, below the root, sorted.

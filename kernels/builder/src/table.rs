@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::reflect::KernelInterface;
+use lightbvh_gpu::spirv::Interface;
 
 const HEAD: &str = "\
 //! Compiled kernels. Written by `build-kernels` from the modules in `spirv`; edits are lost.
@@ -11,13 +11,13 @@ const HEAD: &str = "\
 CRATE::kernels! {
 ";
 
-/// The table of `kernels`, each from the module of its name, in their order, for a crate that knows `lightbvh-gpu` as `gpu`.
+/// The table of `kernels`, each with the names of its buffers, in their order, for a crate that knows `lightbvh-gpu` as `gpu`.
 #[must_use]
-pub fn render<'a>(gpu: &str, kernels: impl IntoIterator<Item = &'a KernelInterface>) -> String {
+pub fn render<'a>(gpu: &str, kernels: impl IntoIterator<Item = (&'a [String], &'a Interface)>) -> String {
     let mut text = HEAD.replace("CRATE", gpu);
-    for kernel in kernels {
+    for (names, kernel) in kernels {
         let name = &kernel.entry_point;
-        let buffers: Vec<String> = (kernel.buffers.iter().enumerate())
+        let buffers: Vec<String> = (names.iter().zip(&kernel.buffers).enumerate())
             .map(|(binding, (name, buffer))| {
                 format!("{binding} {name} {:?} {}", buffer.access, buffer.stride)
             })

@@ -6,7 +6,6 @@
 //! products are correctly rounded, comparisons and moves are exact, division has 2.5 ULP, and so on.
 
 mod permitted;
-mod search;
 
 use crate::decorate::{float_operations, float_types, uncontracted};
 use crate::{Error, load};
@@ -57,58 +56,51 @@ impl Findings {
 
 /// Capabilities, extensions, memory model, entry points and execution modes.
 fn preamble(module: &Module, findings: &mut Findings) {
-    for inst in &module.capabilities {
-        if !matches!(inst.operands.first(), Some(Operand::Capability(c)) if vulkan_everywhere(*c)) {
-            let remedy = "use 32-bit integers and floats in storage buffers only";
-            findings.refuse(
-                inst,
-                "not a capability that every Vulkan 1.2 device for this project has",
-                remedy,
-            );
+    let mut all = |list: &[Instruction], is_fine: &dyn Fn(&Instruction) -> bool, rule, remedy| {
+        for inst in list.iter().filter(|inst| !is_fine(inst)) {
+            findings.refuse(inst, rule, remedy);
         }
-    }
-    for inst in &module.extensions {
-        findings.refuse(
-            inst,
-            "extensions are not part of the widest set",
-            "avoid what asks for it",
-        );
-    }
-    for inst in &module.ext_inst_imports {
-        if inst.operands != [Operand::LiteralString("GLSL.std.450".to_owned())] {
-            findings.refuse(
-                inst,
-                "the only known instruction set is GLSL.std.450",
-                "strip debug instructions",
-            );
-        }
-    }
+    };
+    all(
+        &module.capabilities,
+        &|inst| matches!(inst.operands.first(), Some(Operand::Capability(own)) if vulkan_everywhere(*own)),
+        "not a capability that every Vulkan 1.2 device for this project has",
+        "use 32-bit integers and floats in storage buffers only",
+    );
+    all(
+        &module.extensions,
+        &|_| false,
+        "extensions are not part of the widest set",
+        "avoid what asks for it",
+    );
+    all(
+        &module.ext_inst_imports,
+        &|inst| inst.operands == [Operand::LiteralString("GLSL.std.450".to_owned())],
+        "the only known instruction set is GLSL.std.450",
+        "strip debug instructions",
+    );
     let vulkan = [
         Operand::AddressingModel(AddressingModel::Logical),
         Operand::MemoryModel(MemoryModel::Vulkan),
     ];
-    for inst in module.memory_model.iter().filter(|inst| inst.operands != vulkan) {
-        findings.refuse(
-            inst,
-            "the memory model must be Logical Vulkan",
-            "build for spirv-unknown-vulkan1.2",
-        );
-    }
-    for inst in &module.entry_points {
-        if inst.operands.first() != Some(&Operand::ExecutionModel(ExecutionModel::GLCompute)) {
-            findings.refuse(
-                inst,
-                "not a compute kernel",
-                "write #[spirv(compute(threads(64)))]",
-            );
-        }
-    }
-    for inst in &module.execution_modes {
-        if inst.operands.get(1) != Some(&Operand::ExecutionMode(ExecutionMode::LocalSize)) {
-            let remedy = "remove it from #[spirv(compute(..))]; the host may add modes that a device reports";
-            findings.refuse(inst, "an execution mode that some devices lack", remedy);
-        }
-    }
+    all(
+        module.memory_model.as_slice(),
+        &|inst| inst.operands == vulkan,
+        "the memory model must be Logical Vulkan",
+        "build for spirv-unknown-vulkan1.2",
+    );
+    all(
+        &module.entry_points,
+        &|inst| inst.operands.first() == Some(&Operand::ExecutionModel(ExecutionModel::GLCompute)),
+        "not a compute kernel",
+        "write #[spirv(compute(threads(64)))]",
+    );
+    all(
+        &module.execution_modes,
+        &|inst| inst.operands.get(1) == Some(&Operand::ExecutionMode(ExecutionMode::LocalSize)),
+        "an execution mode that some devices lack",
+        "remove it from #[spirv(compute(..))]; the host may add modes that a device reports",
+    );
 }
 
 fn types_and_constants(module: &Module, findings: &mut Findings) {
@@ -171,9 +163,6 @@ fn bodies(module: &Module, findings: &mut Findings) {
         .filter_map(|inst| inst.result_id)
         .collect();
     let holders = holders_of_pointers(module);
-    for function in &module.functions {
-        search::searches(function, findings);
-    }
     for inst in module
         .functions
         .iter()

@@ -1,12 +1,18 @@
 //! Moving lights on the engine's own Vulkan device: twenty frames, every word compared with the CPU.
 //!
-//! `cargo run --release -p lightbvh-gpu --example embed_ash`
+//! `cargo run --release -p lightbvh-gpu --example embed_ash [-- target/embed_shader/direct.spv]`
+//!
+//! The argument is the module of a compute shader of one's own, which then lights points with the same arrays: the crate
+//! `kernels/examples/embed_shader` says how it is built.
 //!
 //! The folder `common` is the engine: it opens the device, owns buffers and pipelines, and knows nothing of lights. This file
 //! is what an engine adds for lightbvh. Each frame it copies what the edits changed, dispatches the refit, and samples.
 
 #[path = "common/mod.rs"]
 mod common;
+/// What the shader computes, as the shader's crate has it.
+#[path = "common/direct.rs"]
+mod direct;
 
 use std::process::ExitCode;
 use std::rc::Rc;
@@ -19,12 +25,18 @@ use common::gpu::Gpu;
 use common::pipeline::Pipeline;
 use common::words::compare;
 use common::world::{World, points};
+use direct::direct_light;
 use lightbvh::node::DefaultNode;
-use lightbvh::{LightBvh, Random64, SampledLight};
+use lightbvh::{LightBvh, Random64, SampledLight, ShadingPoint};
+use lightbvh_gpu::spirv;
 use lightbvh_gpu::{Buffer as Array, Frame, MOMENTS, Mirror, Pass, Query, query_push, self_test};
 
 const FRAMES: u16 = 20;
 const QUERIES: u32 = 10_000;
+/// Bindings of the shader of one's own, in the order of its parameters; how many points it lights, by how many samples each.
+const BINDINGS: [&str; 6] = ["nodes", "instances", "trails", "triangles", "points", "results"];
+const POINTS: u32 = 4096;
+const SAMPLES: u32 = 16;
 
 /// What an engine keeps for the lights of one scene.
 struct DeviceLights {
@@ -63,7 +75,7 @@ impl DeviceLights {
     /// Updates the device to the light BVH, and samples there.
     fn frame(&mut self, bvh: &LightBvh, queries: &[Query]) -> Result<Results> {
         let frame = self.mirror.frame(bvh);
-        let outgrown = self.grow(&frame)?;
+        self.grow(&frame)?;
         // The bytes of all copies, one after another.
         let staging: Vec<u8> = frame
             .copies
@@ -97,10 +109,7 @@ impl DeviceLights {
         let push = query_push(queries.len() as u32, frame.words);
         let gpu = &self.gpu;
         gpu.run(|commands| {
-            for (array, old) in &outgrown {
-                let new = &self.arrays[*array as usize];
-                old.copy_to(commands, 0, new, 0, old.bytes.min(new.bytes));
-            }
+            // After the frame before, and the growth.
             gpu.barrier(commands);
             // One command for each array, of as many regions as there are.
             for (array, regions) in frame.regions(0) {
@@ -133,18 +142,41 @@ impl DeviceLights {
         })
     }
 
-    /// Makes larger what became too small. What it held is still to be copied, so the old buffers are returned.
-    fn grow(&mut self, frame: &Frame) -> Result<Vec<(Array, Buffer)>> {
-        let mut outgrown = Vec::new();
+    /// Makes larger what became too small, and copies what it held.
+    fn grow(&mut self, frame: &Frame) -> Result<()> {
         for &(array, bytes) in &frame.resizes {
             let held = &mut self.arrays[array as usize];
             if bytes > held.bytes {
                 // Half as much again: most frames then need no new buffer.
                 let new = Buffer::storage(&self.gpu, bytes + bytes / 8 * 4)?;
-                outgrown.push((array, std::mem::replace(held, new)));
+                self.gpu
+                    .run(|commands| held.copy_to(commands, 0, &new, 0, held.bytes))?;
+                *held = new;
             }
         }
-        Ok(outgrown)
+        Ok(())
+    }
+
+    /// Lights points by a shader of one's own.
+    fn light(&self, bvh: &LightBvh, module: &[u32], points: &[ShadingPoint]) -> Result<Vec<u8>> {
+        let shader = Pipeline::new(&self.gpu, module, BINDINGS)?;
+        let asked = Buffer::staged(&self.gpu, cast_slice(points))?;
+        let results = Buffer::storage(&self.gpu, size_of::<[f32; 3]>() as u64 * points.len() as u64)?;
+        let back = Buffer::staging(&self.gpu, results.bytes)?;
+        shader.bind(|name| match (Array::named(name), name) {
+            (Some(array), _) => &self.arrays[array as usize],
+            (None, "points") => &asked,
+            (None, _) => &results,
+        });
+        let mut push = vec![points.len() as u32, SAMPLES];
+        push.extend(bytemuck::cast::<_, [u32; 9]>(self.mirror.words(bvh)));
+        self.gpu.run(|commands| {
+            shader.dispatch(commands, &push, points.len() as u32);
+            self.gpu.barrier(commands);
+            results.copy_to(commands, 0, &back, 0, results.bytes);
+            self.gpu.barrier(commands);
+        })?;
+        back.read()
     }
 
     fn refit(&self, wanted: Pass) -> &Pipeline {
@@ -153,11 +185,10 @@ impl DeviceLights {
     }
 }
 
-/// A pipeline of a kernel: all that Vulkan wants to know stands beside its module.
+/// A pipeline of a kernel, whose bindings have names.
 fn kernel(gpu: &Rc<Gpu>, kernel: &lightbvh_gpu::Kernel) -> Result<Pipeline> {
     let names = kernel.bindings.iter().map(|binding| binding.name);
-    let (push, width) = (kernel.push_constants, kernel.workgroup[0]);
-    Pipeline::new(gpu, &kernel.words(), kernel.name, names, push, width)
+    Pipeline::new(gpu, &kernel.words(), names)
 }
 
 /// Does the device calculate exactly? An engine asks once for each device and driver.
@@ -176,8 +207,8 @@ fn check(gpu: &Rc<Gpu>) -> Result<()> {
     Ok(self_test::defect(&back.read()?).map_or(Ok(()), Err)?)
 }
 
-/// Runs all frames on one device. Returns how many words were compared.
-fn run(gpu: &Rc<Gpu>) -> Result<u64> {
+/// Runs all frames on one device, then a shader of one's own. Returns how many words were compared.
+fn run(gpu: &Rc<Gpu>, shader: Option<&[u32]>) -> Result<u64> {
     check(gpu)?;
     let mut world = World::new()?;
     let mut lights = DeviceLights::new(gpu)?;
@@ -204,21 +235,34 @@ fn run(gpu: &Rc<Gpu>) -> Result<u64> {
         )?;
         words += compare("sample", &samples, &device.samples)?;
     }
+    if let Some(module) = shader {
+        let (points, _): (Vec<_>, Vec<_>) = points(0, POINTS).into_iter().unzip();
+        let (tree, triangles) = (world.bvh.tree(), world.bvh.triangles());
+        let cpu: Vec<[f32; 3]> = (0..)
+            .zip(&points)
+            .map(|(seed, point)| direct_light(&tree, triangles, point, SAMPLES, seed))
+            .collect();
+        words += compare("point", &cpu, &lights.light(&world.bvh, module, &points)?)?;
+    }
     Ok(words)
 }
 
+/// On each device; `shader` is the file of a module.
+fn on_all(shader: Option<String>) -> Result<()> {
+    let bytes = shader.map(|path| std::fs::read(&path).map_err(|error| format!("{path}: {error}")));
+    let module = bytes.transpose()?.map(|bytes| spirv::words(&bytes));
+    for gpu in Gpu::all()? {
+        let words = run(&gpu, module.as_deref()).map_err(|error| format!("{}: {error}", gpu.name))?;
+        println!(
+            "{}: {FRAMES} frames, {words} words compared, none different",
+            gpu.name
+        );
+    }
+    Ok(())
+}
+
 fn main() -> ExitCode {
-    let done = Gpu::all().and_then(|gpus| {
-        for gpu in gpus {
-            let words = run(&gpu).map_err(|error| format!("{}: {error}", gpu.name))?;
-            println!(
-                "{}: {FRAMES} frames, {words} words compared, none different",
-                gpu.name
-            );
-        }
-        Ok(())
-    });
-    match done {
+    match on_all(std::env::args().nth(1)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("embed_ash: {error}");
@@ -232,6 +276,6 @@ fn main() -> ExitCode {
 fn every_word_agrees() {
     match Gpu::all() {
         Err(error) if std::env::var_os("LIGHTBVH_REQUIRE_VULKAN").is_none() => println!("skipped: {error}"),
-        _ => assert_eq!(main(), ExitCode::SUCCESS),
+        _ => on_all(None).expect("equal words"),
     }
 }

@@ -60,16 +60,3 @@ impl Buffer {
         bytes as u32
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn buffers_are_found_by_name() {
-        for buffer in Buffer::ALL {
-            assert_eq!(Buffer::named(buffer.name()), Some(buffer));
-        }
-        assert_eq!(Buffer::named("results"), None);
-    }
-}

@@ -5,9 +5,6 @@ pub use crate::frame::Region;
 
 pub use crate::memory_model::without_vulkan_memory_model;
 
-/// Major and minor version of Vulkan: the modules are SPIR-V 1.5.
-pub const VULKAN: (u32, u32) = (1, 2);
-
 /// Device features to be enabled, by their names in Vulkan's structures; `vulkanMemoryModel` stands in
 /// `VkPhysicalDeviceVulkan12Features`.
 pub const REQUIRED_FEATURES: &[&str] = &["vulkanMemoryModel"];
@@ -16,37 +13,15 @@ pub const REQUIRED_FEATURES: &[&str] = &["vulkanMemoryModel"];
 /// over a light BVH (refit, sample, pmf) take 5 at most.
 pub const STORAGE_BUFFERS: u32 = 6;
 
-/// Bytes of push constants that the greediest kernel takes at most: what every device has (`maxPushConstantsSize`).
-pub const PUSH_CONSTANTS: u32 = 128;
-
 #[cfg(all(test, feature = "kernels"))]
 mod tests {
     use super::*;
     use crate::KERNELS;
-    use crate::spirv::words::{instructions, op};
 
-    /// `Shader`, which every Vulkan device has, and `VulkanMemoryModel`.
-    const CAPABILITIES: [u32; 2] = [1, 5345];
-
+    /// Capabilities and push constants are the verifier's matter.
     #[test]
-    fn no_kernel_needs_more() {
+    fn no_kernel_takes_more_buffers() {
         let most = KERNELS.iter().map(|kernel| kernel.bindings.len()).max();
         assert_eq!(most, Some(STORAGE_BUFFERS as usize));
-        for kernel in KERNELS {
-            assert!(kernel.push_constants <= PUSH_CONSTANTS, "{}", kernel.name);
-            let words = kernel.words();
-            let list = instructions(&words).expect(kernel.name);
-            let asked = list
-                .iter()
-                .filter(|instruction| instruction.opcode == op::CAPABILITY);
-            for capability in asked {
-                let number = capability.operand(0).expect(kernel.name);
-                assert!(
-                    CAPABILITIES.contains(&number),
-                    "{}: capability {number}",
-                    kernel.name
-                );
-            }
-        }
     }
 }

@@ -56,14 +56,3 @@ impl FloatEnvironment {
         *self == Self::default()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    // Other modes are set in the tests of lightbvh-host: to set one takes unsafe code.
-    #[test]
-    fn a_thread_begins_with_the_default() {
-        assert!(FloatEnvironment::current().is_default());
-    }
-}

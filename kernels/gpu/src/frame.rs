@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use bytemuck::cast_slice;
-use lightbvh::bvh::{Cursor, RefitPlan};
+use lightbvh::bvh::Cursor;
 use lightbvh::node::Node;
 use lightbvh::{Bvh, TreeWords};
 
@@ -27,76 +27,39 @@ pub struct Frame {
     pub words: TreeWords,
 }
 
-/// An array of a light BVH. Some share a buffer of the device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Array {
-    Nodes,
-    Top,
-    Triangles,
-    Instances,
-    Roots,
-    Trails,
-    Above,
-    Places,
-    Parts,
-}
+/// The device's buffer of each array of a light BVH.
+const BUFFERS: [Buffer; 9] = [
+    Buffer::Nodes,
+    Buffer::Nodes,
+    Buffer::Triangles,
+    Buffer::Instances,
+    Buffer::Roots,
+    Buffer::Trails,
+    Buffer::Trails,
+    Buffer::Trails,
+    Buffer::Trails,
+];
+/// Places in [`BUFFERS`] of the nodes of the top level, the trails, and the links of the top level.
+const TOP: usize = 1;
+const TRAILS: usize = 5;
+const ABOVE: usize = 6;
+const PLACES: usize = 7;
+const PARTS: usize = 8;
 
-impl Array {
-    const ALL: [Self; 9] = [
-        Self::Nodes,
-        Self::Top,
-        Self::Triangles,
-        Self::Instances,
-        Self::Roots,
-        Self::Trails,
-        Self::Above,
-        Self::Places,
-        Self::Parts,
-    ];
-
-    fn buffer(self) -> Buffer {
-        match self {
-            Self::Nodes | Self::Top => Buffer::Nodes,
-            Self::Triangles => Buffer::Triangles,
-            Self::Instances => Buffer::Instances,
-            Self::Roots => Buffer::Roots,
-            Self::Trails | Self::Above | Self::Places | Self::Parts => Buffer::Trails,
-        }
-    }
-
-    fn bytes<N: Node<W>, I, const W: usize>(self, bvh: &Bvh<N, I, W>) -> &[u8] {
-        let tree = bvh.tree();
-        match self {
-            Self::Nodes => cast_slice(bvh.nodes()),
-            Self::Top => cast_slice(bvh.top_nodes()),
-            Self::Triangles => cast_slice(bvh.triangles()),
-            Self::Instances => cast_slice(tree.instances),
-            Self::Roots => cast_slice(bvh.roots()),
-            Self::Trails => cast_slice(tree.trails),
-            Self::Above => cast_slice(tree.links.above),
-            Self::Places => cast_slice(tree.links.places),
-            Self::Parts => cast_slice(tree.links.parts),
-        }
-    }
-
-    /// The elements that `plan` says are written.
-    fn written(self, plan: &RefitPlan) -> &[Range<u32>] {
-        match self {
-            Self::Nodes => &plan.written_nodes,
-            Self::Top => &plan.written_top,
-            Self::Triangles => &plan.written_triangles,
-            Self::Instances => &plan.written_instances,
-            Self::Roots => &[],
-            Self::Trails => &plan.written_trails,
-            Self::Above => &plan.written_above,
-            Self::Places => &plan.written_places,
-            Self::Parts => &plan.written_parts,
-        }
-    }
-
-    fn is_of_top(self) -> bool {
-        matches!(self, Self::Top | Self::Above | Self::Places | Self::Parts)
-    }
+/// The arrays, in the order of [`BUFFERS`].
+fn arrays<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> [&[u8]; BUFFERS.len()] {
+    let tree = bvh.tree();
+    [
+        cast_slice(bvh.nodes()),
+        cast_slice(bvh.top_nodes()),
+        cast_slice(bvh.triangles()),
+        cast_slice(tree.instances),
+        cast_slice(bvh.roots()),
+        cast_slice(tree.trails),
+        cast_slice(tree.links.above),
+        cast_slice(tree.links.places),
+        cast_slice(tree.links.parts),
+    ]
 }
 
 /// A copy from the light BVH to the device's buffer.
@@ -106,7 +69,8 @@ pub struct Copy {
     pub buffer: Buffer,
     /// Range in the buffer, bytes, of whole elements; not empty. Ranges of one buffer do not overlap.
     pub bytes: Range<u64>,
-    array: Array,
+    /// Place of the array in [`BUFFERS`].
+    array: usize,
     /// First byte in the array.
     from: u64,
 }
@@ -119,7 +83,7 @@ impl Copy {
     #[must_use]
     pub fn source<'a, N: Node<W>, I, const W: usize>(&self, bvh: &'a Bvh<N, I, W>) -> &'a [u8] {
         let length = self.bytes.end - self.bytes.start;
-        &self.array.bytes(bvh)[self.from as usize..(self.from + length) as usize]
+        &arrays(bvh)[self.array][self.from as usize..(self.from + length) as usize]
     }
 }
 
@@ -190,8 +154,8 @@ impl Frame {
 pub struct Mirror {
     cursor: Cursor,
     /// By array, bytes: what the device holds of it, and how much room it has.
-    held: [u64; Array::ALL.len()],
-    room: [u64; Array::ALL.len()],
+    held: [u64; BUFFERS.len()],
+    room: [u64; BUFFERS.len()],
     trail_words: u32,
 }
 
@@ -214,35 +178,40 @@ impl Mirror {
             let all = bvh.plan_of_everything();
             (plan.bottom, plan.roots, plan.top) = (all.bottom, all.roots, all.top);
         }
+        let roots: Vec<_> = plan.roots.iter().map(|&root| root..root + 1).collect();
+        let written: [&[Range<u32>]; BUFFERS.len()] = [
+            &plan.written_nodes,
+            &plan.written_top,
+            &plan.written_triangles,
+            &plan.written_instances,
+            &roots,
+            &plan.written_trails,
+            &plan.written_above,
+            &plan.written_places,
+            &plan.written_parts,
+        ];
         let mut copies = Vec::new();
-        for (k, array) in Array::ALL.into_iter().enumerate() {
-            let (bytes, buffer) = (array.bytes(bvh).len() as u64, array.buffer());
-            let stride = match array {
-                Array::Trails => 4 * u64::from(trail_words),
+        for (k, (own, written)) in arrays(bvh).into_iter().zip(written).enumerate() {
+            let (bytes, buffer) = (own.len() as u64, BUFFERS[k]);
+            let stride = match k {
+                TRAILS => 4 * u64::from(trail_words),
                 _ => u64::from(buffer.stride::<N>()),
             };
             let is_all = plan.everything
                 || is_moved(buffer)
-                || (plan.whole_top && array.is_of_top())
-                || (array == Array::Trails && trail_words != self.trail_words);
-            let roots;
-            let written = if array == Array::Roots {
-                roots = plan.roots.iter().map(|&root| root..root + 1).collect::<Vec<_>>();
-                &roots
-            } else {
-                array.written(&plan)
-            };
+                || (plan.whole_top && [TOP, ABOVE, PLACES, PARTS].contains(&k))
+                || (k == TRAILS && trail_words != self.trail_words);
             let written = written
                 .iter()
                 .map(|range| stride * u64::from(range.start)..stride * u64::from(range.end));
             // Elements by which an array grows are new too.
             let grown = if is_all { 0 } else { self.held[k].min(bytes) }..bytes;
             let ranges = written.chain(core::iter::once(grown)).collect();
-            let start = self.start(array);
+            let start = self.start(k);
             copies.extend(joined(ranges, bytes).into_iter().map(|range| Copy {
                 buffer,
                 bytes: start + range.start..start + range.end,
-                array,
+                array: k,
                 from: range.start,
             }));
             self.held[k] = bytes;
@@ -261,7 +230,7 @@ impl Mirror {
     #[must_use]
     pub fn words<N: Node<W>, I, const W: usize>(&self, bvh: &Bvh<N, I, W>) -> TreeWords {
         let tree = bvh.tree();
-        let word = |array: Array| (self.start(array) / 4) as u32;
+        let word = |array: usize| (self.start(array) / 4) as u32;
         TreeWords {
             root: tree.root,
             trail_words: tree.trail_words,
@@ -269,42 +238,37 @@ impl Mirror {
             lights: tree.lights,
             depth: tree.depth,
             top: if bvh.is_single_level() { 0 } else { self.top::<N>() },
-            above: word(Array::Above),
-            places: word(Array::Places),
-            parts: word(Array::Parts),
+            above: word(ABOVE),
+            places: word(PLACES),
+            parts: word(PARTS),
         }
     }
 
     /// Index in the device's buffer of the first node of the top level.
     #[must_use]
     pub fn top<N: lightbvh::node::Holds>(&self) -> u32 {
-        (self.start(Array::Top) / u64::from(Buffer::Nodes.stride::<N>())) as u32
+        (self.start(TOP) / u64::from(Buffer::Nodes.stride::<N>())) as u32
     }
 
     /// Offset of an array in its buffer, bytes.
-    fn start(&self, array: Array) -> u64 {
-        let before = Array::ALL.into_iter().zip(self.room);
-        before
-            .take_while(|(other, _)| *other != array)
-            .filter(|(other, _)| other.buffer() == array.buffer())
-            .map(|(_, room)| room)
-            .sum()
+    fn start(&self, array: usize) -> u64 {
+        let before = BUFFERS.iter().zip(self.room).take(array);
+        let own = before.filter(|(buffer, _)| **buffer == BUFFERS[array]);
+        own.map(|(_, room)| room).sum()
     }
 
     /// Reserves capacity for every array; returns the buffers that need another size.
     fn make_room<N: Node<W>, I, const W: usize>(&mut self, bvh: &Bvh<N, I, W>) -> Vec<(Buffer, u64)> {
-        let size = |room: &[u64; Array::ALL.len()], buffer: Buffer| -> u64 {
-            let own = Array::ALL.into_iter().zip(room);
-            own.filter(|(array, _)| array.buffer() == buffer)
-                .map(|(_, room)| room)
-                .sum()
+        let size = |room: &[u64; BUFFERS.len()], buffer: Buffer| -> u64 {
+            let own = BUFFERS.iter().zip(room).filter(|(own, _)| **own == buffer);
+            own.map(|(_, room)| room).sum()
         };
         let before = self.room;
-        for (room, array) in self.room.iter_mut().zip(Array::ALL) {
-            let now = array.bytes(bvh).len() as u64;
-            let shares = matches!(array.buffer(), Buffer::Nodes | Buffer::Trails);
+        for ((room, array), buffer) in self.room.iter_mut().zip(arrays(bvh)).zip(BUFFERS) {
+            let now = array.len() as u64;
+            let shares = matches!(buffer, Buffer::Nodes | Buffer::Trails);
             if now > *room {
-                let stride = u64::from(array.buffer().stride::<N>());
+                let stride = u64::from(buffer.stride::<N>());
                 // An array that grows will grow again, and arrays behind it are copied then.
                 let more = if *room > 0 && shares { now / stride / 2 } else { 0 };
                 *room = now + more * stride;
@@ -333,4 +297,4 @@ fn joined(mut ranges: Vec<Range<u64>>, end: u64) -> Vec<Range<u64>> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -1,6 +1,7 @@
 //! A compiled kernel and what it takes.
 
 pub use crate::dispatch::{ROW_GROUPS, groups};
+pub use crate::spirv::Access;
 
 use alloc::vec::Vec;
 
@@ -61,17 +62,6 @@ macro_rules! kernels {
     };
 }
 
-/// What a kernel does with the elements of a buffer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Access {
-    /// It reads them, or none.
-    Read,
-    /// It writes them, and what they were does not matter.
-    Write,
-    /// It reads and writes them.
-    ReadWrite,
-}
-
 impl Kernel {
     /// The kernel of that name.
     #[cfg(feature = "kernels")]
@@ -105,51 +95,5 @@ impl Kernel {
     #[must_use]
     pub fn groups(&self, invocations: u32) -> Option<[u32; 3]> {
         groups(invocations, self.workgroup[0])
-    }
-}
-
-#[cfg(all(test, feature = "kernels"))]
-mod tests {
-    use alloc::vec::Vec;
-
-    use crate::spirv::Interface;
-    use crate::{KERNELS, Kernel};
-
-    #[test]
-    fn the_table_is_what_the_modules_declare() {
-        for kernel in KERNELS {
-            assert_eq!(kernel.bytes.len() % 4, 0, "{}", kernel.name);
-            let read = Interface::read(&kernel.words()).expect(kernel.name);
-            assert_eq!(read.entry_point, kernel.name);
-            assert_eq!(read.workgroup, kernel.workgroup, "{}", kernel.name);
-            assert_eq!(read.push_constants, kernel.push_constants, "{}", kernel.name);
-            let declared: Vec<_> = read
-                .buffers
-                .iter()
-                .map(|buffer| buffer.expect(kernel.name))
-                .collect();
-            let listed: Vec<_> = kernel
-                .bindings
-                .iter()
-                .map(|binding| crate::spirv::BufferUse {
-                    access: binding.access,
-                    stride: binding.stride,
-                })
-                .collect();
-            assert_eq!(declared, listed, "{}", kernel.name);
-            assert!(
-                (0..)
-                    .zip(kernel.bindings)
-                    .all(|(i, binding)| binding.binding == i)
-            );
-        }
-    }
-
-    #[test]
-    fn kernels_are_found_by_name() {
-        for &kernel in KERNELS {
-            assert_eq!(Kernel::named(kernel.name), Some(kernel));
-        }
-        assert_eq!(Kernel::named("no_such_kernel"), None);
     }
 }

@@ -39,7 +39,7 @@ pub use table::{KERNELS, LIGHT_POINTS};
 
 // Short paths to what is documented in a module.
 #[doc(hidden)]
-pub use device::{PUSH_CONSTANTS, REQUIRED_FEATURES, STORAGE_BUFFERS, VULKAN, without_vulkan_memory_model};
+pub use device::{REQUIRED_FEATURES, STORAGE_BUFFERS, without_vulkan_memory_model};
 #[doc(hidden)]
 pub use float_modes::{FloatControls, FloatEnvironment, contractible, with_float_modes};
 #[doc(hidden)]

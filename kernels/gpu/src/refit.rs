@@ -123,83 +123,41 @@ impl Refit {
 
 #[cfg(test)]
 mod tests {
-    use lightbvh::light::EmissiveTriangle;
-    use lightbvh::{Bvh, MomentNode, Transform};
+    use lightbvh::MomentNode;
 
     use super::*;
-
-    /// Two meshes, 40 instances.
-    fn plan() -> RefitPlan {
-        let mut bvh = Bvh::<MomentNode<4>, (), 4>::default();
-        for count in [3_u16, 300] {
-            let row = (0..count).map(|i| {
-                let x = f32::from(i);
-                EmissiveTriangle {
-                    p: [[x, 0.0, 0.0], [x + 0.5, 0.0, 0.0], [x, 0.5, 0.1]],
-                    radiance: [1.0; 3],
-                    mesh: 0,
-                    flags: 0,
-                }
-            });
-            let mesh = bvh.add_mesh(row.collect()).expect("a mesh");
-            for i in 0..20_u8 {
-                let at = Transform::at([f32::from(i), f32::from(count), 0.0]);
-                bvh.add_instance(mesh, at).expect("an instance");
-            }
-        }
-        bvh.plan_of_everything()
-    }
+    use crate::frame::tests::scene;
 
     /// Whether a level is computed at once or in parts: after what is below it, each node once, its children just before it.
     #[test]
     fn parts_of_a_level_are_the_level() {
-        let plan = plan();
+        let plan = scene::<MomentNode<4>, 4>().0.plan_of_everything();
         let whole = Refit::new::<MomentNode<4>, 4>(&plan, 100);
-        let passes = |refit: &Refit| {
-            refit
-                .dispatches
-                .iter()
-                .map(|dispatch| dispatch.pass)
-                .collect::<Vec<_>>()
-        };
         let levels = |levels: &Levels| levels.ranges().count();
-        assert_eq!(
-            passes(&whole).len(),
-            2 * levels(&plan.bottom) + 1 + 2 * levels(&plan.top)
-        );
+        let count = 2 * levels(&plan.bottom) + 1 + 2 * levels(&plan.top);
+        assert_eq!(whole.dispatches.len(), count);
         assert_eq!(Refit::AT_A_TIME * 8 * 12 * 4, 12 << 20, "as documented");
+        let computed = |refit: &Refit| -> Vec<(Pass, u32)> {
+            let own = refit.dispatches.iter();
+            own.filter(|own| matches!(own.pass, Pass::Roots | Pass::Nodes))
+                .flat_map(|own| (own.first..own.first + own.count).map(|entry| (own.pass, entry)))
+                .collect()
+        };
         for most in [1, 7, 30] {
             let parts = Refit::of_at_most::<MomentNode<4>, 4>(&plan, 100, most);
-            assert_eq!(parts.list, whole.list);
+            assert_eq!((&parts.list, computed(&parts)), (&whole.list, computed(&whole)));
             assert!(parts.dispatches.len() > whole.dispatches.len());
-            let mut next = 0;
-            for (k, dispatch) in parts.dispatches.iter().enumerate() {
-                assert_eq!(dispatch.first, next);
-                match dispatch.pass {
-                    Pass::Bottom | Pass::Top => {
-                        let nodes = parts.dispatches[k + 1];
-                        assert_eq!(
-                            (nodes.pass, nodes.first, 4 * nodes.count),
-                            (Pass::Nodes, dispatch.first, dispatch.count)
-                        );
-                        continue;
-                    }
-                    Pass::Roots => {}
-                    Pass::Nodes => {
-                        assert!(dispatch.count as usize <= most);
-                        // No part reaches from one level into the next.
-                        let entries = dispatch.first as usize..(dispatch.first + dispatch.count) as usize;
-                        let within = |part: &Dispatch| {
-                            part.first as usize <= entries.start
-                                && entries.end <= (part.first + part.count) as usize
-                        };
-                        let nodes = |part: &&Dispatch| part.pass == Pass::Nodes;
-                        assert!(whole.dispatches.iter().filter(nodes).any(within));
-                    }
+            // No part reaches from one level into the next.
+            let begins = |own: &Dispatch| parts.dispatches.iter().any(|part| part.first == own.first);
+            assert!(whole.dispatches.iter().all(begins));
+            for pair in parts.dispatches.windows(2) {
+                if let Pass::Bottom | Pass::Top = pair[0].pass {
+                    let [children, nodes] = [pair[0], pair[1]];
+                    let expected = (Pass::Nodes, children.first, children.count);
+                    assert_eq!((nodes.pass, nodes.first, 4 * nodes.count), expected);
+                    assert!(nodes.count as usize <= most);
                 }
-                next += dispatch.count;
             }
-            assert_eq!(next as usize, parts.list.len());
             let bytes = most.min(whole.list.len()) as u64 * 4 * 12 * 4;
             assert!(parts.children <= bytes && parts.children <= whole.children);
             assert!(most > 7 || parts.children == bytes);

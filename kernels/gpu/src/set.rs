@@ -148,12 +148,13 @@ mod tests {
     use lightbvh::light::{AnyLight, LinkedTriangle};
     use lightbvh::node::{Holds, LinkedMomentNode, Lit, SpotMomentNode};
     use lightbvh::requirements::Updates;
-    use lightbvh::{CompactNode, MomentNode};
+    use lightbvh::{CompactNode, MomentNode, SampledLight, TreeWords};
 
     use super::*;
     use crate::buffer::Buffer;
+    use crate::query::{LinkedQuery, Query, query_push};
 
-    fn fits<N: Holds>(set: &KernelSet, suffix: &str) {
+    fn fits<N: Holds, Q>(set: &KernelSet, suffix: &str) {
         for pass in Pass::ALL {
             let kernel = set.refit(pass);
             let suffix = match pass {
@@ -163,14 +164,6 @@ mod tests {
             assert_eq!(kernel.name.strip_suffix(&*suffix), Some(pass.name()));
             assert_eq!(kernel.push_constants, 12);
         }
-        assert_eq!(
-            set.sample.push_constants as usize,
-            4 + size_of::<lightbvh::TreeWords>()
-        );
-        assert_eq!(
-            set.pmf.push_constants as usize,
-            4 + size_of::<lightbvh::TreeWords>()
-        );
         for kernel in [
             set.refit_bottom,
             set.refit_roots,
@@ -191,38 +184,38 @@ mod tests {
                 }
             }
         }
+        for (kernel, answer) in [
+            (set.sample, size_of::<SampledLight>()),
+            (set.pmf, size_of::<f32>()),
+        ] {
+            let stride = |name| kernel.binding(name).map(|binding| binding.stride as usize);
+            assert_eq!(stride("queries"), Some(size_of::<Q>()), "{}", kernel.name);
+            assert_eq!(stride("results"), Some(answer), "{}", kernel.name);
+            assert_eq!(
+                kernel.push_constants as usize,
+                size_of_val(&query_push(0, TreeWords::default()))
+            );
+        }
     }
 
     #[test]
     fn a_model_has_its_kernels_or_the_command_that_compiles_them() {
-        let default = Model::DEFAULT;
-        for model in [
-            default,
-            Model {
-                updates: Updates::Nothing,
-                ..default
-            },
-        ] {
-            let set = KernelSet::of(&model).expect("the default's kernels");
+        let with = |change: fn(&mut Model)| {
+            let mut model = Model::DEFAULT;
+            change(&mut model);
+            model
+        };
+        for change in [|_| (), |own| own.updates = Updates::Nothing] as [fn(&mut Model); 2] {
+            let set = KernelSet::of(&with(change)).expect("the default's kernels");
             assert!(core::ptr::eq(set, &MOMENTS));
         }
-        let two_sided = Model {
-            layout: Layout::TwoSidedMoments,
-            ..default
-        };
-        for model in [
-            two_sided,
-            Model { width: 16, ..default },
-            Model {
-                uniform_halvings: 0,
-                ..default
-            },
-            Model {
-                uniform_halvings: 0,
-                trails: false,
-                ..default
-            },
-        ] {
+        let two_sided = with(|own| own.layout = Layout::TwoSidedMoments);
+        let others: [fn(&mut Model); 3] = [
+            |own| own.width = 16,
+            |own| own.uniform_halvings = 0,
+            |own| own.trails = false,
+        ];
+        for model in others.map(with).into_iter().chain([two_sided]) {
             assert_eq!(KernelSet::of(&model).err(), Some(NotCompiled { model }));
         }
         let said = alloc::format!("{}", NotCompiled { model: two_sided });
@@ -235,9 +228,9 @@ mod tests {
 
     #[test]
     fn the_buffers_of_core_fit_the_kernels() {
-        fits::<MomentNode<8>>(&MOMENTS, "");
-        fits::<CompactNode<4>>(&EQ4, "_eq4");
-        fits::<Lit<SpotMomentNode<8>, AnyLight>>(&KernelSet::ANY, "_any");
-        fits::<Lit<LinkedMomentNode<8>, LinkedTriangle>>(&KernelSet::LINKED, "_linked");
+        fits::<MomentNode<8>, Query>(&MOMENTS, "");
+        fits::<CompactNode<4>, Query>(&EQ4, "_eq4");
+        fits::<Lit<SpotMomentNode<8>, AnyLight>, Query>(&KernelSet::ANY, "_any");
+        fits::<Lit<LinkedMomentNode<8>, LinkedTriangle>, LinkedQuery>(&KernelSet::LINKED, "_linked");
     }
 }

@@ -1,7 +1,6 @@
 //! A digest of words.
 
 use bytemuck::{Pod, cast_slice};
-use glam::Vec3;
 use lightbvh::Summary;
 
 /// FNV-1a, 64 bits, word by word.
@@ -27,10 +26,6 @@ impl Digest {
         cast_slice::<T, u32>(values)
             .iter()
             .for_each(|&word| self.word(word));
-    }
-
-    pub fn vector(&mut self, v: Vec3) {
-        v.to_array().into_iter().for_each(|x| self.float(x));
     }
 
     pub fn summary<S: Summary>(&mut self, summary: &S) {

@@ -4,8 +4,6 @@
 
 mod arithmetic;
 mod digest;
-mod instances;
-mod reservoirs;
 mod scenes;
 pub mod trees;
 

@@ -98,21 +98,13 @@ fn several_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, const W
     for count in 0..=40_usize {
         let points: Vec<ShadingPoint> = (0..count).map(|_| generate::point(random, 10.0)).collect();
         let numbers: Vec<Random64> = (0..count).map(|_| number(random)).collect();
-        let few = count.saturating_sub(5);
-        for [p, n, o] in [
-            [count, count, count + 3],
-            [few, count, count],
-            [count, few, count],
-            [count, count, few],
-        ] {
-            let mut sampled = vec![untouched; o];
-            tree.sample_batch(&points[..p], &numbers[..n], &mut sampled);
-            let shortest = p.min(n).min(o);
-            for k in 0..shortest {
-                assert_eq!(sampled[k], tree.sample(&points[k], numbers[k]), "{k} of {count}");
-            }
-            assert!(sampled[shortest..].iter().all(|&found| found == untouched));
+        let shortest = count.saturating_sub(5);
+        let mut sampled = vec![untouched; count + 3];
+        tree.sample_batch(&points, &numbers[..shortest], &mut sampled);
+        for k in 0..shortest {
+            assert_eq!(sampled[k], tree.sample(&points[k], numbers[k]), "{k} of {count}");
         }
+        assert!(sampled[shortest..].iter().all(|&found| found == untouched));
         let (point, number) = (generate::point(random, 10.0), number(random));
         let (first, of) = (random.below(70), random.below(150));
         let mut sampled = vec![SampledLight::NONE; count];

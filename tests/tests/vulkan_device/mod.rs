@@ -1,12 +1,12 @@
 //! The host's Vulkan side, on every device of the machine and under the validation layer.
 
 mod errors;
-mod frames;
 mod list;
 mod lost;
 
 use bytemuck::{Pod, Zeroable};
 use lightbvh_host::vulkan::{Device, Options, Pass, UNWRITTEN};
+use lightbvh_kernels::scatter::{LANES, Run, ScatterPush};
 use lightbvh_tests::devices::on_each_device;
 
 /// Push constants of the test kernel `scale_index` (tests/data/vulkan).
@@ -62,22 +62,28 @@ fn values(count: u32) -> Vec<u32> {
         .collect()
 }
 
+/// With and without staging buffers.
+fn on_each(test: impl Fn(&Device)) {
+    for force_staging in [false, true] {
+        let options = Options {
+            force_staging,
+            ..Options::default()
+        };
+        on_each_device(options, &test);
+    }
+}
+
 #[test]
 fn results_come_back_and_surplus_words_stay_unwritten() {
-    for force_staging in [false, true] {
-        on_each_device(
-            Options {
-                force_staging,
-                ..Options::default()
-            },
-            |device| {
-                let input = values(1000);
-                let output = run(device, &input, 3, 24);
-                assert_eq!(output[..1000], expected(&input, 3), "{}", device.name());
-                assert_eq!(output[1000..], [[UNWRITTEN; 2]; 24], "{}", device.name());
-            },
-        );
-    }
+    on_each(|device| {
+        for (count, spare) in [(0, 0), (0, 2), (1000, 24)] {
+            let input = values(count);
+            let output = run(device, &input, 3, spare);
+            let expected = [expected(&input, 3), vec![[UNWRITTEN; 2]; spare]].concat();
+            assert_eq!(output, expected, "{}", device.name());
+        }
+        device.run(&Pass::new()).expect("an empty pass");
+    });
 }
 
 #[test]
@@ -101,39 +107,57 @@ fn dispatches_above_65535_groups_number_every_item_once() {
     });
 }
 
+/// More bytes than a staging buffer has, in two parts, the later one first.
 #[test]
-fn copies_larger_than_the_staging_buffer_are_whole() {
-    on_each_device(
-        Options {
-            force_staging: true,
-            ..Options::default()
-        },
-        |device| {
-            let words = values((33 << 20) / 4 + 5);
-            let buffer = device.upload(&words).expect("an upload");
-            assert!(buffer.read_words().expect("a read") == words, "{}", device.name());
-            let output = device.output::<u32>(words.len()).expect("an output");
-            let found = output.read().expect("a read");
-            assert!(found.iter().all(|word| *word == UNWRITTEN), "{}", device.name());
-        },
-    );
+fn parts_of_a_write_arrive_and_nothing_else_changes() {
+    on_each(|device| {
+        let words = values((33 << 20) / 4 + 5);
+        let buffer = device.output::<u32>(words.len() + 10).expect("a buffer");
+        let (first, second) = words.split_at(words.len() / 2);
+        let parts = [(first.len() + 9, second), (1, first)];
+        buffer.write(&parts).expect("within");
+        let found = buffer.read().expect("a read");
+        let gap = [UNWRITTEN; 8];
+        let expected = [&gap[..1], first, &gap, second, &gap[..1]].concat();
+        assert!(found == expected, "{}", device.name());
+    });
 }
 
+/// The kernel that engines put many short regions in their places by.
 #[test]
-fn empty_buffers_and_empty_dispatches_are_fine() {
-    for force_staging in [false, true] {
-        on_each_device(
-            Options {
-                force_staging,
-                ..Options::default()
-            },
-            |device| {
-                assert_eq!(run(device, &[], 3, 0), Vec::<[u32; 2]>::new());
-                assert_eq!(run(device, &[], 3, 2), vec![[UNWRITTEN; 2]; 2]);
-                device.run(&Pass::new()).expect("an empty pass");
-            },
-        );
-    }
+fn scattered_runs_arrive_and_nothing_else_changes() {
+    on_each(|device| {
+        let kernel = device.kernel("scatter").expect("a kernel");
+        let lengths = [1, 2, 15, 16, 17, 100, 1023, 1024, 1025, 5000];
+        let count: u32 = lengths.iter().map(|length| length + 1).sum();
+        let mut staged = values(count);
+        let mut expected = vec![7_u32; count as usize + 1];
+        let target = device.upload(&expected).expect("an upload");
+        let (mut at, mut runs) = (1, Vec::new());
+        for length in lengths {
+            let (from, to) = (at as usize - 1, at as usize);
+            let words = length as usize;
+            expected[to..to + words].copy_from_slice(&staged[from..from + words]);
+            runs.push(Run {
+                from: at - 1,
+                to: at,
+                words: length,
+            });
+            at += length + 1;
+        }
+        let push = ScatterPush {
+            runs: runs.len() as u32,
+            list: staged.len() as u32,
+            first: 0,
+        };
+        staged.extend_from_slice(bytemuck::cast_slice(&runs));
+        let staging = device.upload(&staged).expect("an upload");
+        let mut pass = Pass::new();
+        let buffers = [staging.bind(), target.bind()];
+        pass.dispatch(&kernel, &buffers, bytemuck::bytes_of(&push), push.runs * LANES);
+        device.run(&pass).expect("a run");
+        assert!(target.read().expect("a read") == expected, "{}", device.name());
+    });
 }
 
 #[test]

@@ -56,14 +56,14 @@ impl Selection {
     }
 }
 
-pub(crate) fn id_at(inst: &Instruction, at: usize) -> Option<u32> {
+pub(super) fn id_at(inst: &Instruction, at: usize) -> Option<u32> {
     match inst.operands.get(at) {
         Some(Operand::IdRef(id)) => Some(*id),
         _ => None,
     }
 }
 
-pub(crate) fn label(block: &Block) -> u32 {
+pub(super) fn label(block: &Block) -> u32 {
     block
         .label
         .as_ref()

@@ -3,16 +3,49 @@
 use super::Refusal;
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Capability, GlslStd450Op as GLOp, Op};
+use std::ops::RangeInclusive;
 
 /// Capabilities of the widest set: every Vulkan 1.2 device that this project names supports them.
 pub(super) fn vulkan_everywhere(capability: Capability) -> bool {
     matches!(capability, Capability::Shader | Capability::VulkanMemoryModel)
 }
 
+/// Operations that give the same bits on every device, as ranges of their numbers (SPIR-V specification 1.6, section 3.42): between
+/// the ends of a range there are no others.
+const PERMITTED: [RangeInclusive<Op>; 21] = [
+    Op::Undef..=Op::Undef,
+    // Types, without matrices, images and samplers.
+    Op::TypeVoid..=Op::TypeVector,
+    Op::TypeArray..=Op::TypeStruct,
+    Op::TypePointer..=Op::TypeFunction,
+    Op::ConstantTrue..=Op::ConstantComposite,
+    Op::ConstantNull..=Op::ConstantNull,
+    Op::SpecConstant..=Op::SpecConstant,
+    // Functions and memory.
+    Op::Function..=Op::Variable,
+    Op::Load..=Op::CopyMemory,
+    Op::AccessChain..=Op::InBoundsAccessChain,
+    Op::ArrayLength..=Op::ArrayLength,
+    // Vectors and composites.
+    Op::VectorExtractDynamic..=Op::CopyObject,
+    Op::CopyLogical..=Op::CopyLogical,
+    Op::ConvertFToU..=Op::ConvertSToF,
+    // Arithmetic of integers, and what Vulkan rounds correctly of floats: negation, sum, difference, product.
+    Op::Bitcast..=Op::SDiv,
+    Op::UMod..=Op::SMod,
+    Op::VectorTimesScalar..=Op::VectorTimesScalar,
+    Op::IAddCarry..=Op::All,
+    // Logic, selection, comparisons, bits.
+    Op::LogicalEqual..=Op::BitCount,
+    // Control flow, without `OpKill`.
+    Op::Phi..=Op::Switch,
+    Op::Return..=Op::Unreachable,
+];
+
 /// Whether an operation gives the same bits on every device, for operands in the ranges that shared code keeps.
 pub(super) fn operation(op: Op) -> Result<(), Refusal> {
     match op {
-        _ if is_structure(op) || is_integer(op) || is_exact_float(op) => Ok(()),
+        _ if PERMITTED.iter().any(|range| range.contains(&op)) => Ok(()),
         Op::FDiv => refuse(
             "division has 2.5 ULP on a device",
             "use lightbvh::exact::div or recip",
@@ -90,135 +123,4 @@ const EXTEND: &str =
 
 fn refuse(rule: &'static str, remedy: &'static str) -> Result<(), Refusal> {
     Err(Refusal { rule, remedy })
-}
-
-/// Types, constants, memory, control flow and moves of bits.
-fn is_structure(op: Op) -> bool {
-    matches!(
-        op,
-        Op::TypeVoid
-            | Op::TypeBool
-            | Op::TypeInt
-            | Op::TypeFloat
-            | Op::TypeVector
-            | Op::TypeArray
-            | Op::TypeRuntimeArray
-            | Op::TypeStruct
-            | Op::TypePointer
-            | Op::TypeFunction
-            | Op::ConstantTrue
-            | Op::ConstantFalse
-            | Op::Constant
-            | Op::SpecConstant
-            | Op::ConstantComposite
-            | Op::ConstantNull
-            | Op::Undef
-            | Op::Variable
-            | Op::Function
-            | Op::FunctionParameter
-            | Op::FunctionEnd
-            | Op::FunctionCall
-            | Op::Label
-            | Op::Phi
-            | Op::SelectionMerge
-            | Op::LoopMerge
-            | Op::Branch
-            | Op::BranchConditional
-            | Op::Switch
-            | Op::Return
-            | Op::ReturnValue
-            | Op::Unreachable
-            | Op::Load
-            | Op::Store
-            | Op::CopyMemory
-            | Op::AccessChain
-            | Op::InBoundsAccessChain
-            | Op::ArrayLength
-            | Op::CopyObject
-            | Op::CopyLogical
-            | Op::CompositeConstruct
-            | Op::CompositeExtract
-            | Op::CompositeInsert
-            | Op::VectorShuffle
-            | Op::VectorExtractDynamic
-            | Op::VectorInsertDynamic
-            | Op::Select
-            | Op::Bitcast
-    )
-}
-
-/// Integer and boolean operations.
-fn is_integer(op: Op) -> bool {
-    matches!(
-        op,
-        Op::IAdd
-            | Op::ISub
-            | Op::IMul
-            | Op::UDiv
-            | Op::SDiv
-            | Op::UMod
-            | Op::SRem
-            | Op::SMod
-            | Op::SNegate
-            | Op::IAddCarry
-            | Op::ISubBorrow
-            | Op::UMulExtended
-            | Op::SMulExtended
-            | Op::ShiftLeftLogical
-            | Op::ShiftRightLogical
-            | Op::ShiftRightArithmetic
-            | Op::BitwiseAnd
-            | Op::BitwiseOr
-            | Op::BitwiseXor
-            | Op::Not
-            | Op::BitFieldInsert
-            | Op::BitFieldSExtract
-            | Op::BitFieldUExtract
-            | Op::BitReverse
-            | Op::BitCount
-            | Op::IEqual
-            | Op::INotEqual
-            | Op::ULessThan
-            | Op::ULessThanEqual
-            | Op::UGreaterThan
-            | Op::UGreaterThanEqual
-            | Op::SLessThan
-            | Op::SLessThanEqual
-            | Op::SGreaterThan
-            | Op::SGreaterThanEqual
-            | Op::LogicalAnd
-            | Op::LogicalOr
-            | Op::LogicalNot
-            | Op::LogicalEqual
-            | Op::LogicalNotEqual
-            | Op::Any
-            | Op::All
-    )
-}
-
-/// Float operations that Vulkan rounds correctly or answers exactly.
-fn is_exact_float(op: Op) -> bool {
-    matches!(
-        op,
-        Op::FNegate
-            | Op::FAdd
-            | Op::FSub
-            | Op::FMul
-            | Op::VectorTimesScalar
-            | Op::ConvertFToU
-            | Op::ConvertFToS
-            | Op::ConvertSToF
-            | Op::FOrdEqual
-            | Op::FUnordEqual
-            | Op::FOrdNotEqual
-            | Op::FUnordNotEqual
-            | Op::FOrdLessThan
-            | Op::FUnordLessThan
-            | Op::FOrdLessThanEqual
-            | Op::FUnordLessThanEqual
-            | Op::FOrdGreaterThan
-            | Op::FUnordGreaterThan
-            | Op::FOrdGreaterThanEqual
-            | Op::FUnordGreaterThanEqual
-    )
 }

@@ -1,17 +1,18 @@
 //! A compute shader of one's own that samples a light BVH: direct light on points, without shadows.
 //!
-//! This file is the entry point, `direct.rs` what it computes. It is built by lightbvh's builder, which keeps the arithmetic exact,
-//! and run by an example of `lightbvh-gpu`:
+//! This file is the entry point, `direct.rs` what it computes; the CPU's side is the example `embed_ash` of `lightbvh-gpu`. It is built
+//! by lightbvh's builder, which keeps the arithmetic exact, and run by that example:
 //!
 //! ```sh
 //! cargo run --release -p lightbvh-kernels-builder --features prebuilt-backend -- \
 //!     --crate kernels/examples/embed_shader --out target/embed_shader
-//! cargo run --release -p lightbvh-gpu --example embed_shader -- target/embed_shader/direct.spv
+//! cargo run --release -p lightbvh-gpu --example embed_ash -- target/embed_shader/direct.spv
 //! ```
 #![cfg_attr(target_arch = "spirv", no_std)]
 // An entry point has as many parameters as bindings.
 #![allow(clippy::too_many_arguments)]
 
+#[path = "../../../gpu/examples/common/direct.rs"]
 mod direct;
 
 use bytemuck::{Pod, Zeroable};

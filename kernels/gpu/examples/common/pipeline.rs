@@ -4,6 +4,7 @@ use std::ffi::CString;
 use std::rc::Rc;
 
 use ash::vk;
+use lightbvh_gpu::spirv::Interface;
 use lightbvh_gpu::{groups, with_float_modes};
 
 use super::Result;
@@ -14,8 +15,7 @@ use super::gpu::Gpu;
 pub struct Pipeline {
     gpu: Rc<Gpu>,
     names: Vec<String>,
-    push_constants: u32,
-    width: u32,
+    interface: Interface,
     set: vk::DescriptorSet,
     pool: vk::DescriptorPool,
     set_layout: vk::DescriptorSetLayout,
@@ -25,15 +25,12 @@ pub struct Pipeline {
 
 impl Pipeline {
     /// A pipeline of a module of SPIR-V. Binding k is the storage buffer that the k-th of `names` means.
-    pub fn new<'a>(
-        gpu: &Rc<Gpu>,
-        words: &[u32],
-        entry_point: &str,
-        names: impl IntoIterator<Item = &'a str>,
-        push_constants: u32,
-        width: u32,
-    ) -> Result<Self> {
+    pub fn new<'a>(gpu: &Rc<Gpu>, words: &[u32], names: impl IntoIterator<Item = &'a str>) -> Result<Self> {
+        let interface = Interface::read(words)?;
         let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
+        if interface.buffers.len() != names.len() {
+            return Err("this is another shader's module; build it again".into());
+        }
         let count = names.len() as u32;
         let bindings: Vec<_> = (0..count)
             .map(|binding| {
@@ -66,7 +63,7 @@ impl Pipeline {
             .set_layouts(&set_layouts);
         let range = [vk::PushConstantRange::default()
             .stage_flags(vk::ShaderStageFlags::COMPUTE)
-            .size(push_constants)];
+            .size(interface.push_constants)];
         let layout_info = vk::PipelineLayoutCreateInfo::default()
             .set_layouts(&set_layouts)
             .push_constant_ranges(&range);
@@ -81,7 +78,7 @@ impl Pipeline {
                 device.create_shader_module(&module_info, None)?,
             )
         };
-        let name = CString::new(entry_point)?;
+        let name = CString::new(&*interface.entry_point)?;
         let stage = vk::PipelineShaderStageCreateInfo::default()
             .stage(vk::ShaderStageFlags::COMPUTE)
             .module(module)
@@ -98,8 +95,7 @@ impl Pipeline {
         Ok(Self {
             gpu: Rc::clone(gpu),
             names,
-            push_constants,
-            width,
+            interface,
             set,
             pool,
             set_layout,
@@ -128,8 +124,9 @@ impl Pipeline {
 
     /// Records a dispatch with one invocation for each item.
     pub fn dispatch(&self, commands: vk::CommandBuffer, push: &[u32], items: u32) {
-        assert_eq!(size_of_val(push), self.push_constants as usize, "push constants");
-        let [x, y, z] = groups(items, self.width).expect("32 bits number all items");
+        let interface = &self.interface;
+        assert_eq!(size_of_val(push), interface.push_constants as usize);
+        let [x, y, z] = groups(items, interface.workgroup[0]).expect("32 bits number all items");
         let device = &self.gpu.device;
         let compute = vk::PipelineBindPoint::COMPUTE;
         let constants = vk::ShaderStageFlags::COMPUTE;

@@ -4,32 +4,29 @@ use lightbvh::{Edit, EmissiveTriangle, InstanceId, LightBvh, MeshId, ShadingPoin
 
 use super::Result;
 
-/// Triangles of the banner.
-const STRIPS: u16 = 40;
+/// Lamps of the chain.
+const LAMPS: u16 = 40;
 
 /// The lights.
 pub struct World {
     pub bvh: LightBvh,
     lamp: MeshId,
-    banner: MeshId,
+    chain: MeshId,
     lamps: Vec<InstanceId>,
 }
 
 impl World {
-    /// Two meshes, a banner in the street, no lamps yet.
+    /// Two meshes, a chain over the street, no other lamps yet.
     pub fn new() -> Result<Self> {
         let mut bvh = LightBvh::default();
         // 5 cm² that shine down with 900 W/(m² sr).
-        let lamp = bvh.add_mesh(vec![triangle(
-            [[0.0, 3.0, 0.0], [0.03, 3.0, 0.0], [0.0, 3.0, 0.03]],
-            900.0,
-        )])?;
-        let banner = bvh.add_mesh(waving(0.0))?;
-        bvh.add_instance(banner, Transform::at([0.0, 6.0, 10.0]))?;
+        let lamp = bvh.add_mesh(vec![lamp([0.0, 3.0, 0.0], 900.0)])?;
+        let chain = bvh.add_mesh(waving(0.0))?;
+        bvh.add_instance(chain, Transform::at([0.0, 6.0, 10.0]))?;
         Ok(Self {
             bvh,
             lamp,
-            banner,
+            chain,
             lamps: Vec::new(),
         })
     }
@@ -42,7 +39,7 @@ impl World {
         }
         let time = f32::from(frame) * 0.1;
         let mut edits = vec![Edit::SetTriangles {
-            mesh: self.banner,
+            mesh: self.chain,
             triangles: waving(time),
         }];
         for (k, &instance) in (0_u16..).zip(&self.lamps) {
@@ -91,17 +88,11 @@ pub fn points(frame: u16, count: u32) -> Vec<(ShadingPoint, u32)> {
         .collect()
 }
 
-/// A strip of triangles that glows on both sides and waves.
+/// A chain of lamps that waves.
 fn waving(time: f32) -> Vec<EmissiveTriangle> {
-    let corner = |k: u16| {
-        let x = f32::from(k / 2) * 0.2;
-        [x, f32::from(k % 2), 0.3 * swing(3.0 * x + 5.0 * time)]
-    };
-    (0..STRIPS)
-        .map(|k| EmissiveTriangle {
-            flags: lightbvh::light::TWO_SIDED,
-            ..triangle([corner(k), corner(k + 1), corner(k + 2)], 5.0)
-        })
+    let x = |k: u16| f32::from(k) * 0.1;
+    (0..LAMPS)
+        .map(|k| lamp([x(k), 0.0, 0.3 * swing(3.0 * x(k) + 5.0 * time)], 5.0))
         .collect()
 }
 
@@ -111,9 +102,9 @@ fn swing(x: f32) -> f32 {
     x.sin()
 }
 
-fn triangle(p: [[f32; 3]; 3], radiance: f32) -> EmissiveTriangle {
+fn lamp([x, y, z]: [f32; 3], radiance: f32) -> EmissiveTriangle {
     EmissiveTriangle {
-        p,
+        p: [[x, y, z], [x + 0.03, y, z], [x, y, z + 0.03]],
         radiance: [radiance; 3],
         mesh: 0,
         flags: 0,

@@ -6,9 +6,8 @@ use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::access::Accesses;
+use super::Access;
 use super::words::{Instruction, ModuleError, instructions, op};
-use crate::kernel::Access;
 
 /// The declared interface of a module with one compute entry point.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -17,8 +16,8 @@ pub struct Interface {
     pub entry_point: String,
     /// Invocations per workgroup.
     pub workgroup: [u32; 3],
-    /// By binding of descriptor set 0; `None` where the binding is no runtime array or the kernel does not declare it.
-    pub buffers: Vec<Option<BufferUse>>,
+    /// By binding of descriptor set 0.
+    pub buffers: Vec<BufferUse>,
     /// Size of the push constant block, bytes.
     pub push_constants: u32,
 }
@@ -26,7 +25,7 @@ pub struct Interface {
 /// What a module says of a storage buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BufferUse {
-    /// What it does with the elements. A pointer that the module hands on, to a function for one, counts as read and written.
+    /// Whether it may write the elements.
     pub access: Access,
     /// Bytes from one element of its runtime array to the next.
     pub stride: u32,
@@ -53,7 +52,7 @@ impl Interface {
     ///
     /// # Errors
     /// [`ModuleError`] if the words do not parse, hold not exactly one compute entry point, or declare resources other
-    /// than storage buffers in descriptor set 0 and one push constant block.
+    /// than storage buffers at bindings 0, 1, .. of descriptor set 0, each a runtime array, and one push constant block.
     pub fn read(words: &[u32]) -> Result<Self, ModuleError> {
         let mut reader = Reader::default();
         for instruction in &instructions(words)? {
@@ -69,13 +68,8 @@ impl Interface {
         if reader.interface.workgroup.contains(&0) {
             return Err(whole("the entry point declares no workgroup size"));
         }
-        for (binding, stride) in (0..).zip(&reader.buffers) {
-            let buffer = stride.map(|stride| BufferUse {
-                access: reader.accesses.of(binding),
-                stride,
-            });
-            reader.interface.buffers.push(buffer);
-        }
+        let buffers: Option<Vec<BufferUse>> = reader.buffers.into_iter().collect();
+        reader.interface.buffers = buffers.ok_or_else(|| whole("a binding that no runtime array has"))?;
         Ok(reader.interface)
     }
 }
@@ -84,9 +78,8 @@ impl Interface {
 #[derive(Default)]
 struct Reader {
     interface: Interface,
-    /// Strides by binding.
-    buffers: Vec<Option<u32>>,
-    accesses: Accesses,
+    /// By binding.
+    buffers: Vec<Option<BufferUse>>,
     /// (id, decoration) -> first operand, 0 where it has none.
     decorations: BTreeMap<(u32, u32), u32>,
     /// (struct id, member) -> byte offset.
@@ -148,7 +141,7 @@ impl Reader {
                 self.constants.insert(word(1)?, word(2)?);
             }
             op::VARIABLE => self.variable(instruction)?,
-            _ => self.accesses.visit(instruction)?,
+            _ => {}
         }
         Ok(())
     }
@@ -217,11 +210,14 @@ impl Reader {
                 let binding = decoration(DECORATION_BINDING)
                     .filter(|binding| *binding < MAX_BINDINGS)
                     .ok_or_else(|| instruction.error("a storage buffer without a usable binding"))?;
-                let strides = &mut self.buffers;
-                strides.resize(strides.len().max(binding as usize + 1), None);
-                strides[binding as usize] = self.strides.get(&pointee).copied();
-                let read_only = self.decorations.contains_key(&(id, DECORATION_NON_WRITABLE));
-                self.accesses.declare(id, binding, read_only);
+                let access = match decoration(DECORATION_NON_WRITABLE) {
+                    Some(_) => Access::Read,
+                    None => Access::Write,
+                };
+                let stride = self.strides.get(&pointee);
+                let buffers = &mut self.buffers;
+                buffers.resize(buffers.len().max(binding as usize + 1), None);
+                buffers[binding as usize] = stride.map(|&stride| BufferUse { access, stride });
             }
             STORAGE_UNIFORM | STORAGE_UNIFORM_CONSTANT => {
                 return Err(instruction.error("a resource that is not a storage buffer"));
@@ -237,25 +233,9 @@ mod tests {
     use super::super::words::HEADER;
     use super::*;
 
-    fn module() -> Vec<u32> {
-        crate::table::SELF_TEST.words()
-    }
-
-    #[test]
-    fn reads_a_kernel() {
-        let buffer = |access, stride| Some(BufferUse { access, stride });
-        let expected = Interface {
-            entry_point: "self_test".into(),
-            workgroup: [64, 1, 1],
-            buffers: alloc::vec![buffer(Access::Read, 12), buffer(Access::Write, 4)],
-            push_constants: 4,
-        };
-        assert_eq!(Interface::read(&module()), Ok(expected));
-    }
-
     #[test]
     fn any_cut_or_flipped_word_gives_a_value_or_an_error() {
-        let words = module();
+        let words = crate::table::SELF_TEST.words();
         for end in 0..words.len() {
             let _ = Interface::read(&words[..end]);
         }

@@ -4,7 +4,7 @@
 
 use alloc::vec::Vec;
 use core::fmt;
-use core::ops::RangeInclusive;
+use core::ops::{Range, RangeInclusive};
 
 /// First word of every module.
 const MAGIC: u32 = 0x0723_0203;
@@ -57,6 +57,11 @@ impl Instruction<'_> {
             .get(index)
             .copied()
             .ok_or_else(|| self.error("the instruction is too short"))
+    }
+
+    /// Its words in the module.
+    pub(crate) fn range(&self) -> Range<usize> {
+        self.at..self.at + 1 + self.operands.len()
     }
 
     pub(crate) fn error(&self, what: &'static str) -> ModuleError {
@@ -127,20 +132,12 @@ pub(crate) mod op {
     pub(crate) const TYPE_STRUCT: u16 = 30;
     pub(crate) const TYPE_POINTER: u16 = 32;
     pub(crate) const CONSTANT: u16 = 43;
-    pub(crate) const FUNCTION_CALL: u16 = 57;
     pub(crate) const VARIABLE: u16 = 59;
     pub(crate) const LOAD: u16 = 61;
     pub(crate) const STORE: u16 = 62;
     pub(crate) const COPY_MEMORY: u16 = 63;
-    pub(crate) const ACCESS_CHAIN: u16 = 65;
-    pub(crate) const IN_BOUNDS_ACCESS_CHAIN: u16 = 66;
-    pub(crate) const PTR_ACCESS_CHAIN: u16 = 67;
-    pub(crate) const IN_BOUNDS_PTR_ACCESS_CHAIN: u16 = 70;
     pub(crate) const DECORATE: u16 = 71;
     pub(crate) const MEMBER_DECORATE: u16 = 72;
-    pub(crate) const COPY_OBJECT: u16 = 83;
-    pub(crate) const SELECT: u16 = 169;
-    pub(crate) const PHI: u16 = 245;
     /// OpAtomicLoad to OpAtomicXor.
     pub(crate) const ATOMICS: core::ops::RangeInclusive<u16> = 227..=242;
 }

@@ -24,12 +24,6 @@ pub struct Engine {
     pub queue: wgpu::Queue,
 }
 
-/// A kernel with its buffers.
-pub struct Bound<'a> {
-    pub pipeline: &'a Pipeline,
-    group: wgpu::BindGroup,
-}
-
 /// A kernel's pipeline.
 pub struct Pipeline {
     kernel: &'static Kernel,
@@ -49,39 +43,27 @@ pub fn engines() -> Vec<Engine> {
             (Road::Passthrough, Features::PASSTHROUGH_SHADERS),
             (Road::Translated, Features::empty()),
         ] {
-            let wanted = own | Features::IMMEDIATES;
-            if adapter.features().contains(wanted) {
-                engines.extend(open(&adapter, road, wanted));
-            } else {
-                println!("{}, {road:?}: not offered", adapter.get_info().name);
+            let name = adapter.get_info().name;
+            let description = wgpu::DeviceDescriptor {
+                required_features: own | Features::IMMEDIATES,
+                required_limits: wgpu::Limits {
+                    max_immediate_size: 128,
+                    ..wgpu::Limits::default()
+                },
+                ..Default::default()
+            };
+            match pollster::block_on(adapter.request_device(&description)) {
+                Ok((device, queue)) => engines.push(Engine {
+                    name,
+                    road,
+                    device,
+                    queue,
+                }),
+                Err(error) => println!("{name}, {road:?}: {error}"),
             }
         }
     }
     engines
-}
-
-fn open(adapter: &wgpu::Adapter, road: Road, wanted: Features) -> Option<Engine> {
-    let name = adapter.get_info().name;
-    let description = wgpu::DeviceDescriptor {
-        required_features: wanted,
-        required_limits: wgpu::Limits {
-            max_immediate_size: 128,
-            ..wgpu::Limits::default()
-        },
-        ..Default::default()
-    };
-    match pollster::block_on(adapter.request_device(&description)) {
-        Ok((device, queue)) => Some(Engine {
-            name,
-            road,
-            device,
-            queue,
-        }),
-        Err(error) => {
-            println!("{name}, {road:?}: {error}");
-            None
-        }
-    }
 }
 
 impl Engine {
@@ -180,7 +162,7 @@ impl Engine {
     }
 
     /// Binds the buffers that `named` gives.
-    pub fn bind<'a, 'b>(&self, pipeline: &'a Pipeline, named: impl Fn(&str) -> &'b Buffer) -> Bound<'a> {
+    pub fn bind<'a>(&self, pipeline: &Pipeline, named: impl Fn(&str) -> &'a Buffer) -> wgpu::BindGroup {
         let entries: Vec<_> = pipeline
             .kernel
             .bindings
@@ -190,12 +172,11 @@ impl Engine {
                 resource: named(binding.name).as_entire_binding(),
             })
             .collect();
-        let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(pipeline.kernel.name),
             layout: &pipeline.layout,
             entries: &entries,
-        });
-        Bound { pipeline, group }
+        })
     }
 
     /// A copy of a buffer's bytes, once all that was submitted is done.
@@ -210,13 +191,18 @@ impl Engine {
     }
 }
 
-impl Bound<'_> {
+impl Pipeline {
     /// Records a dispatch with one invocation for each item. wgpu puts barriers between dispatches by itself.
-    pub fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, push: &[u32], items: u32) {
-        let kernel = self.pipeline.kernel;
-        let [x, y, z] = groups(items, kernel.workgroup[0]).expect("32 bits number all items");
-        pass.set_pipeline(&self.pipeline.pipeline);
-        pass.set_bind_group(0, &self.group, &[]);
+    pub fn dispatch(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        group: &wgpu::BindGroup,
+        push: &[u32],
+        items: u32,
+    ) {
+        let [x, y, z] = groups(items, self.kernel.workgroup[0]).expect("32 bits number all items");
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, group, &[]);
         pass.set_immediates(0, bytemuck::cast_slice(push));
         pass.dispatch_workgroups(x, y, z);
     }

@@ -7,7 +7,7 @@ use lightbvh_gpu::{Buffer as Array, Frame, MOMENTS, Mirror, Pass, Query, query_p
 use wgpu::Buffer;
 
 use crate::Result;
-use crate::engine::{Bound, Engine, Pipeline};
+use crate::engine::{Engine, Pipeline};
 
 /// The lights of one scene on one device.
 pub struct DeviceLights<'a> {
@@ -67,22 +67,23 @@ impl<'a> DeviceLights<'a> {
             (None, "queries") => &asked,
             (None, _) => &answers,
         };
-        let refits: Vec<(Pass, Bound<'_>)> = self
+        let refits: Vec<_> = self
             .refits
             .iter()
-            .map(|(pass, pipeline)| (*pass, engine.bind(pipeline, named)))
+            .map(|(pass, pipeline)| (*pass, pipeline, engine.bind(pipeline, named)))
             .collect();
-        let sample = engine.bind(&self.sample, named);
+        let bound = engine.bind(&self.sample, named);
 
         let mut encoder = engine.device.create_command_encoder(&Default::default());
         let mut pass = encoder.begin_compute_pass(&Default::default());
         for dispatch in &frame.refit.dispatches {
-            let refit = refits.iter().find(|(pass, _)| *pass == dispatch.pass);
-            let (_, refit) = refit.expect("there is one for each pass");
-            refit.dispatch(&mut pass, &dispatch.push(), dispatch.count);
+            let refit = refits.iter().find(|(pass, ..)| *pass == dispatch.pass);
+            let (_, refit, bound) = refit.expect("there is one for each pass");
+            refit.dispatch(&mut pass, bound, &dispatch.push(), dispatch.count);
         }
         let count = queries.len() as u32;
-        sample.dispatch(&mut pass, &query_push(count, frame.words), count);
+        self.sample
+            .dispatch(&mut pass, &bound, &query_push(count, frame.words), count);
         drop(pass);
         engine.queue.submit([encoder.finish()]);
         Ok(Results {
