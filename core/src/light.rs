@@ -36,10 +36,8 @@ mod round;
 mod sphere;
 #[cfg(test)]
 mod tests;
+mod triangle;
 mod volume;
-
-use bytemuck::{Pod, Zeroable};
-use glam::Vec3;
 
 pub use any::AnyLight;
 pub use flat::{DiscLight, RectangleLight};
@@ -47,106 +45,21 @@ pub use linked::{LinkedAny, LinkedTriangle};
 pub use point::{LightPoint, uniform_point};
 pub use profile::ProfileLight;
 pub use punctual::{PointLight, SpotLight};
-pub(crate) use record::shining;
-pub use record::{Light, LightSlots};
-use record::{checked_emission, checked_place};
+pub use record::{Light, LightSlots, world_light};
 pub use sphere::SphereLight;
+pub use triangle::EmissiveTriangle;
 pub use volume::BoxLight;
 
-use crate::emission::luminance_of;
-use crate::error::Number;
-use crate::exact;
-use crate::vector::vector;
+#[doc(inline)]
+pub use crate::domain::{MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE};
+pub(crate) use crate::domain::{MIN_COORDINATE_EXPONENT, MIN_OFFSET};
+use crate::number::Number;
 
 /// "No such index."
 pub const INVALID: u32 = u32::MAX;
 
 /// [`EmissiveTriangle::flags`] bit: the triangle emits from both faces.
 pub const TWO_SIDED: u32 = 1;
-
-/// Largest magnitude of a coordinate, metres: 2^40.
-pub const MAX_COORDINATE: f32 = exact::pow2(40);
-/// Smallest magnitude of a coordinate that is not zero, metres: 2^-100. The difference of two coordinates is then zero
-/// or a normal number, which a device that flushes subnormal numbers keeps.
-pub const MIN_COORDINATE: f32 = exact::pow2(MIN_COORDINATE_EXPONENT);
-pub(crate) const MIN_COORDINATE_EXPONENT: i32 = -100;
-/// Offsets from coordinates count as zero below this, metres: 2^-103. The last place of all others is a normal number, and so is every sum.
-pub(crate) const MIN_OFFSET: f32 = exact::pow2(-103);
-/// Smallest radiance that is not zero, W/(m² sr): 2^-100.
-pub const MIN_RADIANCE: f32 = exact::pow2(-100);
-/// Largest radiance, W/(m² sr): 2^100.
-pub const MAX_RADIANCE: f32 = exact::pow2(100);
-
-/// A triangle that emits the same radiance in every direction of its front side (or of both sides).
-///
-/// The front side is the one from which the vertices run counter-clockwise; `(p1 − p0) × (p2 − p0)` points to it.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct EmissiveTriangle {
-    /// Vertices, metres, in the space of the mesh (for `Lights`, of the world); magnitude zero or in [`MIN_COORDINATE`]`..=`[`MAX_COORDINATE`].
-    pub p: [[f32; 3]; 3],
-    /// Radiance, W/(m² sr), linear RGB; zero or in [`MIN_RADIANCE`]`..=`[`MAX_RADIANCE`].
-    pub radiance: [f32; 3],
-    /// Index of the mesh light that owns the triangle: what [`Lights`](crate::Lights) takes, and what a light in the world has. Not looked
-    /// at where a mesh is given to a [`Bvh`](crate::Bvh).
-    pub mesh: u32,
-    /// [`TWO_SIDED`](Self::TWO_SIDED) or 0.
-    pub flags: u32,
-}
-
-const _: () = assert!(size_of::<EmissiveTriangle>() == 56);
-
-impl EmissiveTriangle {
-    /// Bit of [`flags`](Self::flags): the triangle emits from both faces.
-    pub const TWO_SIDED: u32 = TWO_SIDED;
-
-    /// Vertex `k` in 0..3; the last one for any other.
-    #[inline]
-    #[must_use]
-    pub fn vertex(&self, k: usize) -> Vec3 {
-        // By a choice: rust-gpu inlines whatever has an index that might be out of bounds.
-        let p = if k == 0 {
-            self.p[0]
-        } else if k == 1 {
-            self.p[1]
-        } else {
-            self.p[2]
-        };
-        vector(&p)
-    }
-
-    /// Whether both faces emit.
-    #[inline]
-    #[must_use]
-    pub fn is_two_sided(&self) -> bool {
-        self.flags & TWO_SIDED != 0
-    }
-
-    /// Luminance of the radiance (Rec. ITU-R BT.709-6, section 3: the weights of linear R, G, B).
-    #[inline]
-    #[must_use]
-    pub fn luminance(&self) -> f32 {
-        luminance_of(&self.radiance)
-    }
-
-    /// Brings the triangle into the domain of this crate, or says why it cannot be.
-    ///
-    /// Coordinates smaller than [`MIN_COORDINATE`] become zero (with the sign of zero dropped); nothing else changes.
-    ///
-    /// # Errors
-    /// [`LightError`] for a coordinate or radiance that is not finite or out of range, for negative radiance, and for flags that mean
-    /// nothing.
-    pub fn checked(mut self) -> Result<Self, LightError> {
-        self.p[0] = checked_place("first vertex of a triangle", self.p[0])?;
-        self.p[1] = checked_place("second vertex of a triangle", self.p[1])?;
-        self.p[2] = checked_place("third vertex of a triangle", self.p[2])?;
-        self.radiance = checked_emission("radiance of a triangle", self.radiance)?;
-        if self.flags & !TWO_SIDED != 0 {
-            return Err(LightError::Flags { flags: self.flags });
-        }
-        Ok(self)
-    }
-}
 
 /// Why a light is refused.
 #[derive(Clone, Copy, Debug, PartialEq)]

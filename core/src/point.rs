@@ -13,11 +13,11 @@ pub use transmissive::TransmissivePoint;
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use crate::error::Number;
-use crate::exact;
-use crate::instance::Instance;
-use crate::light::{MAX_COORDINATE, MIN_COORDINATE};
-use crate::vector::{length_squared, vector};
+use crate::domain::{MAX_COORDINATE, MIN_COORDINATE};
+use crate::exact::{self, flush, pow2};
+use crate::instance::{FAR, Instance, TINY, flushed};
+use crate::number::Number;
+use crate::vector::{dot, length_squared, vector};
 
 /// By how much the squared length of a normal may differ from 1: 2^-7, so that normals of 8-bit components divided by a rough
 /// root pass.
@@ -91,6 +91,42 @@ impl ShadingPoint {
     #[must_use]
     pub fn normal(&self) -> Vec3 {
         vector(&self.n)
+    }
+}
+
+impl Instance {
+    /// A point of the world in the space of the mesh, its normal again of about unit length.
+    #[inline(always)]
+    #[must_use]
+    pub fn to_local(&self, point: &ShadingPoint) -> ShadingPoint {
+        let away = flushed(point.position() - self.origin());
+        let p = (vector(&self.inverse[0]) * away.x + vector(&self.inverse[1]) * away.y)
+            + vector(&self.inverse[2]) * away.z;
+        let n = point.normal();
+        let back = flushed(Vec3::new(
+            dot(self.column(0), n),
+            dot(self.column(1), n),
+            dot(self.column(2), n),
+        ));
+        let length = length_squared(back);
+        // A normal that the map loses is that of a volume.
+        let scale = if length >= pow2(-119) {
+            exact::rsqrt(length)
+        } else {
+            0.0
+        };
+        ShadingPoint {
+            p: [
+                flush(exact::clamp(p.x, -FAR, FAR), TINY),
+                flush(exact::clamp(p.y, -FAR, FAR), TINY),
+                flush(exact::clamp(p.z, -FAR, FAR), TINY),
+            ],
+            n: [
+                flush(back.x * scale, TINY),
+                flush(back.y * scale, TINY),
+                flush(back.z * scale, TINY),
+            ],
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::edit::{Edit, EditError, InstanceId, MeshId};
 use super::records::put;
-use super::{Bvh, InstanceState, Trails};
+use super::{Bvh, InstanceState};
 use crate::build::{Topology, build_each};
 use crate::instance::Instance;
 use crate::node::Node;
@@ -20,7 +20,7 @@ pub struct Added {
     pub instances: Vec<InstanceId>,
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Applies a batch of edits in their order, all or none. The next [`refit`](Self::refit) restores the quality of sampling.
     /// Until then probabilities are exact and no removed light is returned, but a sample may be none if a light was removed,
     /// and added lights have the uniform share alone.

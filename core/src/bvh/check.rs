@@ -3,8 +3,8 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
+use super::Bvh;
 use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
-use super::{Bvh, Trails};
 use crate::light::Light;
 use crate::lights::MAX_LIGHTS;
 use crate::node::Node;
@@ -34,7 +34,7 @@ struct Batch {
     meshes: Vec<(usize, Extent)>,
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns the extents of meshes that
     /// are deformed.
     pub(super) fn check(&self, edits: &mut [Edit<N::Light>]) -> Result<Extents, EditError> {

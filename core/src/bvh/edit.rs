@@ -3,8 +3,8 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use crate::error::Number;
 use crate::light::{EmissiveTriangle, LightError};
+use crate::number::Number;
 use crate::transform::{Transform, TransformError};
 use crate::tree::INVALID;
 
@@ -208,8 +208,6 @@ pub enum EditReason {
     TooMany,
     /// A single-level BVH has one mesh and one instance, which stay.
     SingleLevel,
-    /// A [`StaticMeshBvh`](super::StaticMeshBvh) keeps no triangles, so no mesh is added or deformed.
-    StaticMeshes,
 }
 
 impl fmt::Display for EditError {
@@ -282,10 +280,6 @@ impl fmt::Display for EditReason {
             Self::SingleLevel => write!(
                 f,
                 "a single-level light BVH takes new triangles of its mesh and nothing else; build one of two levels"
-            ),
-            Self::StaticMeshes => write!(
-                f,
-                "meshes of this light BVH stay as they are, and none is added; keep a `Bvh` where meshes deform or come"
             ),
         }
     }

@@ -3,13 +3,13 @@
 use alloc::vec::Vec;
 use core::fmt;
 
+use super::Bvh;
 use super::edit::EditReason;
-use super::{Bvh, Trails};
 use crate::lights::Lights;
 use crate::node::Node;
 use crate::transform::Extent;
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Moves or changes all triangles of a BVH built over [`Lights`], and refits it: the triangles of mesh `k` are those of
     /// mesh light `k`, or all of them in a single-level BVH.
     ///

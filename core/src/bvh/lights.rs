@@ -3,8 +3,8 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::Bvh;
 use super::edit::{InstanceId, MeshId};
-use super::{Bvh, Trails};
 use crate::instance::Instance;
 use crate::light::Light;
 use crate::lights::MAX_LIGHTS;
@@ -14,7 +14,7 @@ use crate::transform::Transform;
 /// So many numbers of removed lights wait to be taken, and as many as there are lights.
 const LEAST_WAITING: usize = 1 << 16;
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// The lights of an instance: numbered without gaps, the same as long as the instance lives; that of triangle
     /// `k`, as the mesh was given, is `start + k`.
     #[must_use]

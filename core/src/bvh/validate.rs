@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 pub(super) use self::walk::Found;
+use super::Bvh;
 use super::apply::NO_INSTANCE;
-use super::{Bvh, Trails};
 use crate::instance::Instance;
 use crate::light::Light;
 use crate::node::{Node, kind};
@@ -33,7 +33,7 @@ pub struct Stats {
     pub depth: u32,
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Checks every invariant, after a [`refit`](Self::refit):
     /// - each node in use is reached once, through links that are in range, and knows its place above;
     /// - each live instance, or each of its parts, is a leaf of the top level exactly once, each triangle of a mesh a leaf of its
@@ -116,27 +116,21 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 ));
             }
             times[(own.link - mesh.triangles.start) as usize] += 1;
-            if T::KEPT {
-                let trail = self.trail_of(own.link);
-                equal(node, slot, "low trail word", own.trail.low, trail.low)?;
-                equal(node, slot, "high trail word", own.trail.high, trail.high)?;
-            }
-            if let Some(light) = self.triangles.get(own.link as usize) {
-                equal(node, slot, "light's mesh", index, light.mesh())?;
-            }
+            let trail = self.trail_of(own.link);
+            equal(node, slot, "low trail word", own.trail.low, trail.low)?;
+            equal(node, slot, "high trail word", own.trail.high, trail.high)?;
+            let light = &self.triangles[own.link as usize];
+            equal(node, slot, "light's mesh", index, light.mesh())?;
         }
         for (triangle, &count) in mesh.triangles.clone().zip(&times) {
             equal(INVALID, triangle, "triangle's leaves", 1, count)?;
         }
-        // A BVH of static meshes has no triangles.
-        if !self.triangles.is_empty() {
-            equal(INVALID, index, "flux power", self.power_of(index), mesh.power)?;
-            let mut again = bare(&self.nodes, &found);
-            for node in found.upward() {
-                again[node as usize] = refit::bottom(&again, &self.triangles, node);
-                same(node, &again[node as usize], &self.nodes[node as usize])?;
-                check_children(&self.nodes, node)?;
-            }
+        equal(INVALID, index, "flux power", self.power_of(index), mesh.power)?;
+        let mut again = bare(&self.nodes, &found);
+        for node in found.upward() {
+            again[node as usize] = refit::bottom(&again, &self.triangles, node);
+            same(node, &again[node as usize], &self.nodes[node as usize])?;
+            check_children(&self.nodes, node)?;
         }
         let expected = refit::root(&self.nodes, root);
         same_words(INVALID, index, &expected, &self.roots[index as usize])?;

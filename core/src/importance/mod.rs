@@ -8,7 +8,6 @@ mod flux;
 mod glossy;
 mod leveled;
 mod linked;
-mod math;
 mod moments;
 mod phi;
 mod sight;
@@ -17,24 +16,24 @@ mod subtended;
 mod tests;
 mod transmissive;
 
-pub use eq4::{Cluster, Eq4};
+pub use eq4::Eq4;
 pub use flux::FluxOverDistance;
 pub use glossy::Glossy;
 pub use leveled::Leveled;
 pub use linked::Linked;
-#[cfg(any(feature = "std", target_arch = "spirv"))]
-pub use math::NativeMath;
-pub use math::{ExactMath, Math};
 pub use moments::Moments;
-pub(crate) use moments::{Lobe, dot_by, frame, side, weight};
 pub use phi::Flux;
 pub use subtended::Subtended;
 pub use transmissive::Transmissive;
 
 use crate::exact;
+pub use crate::node::Cluster;
 use crate::point::ShadingPoint;
 #[doc(inline)]
 pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, TransmissivePoint};
+#[cfg(any(feature = "std", target_arch = "spirv"))]
+pub use crate::weight::NativeMath;
+pub use crate::weight::{ExactMath, Math};
 
 /// A measure of what the lights below each child of a node may contribute at a point. A type chooses it, so that kernels
 /// contain one only.

@@ -9,9 +9,8 @@ use super::{
     RectangleLight, SphereLight, SpotLight, TWO_SIDED,
 };
 use crate::beam::Beam;
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, LightMoments};
 use crate::instance::Instance;
-use crate::moments::LightMoments;
 
 /// A light of any kind: 68 bytes, of which the kind says what they mean. Made of one of the others by `From`, and one of them again by
 /// [`kind`](Self::kind) and, where that is its kind, `TryFrom`.

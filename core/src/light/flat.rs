@@ -8,13 +8,12 @@ use super::record::{
 };
 use super::round::disc;
 use super::{INVALID, LightError, LightPoint, MIN_OFFSET, TWO_SIDED};
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::{Cone, normalized};
 use crate::emission::{Emission, flux_of, luminance_of};
 use crate::exact::{self, pow2};
 use crate::instance::Instance;
 use crate::light::point::MAX_DENSITY;
-use crate::moments::LightMoments;
 use crate::vector::{abs3, dot, flush3, greatest_exponent, max3, vector};
 
 /// What a rectangle and a disc share: a centre and two half axes. Area 0 has no flux.

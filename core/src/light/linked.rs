@@ -6,9 +6,8 @@ use glam::Vec3;
 use super::record::{Each, Light};
 use super::{AnyLight, EmissiveTriangle, LightError, LightPoint};
 use crate::beam::Beam;
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, LightMoments};
 use crate::instance::Instance;
-use crate::moments::LightMoments;
 
 /// A record of its own for each kind of light: what is generic over the light cannot be plain words without unsafe code.
 macro_rules! linked {

@@ -10,12 +10,11 @@ use super::record::{
 };
 use super::{INVALID, LightError, LightPoint};
 use crate::beam::Beam;
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::Cone;
 use crate::emission::luminance_of;
 use crate::exact::{self, pow2};
 use crate::instance::Instance;
-use crate::moments::LightMoments;
 use crate::point::NORMAL_TOLERANCE;
 use crate::vector::{cross, dot, flush3, length_squared, vector};
 

@@ -8,12 +8,11 @@ use super::record::{
 };
 use super::{INVALID, LightError, LightPoint, MAX_COORDINATE, MIN_RADIANCE};
 use crate::beam::Beam;
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::Cone;
 use crate::emission::{bounded_phi, luminance_of};
 use crate::exact::{self, exponent, pow2, significand};
 use crate::instance::Instance;
-use crate::moments::LightMoments;
 use crate::vector::{flush3, length_squared, vector};
 
 /// A point that sends the same intensity in every direction. An instance that scales leaves it as it is, and its range.

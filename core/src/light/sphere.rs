@@ -8,13 +8,12 @@ use super::record::{
 };
 use super::round::circle;
 use super::{INVALID, LightError, LightPoint};
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::Cone;
 use crate::emission::{bounded_phi, luminance_of};
 use crate::exact::{self, exponent, flush, pow2, significand};
 use crate::instance::Instance;
 use crate::light::point::MAX_DENSITY;
-use crate::moments::LightMoments;
 use crate::vector::{flush3, greatest_exponent, length_squared, vector};
 
 /// A sphere whose surface emits the same radiance in every direction outward.

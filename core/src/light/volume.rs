@@ -8,13 +8,12 @@ use super::record::{
     Each, Light, bounds, checked_emission, checked_place, greatest, of_mesh_at_place, shining,
 };
 use super::{INVALID, LightError, LightPoint, MIN_OFFSET};
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::Cone;
 use crate::emission::{bounded_phi, luminance_of};
 use crate::exact::{self, exponent, hash, pow2, significand, unit_f32};
 use crate::instance::Instance;
 use crate::light::point::MAX_DENSITY;
-use crate::moments::LightMoments;
 use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, max3, vector};
 
 /// A box of glowing matter, which sends the same light from every place within it in every direction: fire, plasma. A parallelepiped

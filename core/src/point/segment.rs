@@ -3,8 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::{PointError, Receiver, ShadingPoint};
+use crate::domain::MIN_OFFSET;
 use crate::instance::Instance;
-use crate::light::MIN_OFFSET;
 use crate::vector::{flush3, vector};
 
 /// A piece of a ray through a volume, from one point to another: light reaches it everywhere. What

@@ -14,7 +14,7 @@ mod model;
 #[cfg(test)]
 mod tests;
 
-use crate::bvh::{Bvh, Trails};
+use crate::bvh::Bvh;
 use crate::light::EmissiveTriangle;
 use crate::moments::LightMoments;
 use crate::node::LightNode;
@@ -36,19 +36,16 @@ pub struct Declared {
     pub instances: bool,
     /// Meshes are inserted of which nothing is known yet.
     pub meshes: bool,
-    /// The probability of a given light is asked for, as multiple importance sampling does of a light that a ray has hit.
-    pub pmf: bool,
 }
 
 impl Declared {
-    /// Nothing changes, and probabilities of given lights are asked for.
+    /// Nothing changes.
     pub const STATIC: Self = Self {
         transforms: false,
         radiance: false,
         triangles: false,
         instances: false,
         meshes: false,
-        pmf: true,
     };
 }
 
@@ -123,11 +120,7 @@ impl Requirements {
     /// Counts the lights of a light BVH's scene. Takes time in proportion to its lights, about that of a
     /// refit.
     #[must_use]
-    pub fn of<N, I, const W: usize, T>(bvh: &Bvh<N, I, W, T>, declared: Declared) -> Self
-    where
-        N: LightNode<W>,
-        T: Trails,
-    {
+    pub fn of<N: LightNode<W>, I, const W: usize>(bvh: &Bvh<N, I, W>, declared: Declared) -> Self {
         let (meshes, placed) = bvh.meshes_and_places();
         let mut users = alloc::vec![0_usize; meshes.len()];
         let mut found = Self {

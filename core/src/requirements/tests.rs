@@ -95,34 +95,24 @@ fn models_are_no_larger_than_scenes_need() {
         single_level: false,
         ..still
     };
-    let moving = Model {
-        updates: Updates::Instances,
-        ..two_levels
-    };
-    let deforming = Model {
-        updates: Updates::Meshes,
+    let changing = Model {
+        updates: Updates::All,
         ..two_levels
     };
     let growing = Model {
         layout: Layout::Moments,
-        ..deforming
-    };
-    let unasked = Model {
-        uniform_halvings: 0,
-        trails: false,
-        ..still
+        ..changing
     };
     assert_eq!(of(2, |_| {}), still);
     assert_eq!(of(3, |_| {}), two_levels);
-    assert_eq!(of(2, |d| d.pmf = false), unasked);
-    assert_eq!(of(2, |d| d.triangles = true), deforming);
     assert_eq!(of(2, |d| d.meshes = true), growing);
     for change in [
         |d: &mut Declared| d.transforms = true,
         |d: &mut Declared| d.radiance = true,
         |d: &mut Declared| d.instances = true,
+        |d: &mut Declared| d.triangles = true,
     ] {
-        assert_eq!(of(2, change), moving);
+        assert_eq!(of(2, change), changing);
     }
     let one_sided = Requirements::of(&scene(0, 2), Declared::STATIC).model();
     assert_eq!(one_sided.layout, Layout::Moments);

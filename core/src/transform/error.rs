@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::error::Number;
+use crate::number::Number;
 
 /// Why a transform is refused.
 #[derive(Clone, Copy, Debug, PartialEq)]

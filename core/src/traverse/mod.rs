@@ -9,22 +9,19 @@
 //! share of numbers that lead to the light.
 
 mod batch;
-mod choose;
 mod many;
-mod random;
 mod sample;
 #[cfg(test)]
 mod tests;
 mod walk;
 mod widest;
 
-pub(crate) use choose::{FULL, FULL_BITS, choose};
-pub use random::Random64;
 pub use sample::SampledLight;
 
 use crate::importance::ImportanceModel;
 use crate::node::Node;
 use crate::point::Receiver;
+use crate::random::Random64;
 use crate::tree::LightTree;
 
 impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {

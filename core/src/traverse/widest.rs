@@ -5,7 +5,8 @@ mod dispatched {
     use crate::importance::ImportanceModel;
     use crate::node::Node;
     use crate::point::Receiver;
-    use crate::traverse::{Random64, SampledLight, batch, many, sample};
+    use crate::random::Random64;
+    use crate::traverse::{SampledLight, batch, many, sample};
     use crate::tree::LightTree;
     use crate::widest::widest;
 

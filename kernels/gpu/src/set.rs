@@ -122,8 +122,7 @@ impl KernelSet {
         let default = Model::DEFAULT;
         let is_compiled = model.layout == Layout::Moments
             && model.width == default.width
-            && model.uniform_halvings == default.uniform_halvings
-            && model.trails;
+            && model.uniform_halvings == default.uniform_halvings;
         if is_compiled {
             Ok(&MOMENTS)
         } else {
@@ -215,11 +214,6 @@ mod tests {
             Model { width: 16, ..default },
             Model {
                 uniform_halvings: 0,
-                ..default
-            },
-            Model {
-                uniform_halvings: 0,
-                trails: false,
                 ..default
             },
         ] {

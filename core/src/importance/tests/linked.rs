@@ -2,10 +2,10 @@
 
 use super::Random;
 use crate::beam::{Beam, Limits};
+use crate::choose::{FULL, choose};
 use crate::importance::{ImportanceModel, Leveled, Linked};
 use crate::node::{LinkedMomentNode, Node, kind};
 use crate::point::{LinkedPoint, ShadingPoint};
-use crate::traverse::{FULL, choose};
 use crate::{LightMoments, exact};
 
 /// The least and the greatest that an importance may give.

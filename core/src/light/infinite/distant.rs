@@ -2,8 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::error::LightError;
 use crate::exact;
+use crate::light::LightError;
 use crate::light::record::{checked_axis, checked_emission};
 use crate::point::ShadingPoint;
 use crate::vector::{dot, vector};

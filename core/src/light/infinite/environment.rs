@@ -7,7 +7,7 @@
 
 use super::octahedron::{cubed_distance, direction_at, place_of};
 use crate::exact;
-use crate::traverse::Random64;
+use crate::random::Random64;
 
 /// Most levels below the root: 2048 × 2048 texels.
 pub const MAX_LEVELS: u32 = 11;

@@ -8,7 +8,7 @@ use super::environment::start_of;
 use super::*;
 use crate::exact::hash;
 use crate::kit::Random;
-use crate::traverse::Random64;
+use crate::random::Random64;
 
 /// Of directions and of places there is one each.
 #[test]

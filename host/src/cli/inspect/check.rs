@@ -1,15 +1,10 @@
 //! From the default to the chosen model, one part at a time, each checked on the scene's own points.
 
-use std::sync::Arc;
-
-use lightbvh::bvh::NoTrails;
-use lightbvh::exact::hash;
 use lightbvh::importance::DefaultImportance;
 use lightbvh::refit::Instance;
 use lightbvh::requirements::{Layout, Model, Requirements, TransformKind, Updates};
 use lightbvh::{
-    BuildParams, Bvh, ImportanceModel, LightNode, Lights, MomentLayout, MomentNode, Moments, SampledLight,
-    ShadingPoint, TwoSidedMomentNode,
+    BuildParams, Bvh, ImportanceModel, LightNode, Lights, MomentNode, ShadingPoint, TwoSidedMomentNode,
 };
 use lightbvh_kernels::bvh::WIDTH;
 use rayon::prelude::*;
@@ -21,8 +16,6 @@ use crate::scene::{Instances, Scene};
 
 /// Where probabilities may differ, the mean variance of a sample surely rises by no more than a twentieth.
 pub(super) const MOST_VARIANCE: f64 = 1.05;
-/// Samples of a point that are compared where no probability of a given light can be asked for.
-const SAMPLES: u32 = 64;
 
 /// The promise of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -43,7 +36,7 @@ pub(super) struct Row {
     pub part: &'static str,
     /// None of the default.
     pub promise: Option<Promise>,
-    /// Probabilities, or where there are none samples, that were compared, and how many differ.
+    /// Probabilities that were compared, and how many differ.
     pub compared: u64,
     pub different: u64,
     /// Greatest difference of two probabilities.
@@ -114,39 +107,17 @@ impl MeanRatio {
     }
 }
 
-type Sample = dyn Fn(&ShadingPoint, u32) -> SampledLight + Sync;
 type Pmf = dyn Fn(&ShadingPoint, u32, u32) -> f32 + Sync;
-type PmfOf<B> = fn(&B, &ShadingPoint, u32, u32) -> f32;
 
 /// A light BVH of some model.
 struct Subject {
     /// Bytes that sampling reads, and bytes of all its arrays.
     bytes: [usize; 2],
-    sample: Box<Sample>,
-    pmf: Option<Box<Pmf>>,
+    pmf: Box<Pmf>,
 }
 
 impl Subject {
-    fn new<B: Send + Sync + 'static>(
-        bvh: B,
-        bytes: [usize; 2],
-        sample: fn(&B, &ShadingPoint, u32) -> SampledLight,
-        pmf: Option<PmfOf<B>>,
-    ) -> Self {
-        let bvh = Arc::new(bvh);
-        let own = Arc::clone(&bvh);
-        Self {
-            bytes,
-            sample: Box::new(move |point, number| sample(&own, point, number)),
-            pmf: pmf.map(|pmf| {
-                let bvh = Arc::clone(&bvh);
-                Box::new(move |point: &ShadingPoint, light, instance| pmf(&bvh, point, light, instance)) as _
-            }),
-        }
-    }
-
-    /// With trails, and what `updates` need.
-    fn traced<N, I>(bvh: Bvh<N, I, WIDTH>, updates: Updates) -> Self
+    fn new<N, I>(bvh: Bvh<N, I, WIDTH>, updates: Updates) -> Self
     where
         N: LightNode<WIDTH> + 'static,
         I: ImportanceModel<N, WIDTH> + Send + Sync + 'static,
@@ -154,56 +125,15 @@ impl Subject {
         match updates {
             Updates::Nothing => {
                 let bvh = bvh.into_static();
-                let bytes = [bvh.bytes(); 2];
-                Self::new(
-                    bvh,
-                    bytes,
-                    |b, p, n| b.sample(p, n),
-                    Some(|b, p, l, i| b.pmf(p, l, i)),
-                )
+                Self {
+                    bytes: [bvh.bytes(); 2],
+                    pmf: Box::new(move |point, light, instance| bvh.pmf(point, light, instance)),
+                }
             }
-            Updates::Instances => {
-                let bvh = bvh.into_static_meshes();
-                let bytes = [bvh.bytes(), bvh.memory()];
-                Self::new(
-                    bvh,
-                    bytes,
-                    |b, p, n| b.sample(p, n),
-                    Some(|b, p, l, i| b.pmf(p, l, i)),
-                )
-            }
-            Updates::Meshes => {
-                let bytes = [bvh.bytes(), bvh.memory()];
-                Self::new(
-                    bvh,
-                    bytes,
-                    |b, p, n| b.sample(p, n),
-                    Some(|b, p, l, i| b.pmf(p, l, i)),
-                )
-            }
-        }
-    }
-
-    /// The same without trails.
-    fn untraced<N>(bvh: Bvh<N, Moments, WIDTH, NoTrails>, updates: Updates) -> Self
-    where
-        N: MomentLayout<WIDTH> + LightNode<WIDTH> + 'static,
-    {
-        match updates {
-            Updates::Nothing => {
-                let bvh = bvh.into_static();
-                let bytes = [bvh.bytes(); 2];
-                Self::new(bvh, bytes, |b, p, n| b.sample(p, n), None)
-            }
-            Updates::Instances => {
-                let bvh = bvh.into_static_meshes();
-                let bytes = [bvh.bytes(), bvh.memory()];
-                Self::new(bvh, bytes, |b, p, n| b.sample(p, n), None)
-            }
-            Updates::Meshes => {
-                let bytes = [bvh.bytes(), bvh.memory()];
-                Self::new(bvh, bytes, |b, p, n| b.sample(p, n), None)
-            }
+            Updates::All => Self {
+                bytes: [bvh.bytes(), bvh.memory()],
+                pmf: Box::new(move |point, light, instance| bvh.pmf(point, light, instance)),
+            },
         }
     }
 }
@@ -220,20 +150,15 @@ struct Source<'a> {
 
 impl Source<'_> {
     fn build(&self, model: &Model) -> Result<Subject, HostError> {
-        match model.layout {
-            Layout::TwoSidedMoments => self.of_layout::<TwoSidedMomentNode<WIDTH>>(model),
-            _ => self.of_layout::<MomentNode<WIDTH>>(model),
-        }
-    }
-
-    fn of_layout<N>(&self, model: &Model) -> Result<Subject, HostError>
-    where
-        N: MomentLayout<WIDTH> + LightNode<WIDTH> + 'static,
-    {
-        Ok(match (model.uniform_halvings, model.trails) {
-            (0, false) => Subject::untraced(self.bvh::<N, Moments>(model)?.without_trails(), model.updates),
-            (0, true) => Subject::traced(self.bvh::<N, Moments>(model)?, model.updates),
-            _ => Subject::traced(self.bvh::<N, DefaultImportance>(model)?, model.updates),
+        Ok(match model.layout {
+            Layout::TwoSidedMoments => Subject::new(
+                self.bvh::<TwoSidedMomentNode<WIDTH>, DefaultImportance>(model)?,
+                model.updates,
+            ),
+            _ => Subject::new(
+                self.bvh::<MomentNode<WIDTH>, DefaultImportance>(model)?,
+                model.updates,
+            ),
         })
     }
 
@@ -251,16 +176,15 @@ impl Source<'_> {
         Ok(bvh)
     }
 
-    /// Every probability, point by point; `None` where none can be asked for.
-    fn pmfs(&self, subject: &Subject, points: &[ShadingPoint]) -> Option<Vec<f32>> {
-        let pmf = subject.pmf.as_ref()?;
+    /// Every probability, point by point.
+    fn pmfs(&self, subject: &Subject, points: &[ShadingPoint]) -> Vec<f32> {
         let lights = self.lights.triangles();
         let of = |point: &ShadingPoint| -> Vec<f32> {
             let each = (0..).zip(lights);
-            each.map(|(light, triangle)| pmf(point, light, triangle.mesh))
+            each.map(|(light, triangle)| (subject.pmf)(point, light, triangle.mesh))
                 .collect()
         };
-        Some(points.par_iter().flat_map_iter(of).collect())
+        points.par_iter().flat_map_iter(of).collect()
     }
 
     /// Relative variances of one sample by these probabilities, at the points that any light reaches.
@@ -287,9 +211,9 @@ impl Source<'_> {
 }
 
 /// Counts what differs in pairs of probabilities, and the greatest difference.
-fn compared(pairs: impl Iterator<Item = (f32, f32, bool)>) -> (u64, u64, f64) {
-    pairs.fold((0, 0, 0.0), |(count, different, most), (a, b, same)| {
-        let differs = !same || a.to_bits() != b.to_bits();
+fn compared<'a>(pairs: impl Iterator<Item = (&'a f32, &'a f32)>) -> (u64, u64, f64) {
+    pairs.fold((0, 0, 0.0), |(count, different, most), (&a, &b)| {
+        let differs = a.to_bits() != b.to_bits();
         let by = (f64::from(a) - f64::from(b)).abs();
         (count + 1, different + u64::from(differs), f64::max(most, by))
     })
@@ -298,16 +222,10 @@ fn compared(pairs: impl Iterator<Item = (f32, f32, bool)>) -> (u64, u64, f64) {
 /// A part of a model, and how one model takes it from another.
 type Part = (&'static str, fn(&mut Model, &Model));
 
-/// Each is taken after those before it: without a share of uniform choice trails can go.
-const PARTS: [Part; 5] = [
+/// Each is taken after those before it.
+const PARTS: [Part; 3] = [
     ("layout", |to, from| to.layout = from.layout),
     ("levels", |to, from| to.single_level = from.single_level),
-    ("uniform share", |to, from| {
-        to.uniform_halvings = from.uniform_halvings
-    }),
-    ("trails", |to, from| {
-        to.trails = from.trails || to.uniform_halvings > 0
-    }),
     ("updates", |to, from| to.updates = from.updates),
 ];
 
@@ -318,7 +236,7 @@ fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
     match part {
         "layout" if model.layout == Layout::TwoSidedMoments && requirements.one_sided == 0 => Promise::Bits,
         "levels" if model.single_level && is_identity => Promise::BitsBelowInstance,
-        "trails" | "updates" => Promise::Bits,
+        "updates" => Promise::Bits,
         _ => Promise::Variance,
     }
 }
@@ -341,9 +259,9 @@ pub(super) fn check(
         sent: sent.collect(),
     };
     let mut model = Model::DEFAULT;
-    let mut subject = source.build(&model)?;
+    let subject = source.build(&model)?;
     let mut before = source.pmfs(&subject, points);
-    let mut variances_before = source.variances(before.as_deref().unwrap_or_default());
+    let mut variances_before = source.variances(&before);
     let mut rows = vec![Row {
         part: "default",
         promise: None,
@@ -367,29 +285,12 @@ pub(super) fn check(
         let new = source.build(&then)?;
         let promise = promise(part, &then, requirements);
         let pmfs = source.pmfs(&new, points);
-        let (compared, different, most) = match (&before, &pmfs) {
-            (Some(before), Some(pmfs)) => {
-                let seen = (promise == Promise::BitsBelowInstance).then(|| {
-                    let seen = points.iter().map(|point| Instance::IDENTITY.to_local(point));
-                    source.pmfs(&new, &seen.collect::<Vec<_>>()).unwrap_or_default()
-                });
-                let pairs = before.iter().zip(seen.as_ref().unwrap_or(pmfs));
-                compared(pairs.map(|(&a, &b)| (a, b, true)))
-            }
-            _ => {
-                let numbers = (0_u32..).zip(points);
-                let numbers =
-                    numbers.flat_map(|(at, point)| (0..SAMPLES).map(move |k| (point, at * SAMPLES + k)));
-                compared(numbers.map(|(point, number)| {
-                    let [a, b] = [&subject, &new].map(|own| (own.sample)(point, hash(number)));
-                    (a.pmf, b.pmf, a.light == b.light)
-                }))
-            }
-        };
-        let variances = match &pmfs {
-            Some(pmfs) => source.variances(pmfs),
-            None => variances_before.clone(),
-        };
+        let seen = (promise == Promise::BitsBelowInstance).then(|| {
+            let seen = points.iter().map(|point| Instance::IDENTITY.to_local(point));
+            source.pmfs(&new, &seen.collect::<Vec<_>>())
+        });
+        let (compared, different, most) = compared(before.iter().zip(seen.as_ref().unwrap_or(&pmfs)));
+        let variances = source.variances(&pmfs);
         let variance_ratio = (!variances.is_empty()).then(|| MeanRatio::of(&variances_before, &variances));
         let held = match promise {
             Promise::Variance => variance_ratio.is_none_or(|ratio| ratio.high <= MOST_VARIANCE),
@@ -410,7 +311,7 @@ pub(super) fn check(
             cost: source.cost(&new),
         });
         if !put_back {
-            (model, subject, before, variances_before) = (then, new, pmfs, variances);
+            (model, before, variances_before) = (then, pmfs, variances);
             last = rows.len() - 1;
         }
     }

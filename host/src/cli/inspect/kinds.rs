@@ -159,7 +159,6 @@ pub(super) fn run(
         );
     }
     text += &line("changes", &table::yes(!changes(&declared).is_empty()));
-    text += &line("pmf of given lights", &table::yes(declared.pmf));
     text += about;
     if let Some(checked) = &checked {
         text += &found(&tree, frames, checked);

@@ -41,9 +41,6 @@ pub struct Args {
     /// What changes besides what the scene's animations move; a file cannot say so.
     #[arg(long, value_enum, value_delimiter = ',')]
     changes: Vec<Change>,
-    /// No probability of a given light is asked for: there is no multiple importance sampling.
-    #[arg(long)]
-    no_mis: bool,
     /// Points on surfaces that probabilities are compared at; fewer for more than 131,072 lights.
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     points: u32,
@@ -232,7 +229,6 @@ fn declared(args: &Args, motion: Motion) -> Declared {
         triangles: has(Change::Triangles) || !args.still && motion.bending > 0,
         instances: has(Change::Instances),
         meshes: has(Change::Meshes),
-        pmf: !args.no_mis,
     }
 }
 
@@ -393,11 +389,6 @@ fn facts(found: &Requirements, surfaces: &Surfaces) -> Vec<Fact> {
             format!("{changed}, as declared"),
         ),
         ("glossy receivers", yes(surfaces.glossy > 0), surfaces.gloss()),
-        (
-            "pmf of given lights",
-            yes(found.declared.pmf),
-            "multiple importance sampling asks for them; as declared".to_owned(),
-        ),
     ];
     let all = facts.into_iter();
     all.map(|(name, found, reason)| Fact { name, found, reason })
@@ -406,7 +397,7 @@ fn facts(found: &Requirements, surfaces: &Surfaces) -> Vec<Fact> {
 
 /// Why each part of the smallest model is what it is: a sentence for each that begins with its name.
 fn reasons(found: &Requirements, surfaces: &Surfaces) -> Vec<String> {
-    let (model, pmf) = (found.model(), found.declared.pmf);
+    let model = found.model();
     let layout = match (model.layout, found.one_sided) {
         (Layout::TwoSidedMoments, _) => {
             "no light has a normal, so nodes leave their row out: 20 bytes of each child instead of 24"
@@ -432,38 +423,23 @@ fn reasons(found: &Requirements, surfaces: &Surfaces) -> Vec<String> {
             found.meshes
         ),
     };
-    let trails = match pmf {
-        true => {
-            "kept, because probabilities of given lights are asked for; 1/64 of uniform choice finds its lights by them"
-        }
-        false => {
-            "none, because no probability of a given light is asked for; without them there is no share of uniform choice"
-        }
-    };
     let updates = match model.updates {
         Updates::Nothing => {
             "nothing changes, so triangles, instance states and lists for refits are not kept"
         }
-        Updates::Instances => {
-            "instances change and meshes stay, so triangles and their lists are not kept on the CPU"
-        }
-        Updates::Meshes => "meshes change or come, so everything is kept",
+        Updates::All => "lights change, so everything is kept",
     };
     let mut said = vec![
         format!("layout: {layout}"),
         format!("levels: {levels}"),
-        format!("trails: {trails}"),
         format!("updates: {updates}"),
     ];
     if surfaces.glossy > 0 {
-        said.push(match pmf {
-            true => "glossy surfaces: rays into their lobes share lights with samples by probabilities (multiple importance sampling); an \
-                     importance that knows the lobe (`Glossy`) may have less variance for the same samples, and takes longer for each"
+        said.push(
+            "glossy surfaces: rays into their lobes share lights with samples by probabilities (multiple importance sampling); an \
+             importance that knows the lobe (`Glossy`) may have less variance for the same samples, and takes longer for each"
                 .to_owned(),
-            false => "glossy surfaces: without probabilities of given lights no ray into a lobe can share a light with a sample; ask for \
-                      them, resample several candidates (`sample_many`), or take `Glossy`"
-                .to_owned(),
-        });
+        );
     }
     said
 }
@@ -493,10 +469,9 @@ fn print_check(checked: &Checked, points: u32, [frame, moved]: [u32; 2]) -> Resu
         default.memory_per_light,
     ))?;
     for row in checked.rows.iter().filter(|row| !row.held) {
-        let done = match (row.put_back, row.part) {
-            (true, "uniform share") => "it is put back, and trails stay for it",
-            (true, _) => "the part is put back",
-            (false, _) => "this is a fault of lightbvh; please report it",
+        let done = match row.put_back {
+            true => "the part is put back",
+            false => "this is a fault of lightbvh; please report it",
         };
         let promise = row.promised();
         table::print_text(&format!(
@@ -544,8 +519,6 @@ fn model_json(model: &Model) -> Value {
         "layout": model.layout.name(),
         "levels": 2 - u32::from(model.single_level),
         "width": model.width,
-        "uniform_halvings": model.uniform_halvings,
-        "trails": model.trails,
         "updates": model.updates.name(),
     })
 }
