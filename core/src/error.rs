@@ -5,13 +5,11 @@ pub use crate::bvh::RebuildError;
 #[cfg(feature = "alloc")]
 pub use crate::bvh::{EditError, EditReason, FollowError, ReadError};
 #[doc(inline)]
-pub use crate::light::{LightError, MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE};
+pub use crate::domain::{
+    DomainError, MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE, NORMAL_TOLERANCE,
+};
 #[cfg(feature = "alloc")]
 #[doc(inline)]
 pub use crate::lights::{LightsError, MAX_LIGHTS};
-#[doc(inline)]
-pub use crate::point::{NORMAL_TOLERANCE, PointError};
-#[cfg(feature = "alloc")]
-pub use crate::transform::TransformError;
 #[cfg(feature = "alloc")]
 pub use crate::validate::Violation;

@@ -77,7 +77,6 @@ mod domain;
 pub mod instance;
 #[doc(hidden)]
 pub mod moments;
-mod number;
 #[doc(hidden)]
 pub mod point;
 mod random;

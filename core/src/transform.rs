@@ -1,12 +1,11 @@
 //! Affine maps of instances.
 
-mod error;
 mod extent;
 mod vector;
 
-pub use error::TransformError;
 pub(crate) use extent::Extent;
 
+use crate::domain::DomainError;
 use crate::exact;
 use crate::instance::Instance;
 use crate::light::{Light, MAX_COORDINATE, MIN_COORDINATE};
@@ -20,6 +19,14 @@ const MOST_ENTRY: f64 = 1_152_921_504_606_846_976.0;
 const FLUX: [f32; 2] = [exact::pow2(-100), exact::pow2(100)];
 /// Least determinant, as a share of the cube of the greatest entry, that is divided by: 2^-60. Flatter maps have no inverse.
 const FLAT: f64 = 1.0 / 1_152_921_504_606_846_976.0;
+
+/// Names of the entries, by column.
+const ENTRIES: [[&str; 3]; 4] = [
+    ["columns[0][0]", "columns[0][1]", "columns[0][2]"],
+    ["columns[1][0]", "columns[1][1]", "columns[1][2]"],
+    ["columns[2][0]", "columns[2][1]", "columns[2][2]"],
+    ["translation[0]", "translation[1]", "translation[2]"],
+];
 
 /// An affine map `x ↦ A x + t` from a mesh's space to the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +61,7 @@ impl Transform {
     }
 
     /// Whether every entry is a number within the domain, and a mesh of that extent stays within it.
-    pub(crate) fn check(&self, extent: &Extent) -> Result<(), TransformError> {
+    pub(crate) fn check(&self, extent: &Extent) -> Result<(), DomainError> {
         let [a, b, c] = &self.columns;
         let columns = [a, b, c, &self.translation];
         // NaN is in no range.
@@ -67,7 +74,11 @@ impl Transform {
             for (column, entries) in columns.iter().enumerate() {
                 for (row, &value) in entries.iter().enumerate() {
                     if !within(value) {
-                        return Err(TransformError::Entry { row, column, value });
+                        return Err(DomainError::number(
+                            ENTRIES[column][row],
+                            value,
+                            "a finite number of magnitude at most 2^40 (1.1e12); repair the animation",
+                        ));
                     }
                 }
             }
@@ -78,9 +89,9 @@ impl Transform {
         };
         let farthest = greatest(greatest(reach(0), reach(1)), reach(2));
         if farthest > f64::from(MAX_COORDINATE) {
-            return Err(TransformError::TooFar {
-                metres: farthest as f32,
-            });
+            let what = "a place as far as a transform moves a mesh";
+            let expected = "at most 2^40 m (1.1e12); scale the scene or move its origin";
+            return Err(DomainError::number(what, farthest as f32, expected));
         }
         Ok(())
     }

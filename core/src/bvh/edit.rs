@@ -3,9 +3,9 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use crate::light::{EmissiveTriangle, LightError};
-use crate::number::Number;
-use crate::transform::{Transform, TransformError};
+use crate::domain::{DomainError, Number};
+use crate::light::EmissiveTriangle;
+use crate::transform::Transform;
 use crate::tree::INVALID;
 
 /// A mesh of emissive triangles; stays the same as long as the mesh is in the scene, and never means another one.
@@ -174,10 +174,10 @@ pub enum EditReason {
         /// Its index in the edit.
         index: usize,
         /// What is wrong with it.
-        error: LightError,
+        error: DomainError,
     },
     /// A transform is outside the domain.
-    Transform(TransformError),
+    Transform(DomainError),
     /// A factor on radiance is outside [`RADIANCE_FACTORS`].
     Radiance {
         /// What was found.

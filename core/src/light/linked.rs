@@ -4,9 +4,10 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::record::{Each, Light};
-use super::{AnyLight, EmissiveTriangle, LightError, LightPoint};
+use super::{AnyLight, EmissiveTriangle, LightPoint};
 use crate::beam::Beam;
 use crate::bounds::{LightBounds, LightMoments};
+use crate::domain::DomainError;
 use crate::instance::Instance;
 
 /// A record of its own for each kind of light: what is generic over the light cannot be plain words without unsafe code.
@@ -38,7 +39,7 @@ macro_rules! linked {
             const HAS_FLUX_POWERS: bool = <$own>::HAS_FLUX_POWERS;
             type Slots<const W: usize> = Each<Self, W>;
 
-            fn checked(self) -> Result<Self, LightError> {
+            fn checked(self) -> Result<Self, DomainError> {
                 let light = self.light.checked()?;
                 Ok(Self { light, ..self })
             }

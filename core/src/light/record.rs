@@ -5,13 +5,13 @@ use core::fmt::Debug;
 use bytemuck::Pod;
 use glam::Vec3;
 
-use super::{INVALID, LightError, LightPoint, MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE};
+use super::{INVALID, LightPoint, MAX_RADIANCE, MIN_RADIANCE};
 use crate::beam::Beam;
 use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::Cone;
+use crate::domain::{DomainError, NORMAL_TOLERANCE};
 use crate::exact::{self, pow2};
 use crate::instance::Instance;
-use crate::point::NORMAL_TOLERANCE;
 use crate::vector::{flush3, greatest_exponent, length_squared, vector};
 
 /// A light as the arrays of a light BVH hold it: plain words, the same on devices.
@@ -37,8 +37,8 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     /// [`MIN_COORDINATE`](super::MIN_COORDINATE) become zero; nothing else changes.
     ///
     /// # Errors
-    /// [`LightError`], naming the number.
-    fn checked(self) -> Result<Self, LightError>;
+    /// [`DomainError`], naming the number.
+    fn checked(self) -> Result<Self, DomainError>;
     /// Index of the mesh light that owns it.
     fn mesh(&self) -> u32;
     /// The same light of another mesh.
@@ -156,42 +156,28 @@ pub(super) fn greatest(coordinates: &[f32]) -> f32 {
         .fold(0.0, |most, &x| exact::max(most, exact::abs(x)))
 }
 
-/// Coordinates in the domain, of what is named.
-pub(super) fn checked_place(what: &'static str, mut place: [f32; 3]) -> Result<[f32; 3], LightError> {
-    for axis in 0..3 {
-        let value = place[axis];
-        // NaN is in no range.
-        if !(-MAX_COORDINATE..=MAX_COORDINATE).contains(&value) {
-            return Err(LightError::Place { what, axis, value });
-        }
-        place[axis] = exact::flush(value, MIN_COORDINATE);
-    }
-    Ok(place)
-}
-
-/// Linear R, G, B in the domain, of what is named.
-pub(in crate::light) fn checked_emission(
-    what: &'static str,
-    mut emission: [f32; 3],
-) -> Result<[f32; 3], LightError> {
-    for channel in 0..3 {
-        let value = emission[channel];
-        if value != 0.0 && !(MIN_RADIANCE..=MAX_RADIANCE).contains(&value) {
-            return Err(LightError::Emission { what, channel, value });
-        }
-        emission[channel] = exact::flush(value, MIN_RADIANCE);
-    }
-    Ok(emission)
+/// Why flags of a light with sides are refused.
+pub(super) fn wrong_flags(flags: u32) -> DomainError {
+    DomainError::bits(
+        "the word of flags",
+        flags,
+        "0 or TWO_SIDED (1); clear the other bits",
+    )
 }
 
 /// A direction of length 1, up to [`NORMAL_TOLERANCE`], at length 1.
-pub(in crate::light) fn checked_axis(axis: [f32; 3]) -> Result<[f32; 3], LightError> {
+pub(in crate::light) fn checked_axis(axis: [f32; 3]) -> Result<[f32; 3], DomainError> {
     let squared = length_squared(vector(&axis));
     // NaN is in no range.
     if (1.0 - NORMAL_TOLERANCE..=1.0 + NORMAL_TOLERANCE).contains(&squared) {
         Ok(unit(axis))
     } else {
-        Err(LightError::Axis { axis })
+        let what = "the axis of a spot or a profile, or the direction of a sun,";
+        Err(DomainError::vector(
+            what,
+            axis,
+            "length 1, and across at right angles; normalize it",
+        ))
     }
 }
 

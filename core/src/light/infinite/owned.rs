@@ -6,9 +6,9 @@ use core::fmt;
 use super::counts::counts_of;
 use super::environment::{EnvironmentMap, MAX_LEVELS, start_of};
 use super::octahedron::direction_at;
+use crate::domain::Number;
 use crate::emission::luminance_of;
 use crate::light::{MAX_RADIANCE, MIN_RADIANCE};
-use crate::number::Number;
 
 /// Places of a texel, in each direction, by whose mean it is known.
 const PLACES: u32 = 4;

@@ -9,9 +9,10 @@ use glam::Vec3;
 use self::slots::Triangles;
 pub(super) use self::summaries::flux;
 use self::summaries::has_flux;
-use super::record::{Light, checked_emission, checked_place, shining};
-use super::{INVALID, LightError, LightPoint, TWO_SIDED};
+use super::record::{Light, shining, wrong_flags};
+use super::{INVALID, LightPoint, TWO_SIDED};
 use crate::bounds::{LightBounds, LightMoments};
+use crate::domain::{DomainError, checked_emission, checked_place};
 use crate::emission::luminance_of;
 use crate::exact;
 use crate::instance::Instance;
@@ -74,15 +75,15 @@ impl EmissiveTriangle {
     /// Coordinates smaller than [`MIN_COORDINATE`](super::MIN_COORDINATE) become zero (with the sign of zero dropped); nothing else changes.
     ///
     /// # Errors
-    /// [`LightError`] for a coordinate or radiance that is not finite or out of range, for negative radiance, and for flags that mean
+    /// [`DomainError`] for a coordinate or radiance that is not finite or out of range, for negative radiance, and for flags that mean
     /// nothing.
-    pub fn checked(mut self) -> Result<Self, LightError> {
+    pub fn checked(mut self) -> Result<Self, DomainError> {
         self.p[0] = checked_place("first vertex of a triangle", self.p[0])?;
         self.p[1] = checked_place("second vertex of a triangle", self.p[1])?;
         self.p[2] = checked_place("third vertex of a triangle", self.p[2])?;
         self.radiance = checked_emission("radiance of a triangle", self.radiance)?;
         if self.flags & !TWO_SIDED != 0 {
-            return Err(LightError::Flags { flags: self.flags });
+            return Err(wrong_flags(self.flags));
         }
         Ok(self)
     }
@@ -99,7 +100,7 @@ impl Light for EmissiveTriangle {
     const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
     type Slots<const W: usize> = Triangles<W>;
 
-    fn checked(self) -> Result<Self, LightError> {
+    fn checked(self) -> Result<Self, DomainError> {
         Self::checked(self)
     }
 
