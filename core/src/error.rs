@@ -3,7 +3,7 @@
 #[cfg(feature = "std")]
 pub use crate::bvh::RebuildError;
 #[cfg(feature = "alloc")]
-pub use crate::bvh::{EditError, EditReason, FollowError, ReadError};
+pub use crate::bvh::{EditError, EditReason, FollowError, ReadError, Violation};
 #[doc(inline)]
 pub use crate::domain::{
     DomainError, MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE, NORMAL_TOLERANCE,
@@ -11,5 +11,3 @@ pub use crate::domain::{
 #[cfg(feature = "alloc")]
 #[doc(inline)]
 pub use crate::lights::{LightsError, MAX_LIGHTS};
-#[cfg(feature = "alloc")]
-pub use crate::validate::Violation;

@@ -101,8 +101,6 @@ mod sweep;
 #[cfg(feature = "alloc")]
 #[doc(hidden)]
 pub mod transform;
-#[cfg(feature = "alloc")]
-mod validate;
 #[doc(hidden)]
 pub mod widest;
 

@@ -20,8 +20,6 @@ pub const SUMMARY_WORDS: usize = 12;
 pub trait Summary: Copy + PartialEq + Debug + Send + Sync + 'static {
     /// The summary of no light at all.
     const EMPTY: Self;
-    /// Names of the words of [`to_words`](Self::to_words), for messages.
-    const NAMES: [&'static str; SUMMARY_WORDS];
 
     /// Of one light.
     fn of_light<L: Light>(light: &L) -> Self;
@@ -46,9 +44,6 @@ pub trait Summary: Copy + PartialEq + Debug + Send + Sync + 'static {
     fn spread(&self) -> f32;
     /// A box and a cone around the lights, as far as they are known: what the paper's heuristics look at.
     fn bounds(&self) -> LightBounds;
-    /// The index among [`NAMES`](Self::NAMES) of a component in which `child` reaches out of `self`, its parent; `None` where
-    /// there is none, or where parents need not contain their children.
-    fn uncontained(&self, child: &Self) -> Option<usize>;
 
     /// The numbers in full.
     fn to_words(&self) -> [f32; SUMMARY_WORDS];

@@ -56,7 +56,7 @@ pub use log::{Cursor, RefitPlan};
 pub use rebuilder::{FrameStart, RebuildError, Rebuilder, RebuilderParams, Swap};
 pub use serial::{FORMAT, ReadError};
 pub use static_bvh::StaticBvh;
-pub use validate::Stats;
+pub use validate::{Stats, Violation};
 
 pub use crate::levels::Levels;
 #[doc(inline)]

@@ -37,20 +37,6 @@ pub(crate) const LEAST_LENGTH: f32 = pow2(-120);
 
 impl Summary for LightMoments {
     const EMPTY: Self = Self::EMPTY;
-    const NAMES: [&'static str; SUMMARY_WORDS] = [
-        "flux",
-        "centre x",
-        "centre y",
-        "centre z",
-        "deviation across",
-        "deviation along",
-        "normal x",
-        "normal y",
-        "normal z",
-        "half extent x",
-        "half extent y",
-        "half extent z",
-    ];
 
     #[inline(always)]
     fn of_light<L: Light>(light: &L) -> Self {
@@ -107,11 +93,6 @@ impl Summary for LightMoments {
             cos_theta_o: if alike { 1.0 } else { -1.0 },
             phi: self.phi,
         }
-    }
-
-    /// Means need not contain their parts.
-    fn uncontained(&self, _child: &Self) -> Option<usize> {
-        None
     }
 
     #[inline(always)]
