@@ -23,6 +23,13 @@ fn pays(name: &str, most: f64, variance: impl Fn(bool) -> [f64; 2]) {
     }
 }
 
+fn node(sets: &[LightMoments; 4]) -> MomentNode<4> {
+    let mut node = MomentNode::EMPTY;
+    (0..4).for_each(|slot| node.set_child(slot, kind::LIGHT, slot as u32));
+    node.set_summaries(sets);
+    node
+}
+
 /// From 2^`low` to 2^`high`, as often in each octave.
 fn power(random: &mut Random, low: i32, high: i32) -> f32 {
     let octave = low + random.below((high - low) as u32) as i32;
@@ -76,11 +83,7 @@ fn glossy_factors_are_their_formula() {
                 h: Vec3::ZERO,
             }
         });
-        let mut node = MomentNode::<4>::EMPTY;
-        for slot in 0..4 {
-            node.set_child(slot, kind::LIGHT, slot as u32);
-        }
-        node.set_summaries(&sets);
+        let node = node(&sets);
         let sets = [0, 1, 2, 3].map(|slot| node.summary(slot));
         let found = Glossy::<Flux>::weights(&node, &receiver);
         for slot in 0..4 {
@@ -457,11 +460,7 @@ fn weights_are_means_along_the_segment() {
                 h: Vec3::ZERO,
             }
         });
-        let mut node = MomentNode::<4>::EMPTY;
-        for slot in 0..4 {
-            node.set_child(slot, kind::LIGHT, slot as u32);
-        }
-        node.set_summaries(&sets);
+        let node = node(&sets);
         // As the words are read; the spread of normals is stored beside their mean, in units of 1/255.
         let spreads = sets.map(|set| {
             let m = wide(set.m.to_array());
@@ -522,9 +521,7 @@ fn weights_of_segments_are_positive_everywhere() {
                 _ => random.vector(pow2(40)),
             };
             let segment = RaySegment { from, to }.checked().expect("in the domain");
-            let mut node = MomentNode::<4>::EMPTY;
             let sets: [LightMoments; 4] = core::array::from_fn(|slot| {
-                node.set_child(slot, kind::LIGHT, 0);
                 let part = random.unit();
                 let c = match slot {
                     0 => segment.at(part),
@@ -546,8 +543,7 @@ fn weights_of_segments_are_positive_everywhere() {
                     h: Vec3::splat(across),
                 }
             });
-            node.set_summaries(&sets);
-            for weight in Subtended::<Moments>::weights(&node, &segment) {
+            for weight in Subtended::<Moments>::weights(&node(&sets), &segment) {
                 assert!(
                     (pow2(-120)..=pow2(120)).contains(&weight),
                     "{weight} at {segment:?} of {sets:?}"
