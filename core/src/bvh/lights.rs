@@ -5,11 +5,9 @@ use core::ops::Range;
 
 use super::Bvh;
 use super::edit::{InstanceId, MeshId};
-use crate::instance::Instance;
 use crate::light::Light;
 use crate::lights::MAX_LIGHTS;
 use crate::node::Node;
-use crate::transform::Transform;
 
 /// So many numbers of removed lights wait to be taken, and as many as there are lights.
 const LEAST_WAITING: usize = 1 << 16;
@@ -96,28 +94,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             }
         }
         out
-    }
-
-    /// The lights of each mesh, and of each instance the index of its mesh among them, its transform, its factor and its words.
-    #[allow(clippy::type_complexity)]
-    pub(crate) fn meshes_and_places(&self) -> (Vec<&[N::Light]>, Vec<(usize, Transform, f32, Instance)>) {
-        let mut found = alloc::vec![0; self.meshes.len()];
-        let mut meshes = Vec::new();
-        for (index, mesh) in self.meshes.iter().enumerate().filter(|(_, mesh)| mesh.live) {
-            let range = &mesh.triangles;
-            found[index] = meshes.len();
-            meshes.push(&self.triangles[range.start as usize..range.end as usize]);
-        }
-        let live = self
-            .placed
-            .iter()
-            .zip(&self.instances)
-            .filter(|(placed, _)| placed.live);
-        let placed = live.map(|(placed, instance)| {
-            let mesh = found[placed.mesh as usize];
-            (mesh, placed.transform, placed.radiance, *instance)
-        });
-        (meshes, placed.collect())
     }
 
     /// Number of lights in the world.

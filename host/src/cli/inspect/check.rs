@@ -2,7 +2,7 @@
 
 use lightbvh::importance::DefaultImportance;
 use lightbvh::refit::Instance;
-use lightbvh::requirements::{Layout, Model, Requirements, TransformKind, Updates};
+use lightbvh::requirements::{Layout, Model, Requirements, Updates};
 use lightbvh::{
     BuildParams, Bvh, ImportanceModel, LightNode, Lights, MomentNode, ShadingPoint, TwoSidedMomentNode,
 };
@@ -230,9 +230,7 @@ const PARTS: [Part; 3] = [
 ];
 
 fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
-    let is_identity = requirements.is_one_mesh()
-        && requirements.transform() == TransformKind::Identity
-        && requirements.dimmed == 0;
+    let is_identity = requirements.is_one_mesh() && requirements.placed == 0;
     match part {
         "layout" if model.layout == Layout::TwoSidedMoments && requirements.one_sided == 0 => Promise::Bits,
         "levels" if model.single_level && is_identity => Promise::BitsBelowInstance,

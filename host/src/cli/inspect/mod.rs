@@ -335,21 +335,12 @@ fn changes(declared: &Declared) -> Vec<&'static str> {
 
 /// Every fact, each with its reason.
 fn facts(found: &Requirements, surfaces: &Surfaces) -> Vec<Fact> {
-    let (triangles, one_sided, dimmed) = (found.triangles, found.one_sided, found.dimmed);
+    let (triangles, one_sided) = (found.triangles, found.one_sided);
     let changes = changes(&found.declared);
     let changed = match changes.is_empty() {
         true => "everything stays as it is".to_owned(),
         false => changes.join(", "),
     };
-    let kinds = [
-        "identity",
-        "translations",
-        "rigid",
-        "uniform scales",
-        "non-uniform",
-    ];
-    let counts = kinds.iter().zip(found.transforms).filter(|(_, count)| *count > 0);
-    let counts: Vec<String> = counts.map(|(kind, count)| format!("{count} {kind}")).collect();
     let orientation = if one_sided > 0 { "present" } else { "absent" };
     let facts = [
         (
@@ -372,16 +363,6 @@ fn facts(found: &Requirements, surfaces: &Surfaces) -> Vec<Fact> {
                 "meshes: {}, instances: {}, at most {} of a mesh",
                 found.meshes, found.instances, found.most_instances
             ),
-        ),
-        (
-            "dark lights",
-            yes(found.dark > 0),
-            format!("{} of {} have no flux", found.dark, found.lights),
-        ),
-        (
-            "transforms",
-            kinds[found.transform() as usize].to_owned(),
-            format!("instances: {}; {dimmed} dimmed", counts.join(", ")),
         ),
         (
             "changes",
