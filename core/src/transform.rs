@@ -1,15 +1,9 @@
 //! Affine maps of instances.
 
-mod extent;
-mod vector;
-
-pub(crate) use extent::Extent;
-
 use crate::domain::DomainError;
 use crate::exact;
 use crate::instance::Instance;
 use crate::light::{Light, MAX_COORDINATE, MIN_COORDINATE};
-use vector::{cross, dot, greatest, magnitude};
 
 /// Entries of the maps below this count as zero: 2^-60.
 const TINY_ENTRY: f32 = exact::pow2(-60);
@@ -60,8 +54,8 @@ impl Transform {
         light.in_world(&self.instance_by(1.0, light.flux_power()), mesh)
     }
 
-    /// Whether every entry is a number within the domain, and a mesh of that extent stays within it.
-    pub(crate) fn check(&self, extent: &Extent) -> Result<(), DomainError> {
+    /// Whether every entry is a number within the domain, and a mesh of which no coordinate is beyond `reach` stays within it.
+    pub(crate) fn check(&self, reach: f32) -> Result<(), DomainError> {
         let [a, b, c] = &self.columns;
         let columns = [a, b, c, &self.translation];
         // NaN is in no range.
@@ -83,11 +77,11 @@ impl Transform {
                 }
             }
         }
-        let reach = |row: usize| {
+        let farthest = |row: usize| {
             let entry = |column: &[f32; 3]| f64::from(exact::abs(column[row]));
-            ((entry(a) + entry(b)) + entry(c)) * extent.coordinate + entry(&self.translation)
+            ((entry(a) + entry(b)) + entry(c)) * f64::from(reach) + entry(&self.translation)
         };
-        let farthest = greatest(greatest(reach(0), reach(1)), reach(2));
+        let farthest = greatest(greatest(farthest(0), farthest(1)), farthest(2));
         if farthest > f64::from(MAX_COORDINATE) {
             let what = "a place as far as a transform moves a mesh";
             let expected = "at most 2^40 m (1.1e12); scale the scene or move its origin";
@@ -173,6 +167,33 @@ impl Transform {
 
 /// √3.
 const SQRT_3: f64 = 1.732_050_807_568_877_2;
+
+/// Greatest magnitude of a coordinate that one of these lights reaches, metres.
+pub(crate) fn reach_of<L: Light>(lights: &[L]) -> f32 {
+    lights.iter().map(Light::reach).fold(0.0, exact::max)
+}
+
+// Vectors of `f64`, without the standard library: transforms are measured with more digits than they are applied with.
+
+fn magnitude(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & !(1 << 63))
+}
+
+fn greatest(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
 
 #[cfg(test)]
 mod tests;

@@ -45,12 +45,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// no such.
     #[must_use]
     pub fn instance_id(&self, instance: u32) -> Option<InstanceId> {
-        let placed = self.placed.get(instance as usize).filter(|placed| placed.live)?;
-        Some(InstanceId {
-            tree: self.id.0,
-            index: instance,
-            generation: placed.generation,
-        })
+        self.placed.get(instance as usize).filter(|placed| placed.live)?;
+        Some(self.id_of_instance(instance))
     }
 
     /// The mesh of an instance; `None` where there is no such instance.
@@ -70,12 +66,18 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// The id of the mesh of index `mesh`, which is that of [`MeshId::index`]; `None` where there is no such.
     #[must_use]
     pub fn mesh_id(&self, mesh: u32) -> Option<MeshId> {
-        let own = self.meshes.get(mesh as usize).filter(|own| own.live)?;
-        Some(MeshId {
-            tree: self.id.0,
-            index: mesh,
-            generation: own.generation,
-        })
+        self.meshes.get(mesh as usize).filter(|own| own.live)?;
+        Some(self.id_of_mesh(mesh))
+    }
+
+    pub(super) fn id_of_mesh(&self, index: u32) -> MeshId {
+        let generation = self.meshes[index as usize].generation;
+        MeshId::from_bits([self.id.0, index, generation])
+    }
+
+    pub(super) fn id_of_instance(&self, index: u32) -> InstanceId {
+        let generation = self.placed[index as usize].generation;
+        InstanceId::from_bits([self.id.0, index, generation])
     }
 
     /// All lights in the world by number, up to the greatest in use. Their `mesh` is the index of the instance; numbers not in

@@ -16,7 +16,7 @@ use crate::refit::{self, BlasRoot};
 use crate::summary::Summary;
 use crate::sweep;
 use crate::trail::{BitTrail, trail_words};
-use crate::transform::Extent;
+use crate::transform::reach_of;
 use crate::tree::INVALID;
 
 /// A new tree over the triangles of a mesh, which replaces its tree.
@@ -61,7 +61,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             room: 0,
             triangles: range,
             depth: 0,
-            extent: Extent::of(triangles),
+            reach: reach_of(triangles),
             power: common_power(triangles),
             version: 0,
         };

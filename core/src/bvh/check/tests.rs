@@ -77,7 +77,7 @@ fn edits_know_of_those_before() {
             .check(&mut edits)
             .map_err(|error| (error.edit, error.reason))
     };
-    let too_far = |result: Result<Extents, (usize, EditReason)>, edit: usize| matches!(result, Err((at, EditReason::Transform(_))) if at == edit);
+    let too_far = |result: Result<Reaches, (usize, EditReason)>, edit: usize| matches!(result, Err((at, EditReason::Transform(_))) if at == edit);
     // Just within 2^40 m; 2^30 m more are not.
     let (far, large) = (1.099e12, 1.0e9);
     assert_eq!(
@@ -86,8 +86,8 @@ fn edits_know_of_those_before() {
             .len(),
         1
     );
-    let extents = check(vec![deform(large), deform(1.0)]).expect("near");
-    assert_eq!(extents[&mesh], Extent::of(&triangles(2, 1.0)));
+    let reaches = check(vec![deform(large), deform(1.0)]).expect("near");
+    assert_eq!(reaches[&mesh], reach_of(&triangles(2, 1.0)));
     assert!(too_far(check(vec![moved(instance, [far; 3]), deform(large)]), 1));
     assert!(too_far(check(vec![deform(large), moved(instance, [far; 3])]), 1));
     check(vec![deform(large), deform(1.0), moved(instance, [far; 3])]).expect("small again");
