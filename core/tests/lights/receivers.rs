@@ -51,7 +51,7 @@ fn glossy(p: [f32; 3], n: [f32; 3], to: [f64; 3], specular: f32, log2: u32) -> G
 
 /// Within a cube of twice `size`.
 fn any_glossy(random: &mut Random, size: f32) -> GlossyPoint {
-    let (p, n) = (random.vector(size), random.unit_vector());
+    let (p, n) = (random.within(size), random.unit_vector());
     let mut to = wide(random.unit_vector());
     if dot(to, wide(n)) < 0.0 {
         to = times(to, -1.0);
@@ -72,7 +72,7 @@ fn glossy_factors_are_their_formula() {
             let to = if random.below(2) == 0 {
                 Vec3::from_array(random.unit_vector())
             } else {
-                Vec3::from_array(receiver.mirror) + Vec3::from_array(random.vector(0.2))
+                Vec3::from_array(receiver.mirror) + Vec3::from_array(random.within(0.2))
             };
             LightMoments {
                 phi: 1.0,
@@ -272,7 +272,7 @@ const PARTS: [[f32; 2]; 5] = [[1.0, 0.0], [0.0, 1.0], [0.5, 0.5], [0.8, 0.1], [0
 fn leaf(random: &mut Random, [front, back]: [f32; 2]) -> TransmissivePoint {
     TransmissivePoint {
         point: ShadingPoint {
-            p: random.vector(5.0),
+            p: random.within(5.0),
             n: random.unit_vector(),
         },
         front,
@@ -386,7 +386,7 @@ fn both_sides_pay() {
 impl Random {
     /// About `length` long, within about `reach` of the origin.
     fn segment(&mut self, reach: f32, length: f32) -> RaySegment {
-        let (from, along) = (self.vector(reach), self.unit_vector());
+        let (from, along) = (self.within(reach), self.unit_vector());
         RaySegment {
             from,
             to: core::array::from_fn(|k| from[k] + along[k] * length),
@@ -445,7 +445,7 @@ fn weights_are_means_along_the_segment() {
         let sets: [LightMoments; 4] = core::array::from_fn(|slot| {
             // The first is a point alike in all directions, to compare with.
             let plain = slot < 2;
-            let away = Vec3::from_array(random.vector(2.0 * scale));
+            let away = Vec3::from_array(random.within(2.0 * scale));
             let across = if plain { 0.0 } else { scale * 0.3 * random.unit() };
             LightMoments {
                 phi: 0.5 + random.unit(),
@@ -513,12 +513,12 @@ fn weights_of_segments_are_positive_everywhere() {
     for exponent in [-90, -40, 0, 20, 39] {
         let scale = pow2(exponent);
         for trial in 0..200 {
-            let from = random.vector(scale);
+            let from = random.within(scale);
             let to = match trial % 4 {
                 0 => from,
-                1 => random.vector(scale),
-                2 => random.vector(scale * pow2(-30)),
-                _ => random.vector(pow2(40)),
+                1 => random.within(scale),
+                2 => random.within(scale * pow2(-30)),
+                _ => random.within(pow2(40)),
             };
             let segment = RaySegment { from, to }.checked().expect("in the domain");
             let sets: [LightMoments; 4] = core::array::from_fn(|slot| {
@@ -527,7 +527,7 @@ fn weights_of_segments_are_positive_everywhere() {
                     0 => segment.at(part),
                     1 => from,
                     2 => to,
-                    _ => random.vector(scale),
+                    _ => random.within(scale),
                 };
                 let across = if trial % 3 == 0 {
                     0.0

@@ -17,10 +17,10 @@ type Default8 = Bvh<MomentNode<8>, D, 8>;
 /// Triangles of sizes and fluxes far apart, some without area or radiance, in a cube of 2 `size`; `flags` as given.
 fn mesh(random: &mut Random, size: f32, count: u32, flags: u32) -> Vec<EmissiveTriangle> {
     let triangle = |_| {
-        let at = random.vector(size);
+        let at = random.within(size);
         let edge = size * pow2(-(random.below(20) as i32));
         let vertex = |random: &mut Random| {
-            let away = random.vector(edge);
+            let away = random.within(edge);
             [0, 1, 2].map(|k| at[k] + away[k])
         };
         let b = vertex(random);
@@ -50,12 +50,12 @@ fn transform(random: &mut Random, size: f32) -> Transform {
     let columns = match random.below(3) {
         0 => Transform::IDENTITY.columns,
         // Any map, flat ones too.
-        1 => [0; 3].map(|_| random.vector(2.0)),
-        _ => [random.vector(1.0), [0.0; 3], random.vector(1.0)],
+        1 => [0; 3].map(|_| random.within(2.0)),
+        _ => [random.within(1.0), [0.0; 3], random.within(1.0)],
     };
     Transform {
         columns,
-        translation: random.vector(4.0 * size),
+        translation: random.within(4.0 * size),
     }
 }
 
@@ -96,7 +96,7 @@ fn points(seed: u32, lights: &[EmissiveTriangle]) -> Vec<ShadingPoint> {
     let point = |_| {
         let near = lights[random.below(lights.len() as u32) as usize].p[0];
         let size = near.into_iter().map(exact::abs).fold(pow2(-30), exact::max);
-        let away = random.vector(size);
+        let away = random.within(size);
         let mut point = random.point(0.0);
         point.p = [0, 1, 2].map(|k| near[k] + away[k]);
         point.checked().expect("a shading point")
