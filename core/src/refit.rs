@@ -11,6 +11,7 @@ mod limits;
 
 use bytemuck::{Pod, Zeroable};
 
+#[doc(hidden)]
 pub use self::children::{
     Child, Children, LIMITED_ROWS, PLAIN_ROWS, assembled, bottom_child, child_rows, top_child,
 };

@@ -27,12 +27,14 @@ pub use subtended::Subtended;
 pub use transmissive::Transmissive;
 
 use crate::exact;
+#[doc(hidden)]
 pub use crate::node::Cluster;
 use crate::point::ShadingPoint;
 #[doc(inline)]
 pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, TransmissivePoint};
 #[cfg(any(feature = "std", target_arch = "spirv"))]
 pub use crate::weight::NativeMath;
+#[doc(hidden)]
 pub use crate::weight::{ExactMath, Math};
 
 /// A measure of what the lights below each child of a node may contribute at a point. A type chooses it, so that kernels
@@ -107,6 +109,7 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
 }
 
 /// A weight `significand · 2^exponent`. The exponent is kept apart because Φ/d² of the accepted domain spans 2^±300.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scaled {
     /// Zero without any flux, else in `[2^-24, 8)`.
@@ -140,6 +143,7 @@ impl Scaled {
 
 /// Brings the weights of a node's children to one scale: that of the greatest exponent. A weight below 2^-60 of the scale
 /// counts as that much, so a positive weight stays positive.
+#[doc(hidden)]
 #[inline(always)]
 #[must_use]
 pub fn on_one_scale<const W: usize>(scaled: &[Scaled; W]) -> [f32; W] {

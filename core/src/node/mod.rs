@@ -18,11 +18,13 @@ pub use moment::{
 use bytemuck::Pod;
 use glam::Vec3;
 
+#[doc(hidden)]
 pub use crate::beam::{Beam, Limits};
 pub use crate::bounds::LightBounds;
 use crate::light::{EmissiveTriangle, Light};
 pub use crate::moments::LightMoments;
 use crate::summary::Lanes;
+#[doc(hidden)]
 pub use crate::summary::Summary;
 use crate::weight::Math;
 
@@ -137,6 +139,7 @@ pub trait LightNode<const W: usize>: Node<W> + Holds<Light = EmissiveTriangle> {
 impl<N: Node<W> + Holds<Light = EmissiveTriangle>, const W: usize> LightNode<W> for N {}
 
 /// What [`Eq4`](crate::Eq4) needs to know of the lights below a child; a node layout decodes it.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct Cluster {
     /// Centre C of the box, metres.
@@ -156,12 +159,14 @@ pub struct Cluster {
 }
 
 /// A layout that stores [`LightBounds`].
+#[doc(hidden)]
 pub trait BoundsNode<const W: usize>: Node<W, Summary = LightBounds> {
     /// The child's bounds as [`Eq4`](crate::Eq4) needs them.
     fn cluster(&self, slot: usize) -> Cluster;
 }
 
 /// A layout that stores [`LightMoments`].
+#[doc(hidden)]
 pub trait MomentLayout<const W: usize>: Node<W, Summary = LightMoments> {
     /// The weights of the children at the point `p` with the normal `n`, in the node's space, by the operations `M`; see
     /// [`ImportanceModel::weights`](crate::ImportanceModel::weights). `slack` is [`Instance::slack`](crate::Instance::slack).
