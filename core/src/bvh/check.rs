@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 
 use super::Bvh;
 use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
+use crate::exact;
 use crate::light::Light;
 use crate::lights::MAX_LIGHTS;
 use crate::node::Node;
@@ -188,7 +189,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         checked(triangles)?;
         let (known, mut reach) = (self.reach(batch, mesh), reach_of(triangles));
         if triangles.len() < self.mesh_len(mesh) {
-            reach = reach.max(known);
+            reach = exact::max(reach, known);
         }
         if reach > known {
             for &index in &self.meshes[mesh.index as usize].users {

@@ -275,18 +275,14 @@ mod tests {
 
     use super::*;
     use crate::LightBvh;
+    use crate::kit::scenes::scattered;
+    use crate::kit::triangle;
 
     fn scene() -> (LightBvh, MeshId, InstanceId) {
-        let lamp = EmissiveTriangle {
-            p: [[0.0, 3.0, 0.0], [1.0, 3.0, 0.0], [0.0, 3.0, 1.0]],
-            radiance: [1.0; 3],
-            mesh: 0,
-            flags: 0,
-        };
-        let mut bvh = LightBvh::default();
-        let mesh = bvh.add_mesh(vec![lamp]).unwrap();
-        let instance = bvh.add_instance(mesh, Transform::IDENTITY).unwrap();
-        (bvh, mesh, instance)
+        let lamp = triangle([[0.0, 3.0, 0.0], [1.0, 3.0, 0.0], [0.0, 3.0, 1.0]]);
+        let (bvh, ids): (LightBvh, _) = scattered(vec![lamp], 1, |_| [0.0; 3]);
+        let mesh = bvh.mesh_of(ids[0]).unwrap();
+        (bvh, mesh, ids[0])
     }
 
     #[test]

@@ -48,21 +48,6 @@ macro_rules! samples {
                 self.tree().sample_many(point, random)
             }
 
-            /// Chooses a light for each place of `sampled` by numbers at equal distances; see [`LightTree::sample_spaced`].
-            pub fn sample_spaced<P: Receiver>(
-                &self,
-                point: &P,
-                random: impl Into<Random64>,
-                first: u32,
-                count: u32,
-                sampled: &mut [SampledLight],
-            ) where
-                I: ImportanceModel<N, W, P>,
-            {
-                self.tree()
-                    .sample_spaced(point, random, first, count, sampled);
-            }
-
             /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at
             /// `point`: to the bit the one that comes with the sample. 0 where there is no such light, and where it is not that
             /// instance's. A single level has one instance, whichever is named.

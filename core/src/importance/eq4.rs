@@ -1,6 +1,6 @@
 //! The paper's importance, Eq. 4.
 
-use super::sight::{LEAST_ALONG, offset};
+use super::sight::{LEAST_ALONG, MIN_DISTANCE_SQUARED, offset};
 use super::{ImportanceModel, Scaled, on_one_scale};
 use crate::exact::{self, exponent, pow2, recip_rough, rsqrt_rough, significand};
 use crate::node::{BoundsNode, Cluster};
@@ -19,9 +19,6 @@ const HORIZON_SLACK: f32 = pow2(-20);
 
 /// Share of r² added to d² (see [`Eq4`]). A constant of its own: rust-gpu does not fold an expression of literals.
 const SOFTENING: f32 = 1.0 / 12.0;
-
-/// Squared distances count as at least this, m²: 2^-100.
-const MIN_DISTANCE_SQUARED: f32 = pow2(-100);
 
 /// Eq. 4 of Freire & Pereira 2023 (after Conty Estevez & Kulla 2018, section 4.2, Eq. 3): flux, distance, orientation of
 /// the emitters and incident angle.

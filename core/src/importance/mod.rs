@@ -9,7 +9,6 @@ mod glossy;
 mod leveled;
 mod linked;
 mod moments;
-mod phi;
 mod sight;
 mod subtended;
 #[cfg(test)]
@@ -17,12 +16,11 @@ mod tests;
 mod transmissive;
 
 pub use eq4::Eq4;
-pub use flux::FluxOverDistance;
+pub use flux::{Flux, FluxOverDistance};
 pub use glossy::Glossy;
 pub use leveled::Leveled;
 pub use linked::Linked;
 pub use moments::Moments;
-pub use phi::Flux;
 pub use subtended::Subtended;
 pub use transmissive::Transmissive;
 

@@ -7,7 +7,7 @@ use bytemuck::cast_slice;
 use super::*;
 use crate::kit::Random;
 use crate::kit::scenes::{Lamp, lamps};
-use crate::light::{AnyLight, LinkedAny, LinkedTriangle};
+use crate::light::{AnyLight, LinkedAny};
 use crate::node::{
     CompactNode, LinkedMomentNode, LinkedSpotMomentNode, Lit, MomentNode, SpotMomentNode, TwoSidedMomentNode,
 };
@@ -108,7 +108,7 @@ fn nodes_child_by_child_are_nodes_as_a_whole() {
 
 #[test]
 fn limits_go_by_way_of_children_too() {
-    check::<Lit<LinkedMomentNode<8>, LinkedTriangle>, 8, LIMITED_ROWS>();
+    check::<Lit<LinkedMomentNode<8>, LinkedAny>, 8, LIMITED_ROWS>();
     check::<Lit<SpotMomentNode<8>, AnyLight>, 8, LIMITED_ROWS>();
     check::<Lit<LinkedSpotMomentNode<8>, LinkedAny>, 8, LIMITED_ROWS>();
     // They are there to be lost.
