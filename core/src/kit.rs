@@ -8,6 +8,7 @@ pub mod scenes;
 pub use numbers::*;
 
 use crate::light::EmissiveTriangle;
+use crate::node::{Node, kind};
 
 /// A triangle that shines 1 W/(m² sr).
 pub fn triangle(p: [[f32; 3]; 3]) -> EmissiveTriangle {
@@ -17,4 +18,12 @@ pub fn triangle(p: [[f32; 3]; 3]) -> EmissiveTriangle {
         mesh: 0,
         flags: 0,
     }
+}
+
+/// A node over lights of these summaries.
+pub fn node<N: Node<W>, const W: usize>(sets: &[N::Summary; W]) -> N {
+    let mut node = N::EMPTY;
+    (0..W).for_each(|slot| node.set_child(slot, kind::LIGHT, slot as u32));
+    node.set_summaries(sets);
+    node
 }

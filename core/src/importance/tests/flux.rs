@@ -35,11 +35,7 @@ fn check<N: LightNode<4>>(
     size: f32,
     of: impl Fn(&N::Summary) -> (f32, Vec3, f64),
 ) {
-    let mut node = N::EMPTY;
-    for slot in 0..4 {
-        node.set_child(slot, crate::node::kind::LIGHT, slot as u32);
-    }
-    node.set_summaries(sets);
+    let node: N = crate::kit::node(sets);
     let point = point(random, size);
     let expected = [0, 1, 2, 3].map(|slot| {
         let (phi, center, spread) = of(&node.summary(slot));

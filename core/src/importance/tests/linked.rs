@@ -3,7 +3,7 @@
 use crate::beam::{Beam, Limits};
 use crate::choose::{FULL, choose};
 use crate::importance::{ImportanceModel, Linked};
-use crate::node::{LinkedMomentNode, Node, kind};
+use crate::node::{LinkedMomentNode, Node};
 use crate::point::{LinkedPoint, ShadingPoint};
 use crate::{LightMoments, exact};
 
@@ -19,15 +19,11 @@ impl<N> ImportanceModel<N, 4> for Extremes {
 }
 
 fn node(masks: [u32; 4]) -> LinkedMomentNode<4> {
-    let mut node = LinkedMomentNode::<4>::EMPTY;
-    for slot in 0..4 {
-        node.set_child(slot, kind::LIGHT, slot as u32);
-    }
     let light = LightMoments {
         phi: 1.0,
         ..LightMoments::EMPTY
     };
-    node.set_summaries(&[light; 4]);
+    let mut node: LinkedMomentNode<4> = crate::kit::node(&[light; 4]);
     node.set_limits(&masks.map(|mask| Limits {
         mask,
         beam: Beam::ANYWHERE,

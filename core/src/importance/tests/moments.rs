@@ -6,7 +6,7 @@ use super::{Random, Wide, dot, minus, narrow, normalize, top, wide};
 #[cfg(feature = "std")]
 use crate::importance::NativeMath;
 use crate::importance::{ExactMath, ImportanceModel, Math, Moments};
-use crate::node::{MomentNode, Node, kind};
+use crate::node::{MomentNode, Node};
 use crate::point::ShadingPoint;
 use crate::{LightMoments, exact, vector};
 
@@ -155,11 +155,7 @@ fn check<M: Math>(seed: u32) {
         for slot in 1..4 {
             sets[slot] = set(random, &point, size);
         }
-        let mut node = MomentNode::<4>::EMPTY;
-        for slot in 0..4 {
-            node.set_child(slot, kind::LIGHT, slot as u32);
-        }
-        node.set_summaries(&sets);
+        let node: MomentNode<4> = crate::kit::node(&sets);
         let weights = Moments::<M>::weights(&node, &point).map(f64::from);
         let children = [0, 1, 2, 3].map(|i| {
             // Packed in units of 1/255.
