@@ -203,7 +203,7 @@ impl SpotLight {
     /// Intensity in a direction, of length 1 up to 2^-16, over that along the axis.
     #[inline(always)]
     #[must_use]
-    pub fn falloff(&self, direction: Vec3) -> f32 {
+    fn falloff(&self, direction: Vec3) -> f32 {
         let gap = 0.5 * apart_squared(vector(&self.axis), direction);
         let linear = exact::clamp(exact::div((1.0 - self.cos_outer) - gap, self.fall()), 0.0, 1.0);
         // What a device flushes is cut here.
