@@ -70,7 +70,7 @@ impl Beam {
     /// From one place into a cone; anywhere from 90° on.
     #[inline(always)]
     #[must_use]
-    pub fn of_cone(p: Vec3, axis: Vec3, cosine: f32) -> Self {
+    pub(crate) fn of_cone(p: Vec3, axis: Vec3, cosine: f32) -> Self {
         if cosine > 0.0 {
             Self {
                 axis,

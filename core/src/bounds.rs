@@ -2,12 +2,11 @@
 
 use glam::Vec3;
 
-use crate::cone::{Cone, normalized};
+use crate::cone::Cone;
+use crate::emission::MAX_SUM;
 pub use crate::emission::{MAX_PHI, MIN_PHI};
-use crate::emission::{MAX_SUM, flux};
-use crate::exact::{self, pow2};
-use crate::light::EmissiveTriangle;
-use crate::vector::{dot, greatest_exponent, max3, min3};
+use crate::exact;
+use crate::vector::{max3, min3};
 
 /// Bounds of the emission of a set of lights (Conty Estevez & Kulla 2018, section 4.1; pbrt-v4 `LightBounds`).
 ///
@@ -35,41 +34,6 @@ impl LightBounds {
         cos_theta_o: 1.0,
         phi: 0.0,
     };
-
-    /// Bounds of one emissive triangle: its box, its normal, and Φ = π · area · luminance, twice that for two sides
-    /// (a diffuse emitter: pbrt-v4 `DiffuseAreaLight::Phi`).
-    ///
-    /// The triangle has no flux when its luminance is zero, or when the `f32` cross product of its edges is below about 2^-100
-    /// of its longest edge squared: that of every area so small is, and rounding can make it so from 2^-22 on.
-    #[inline(always)]
-    #[must_use]
-    pub fn of_triangle(triangle: &EmissiveTriangle) -> Self {
-        let (p0, p1, p2) = (triangle.vertex(0), triangle.vertex(1), triangle.vertex(2));
-        let (e1, e2) = (p1 - p0, p2 - p0);
-
-        // Scale the edges, then their cross product, to about 1 by powers of two, so that no product leaves the range.
-        let (e1_scale, e2_scale) = (greatest_exponent(e1, -127), greatest_exponent(e2, -127));
-        let edge_scale = if e1_scale > e2_scale { e1_scale } else { e2_scale };
-        let to_one = pow2(-edge_scale);
-        let emission = flux(e1 * to_one, e2 * to_one, edge_scale, triangle);
-        let (n, across_scale) = (emission.normal, emission.exponent);
-
-        // Rounding turns the normal by up to 2^-21 |e1||e2| / |e1 × e2| rad: 2^-24 for each edge, as much again for
-        // products and difference, and some for safety. In a needle that may be any angle, so its cone is opened.
-        let (a, b) = (e1 * pow2(-e1_scale), e2 * pow2(-e2_scale));
-        let excess = e1_scale + e2_scale - (across_scale + edge_scale + edge_scale);
-        let bounded = if excess < 40 { excess } else { 40 };
-        let turn_squared = dot(a, a) * dot(b, b) * exact::recip(dot(n, n)) * pow2(bounded + bounded - 42);
-        let any_normal = triangle.is_two_sided() || turn_squared > 0.015_625;
-
-        Self {
-            min: min3(p0, min3(p1, p2)),
-            max: max3(p0, max3(p1, p2)),
-            axis: normalized(n),
-            cos_theta_o: if any_normal { -1.0 } else { 1.0 - turn_squared },
-            phi: emission.phi,
-        }
-    }
 
     /// Bounds of both sets: the union of the boxes, the smallest cone around the cones, the sum of the flux. The order
     /// of the arguments is part of the result's bits.
@@ -113,4 +77,35 @@ fn select3(first: bool, a: Vec3, b: Vec3) -> Vec3 {
         if first { a.y } else { b.y },
         if first { a.z } else { b.z },
     )
+}
+
+/// Moments of the emission of a set of lights.
+///
+/// Standard deviations, not variances: the squares of the accepted lengths (2^-100 m to 2^41 m) leave the range of `f32`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightMoments {
+    /// Radiant flux Φ, W, weighted by luminance; zero, or in 2^-100..=2^126.
+    pub phi: f32,
+    /// Flux-weighted centre, metres.
+    pub c: Vec3,
+    /// Standard deviation of position across the mean normal, per axis, metres.
+    pub across: f32,
+    /// Standard deviation of position along the mean normal, metres; equal to `across` where there is no such direction.
+    pub along: f32,
+    /// Flux-weighted mean of the unit normals; zero for lights that shine from both sides.
+    pub m: Vec3,
+    /// Half extents, about the centre, of a box around the lights, metres.
+    pub h: Vec3,
+}
+
+impl LightMoments {
+    /// No light at all.
+    pub const EMPTY: Self = Self {
+        phi: 0.0,
+        c: Vec3::new(0.0, 0.0, 0.0),
+        across: 0.0,
+        along: 0.0,
+        m: Vec3::new(0.0, 0.0, 0.0),
+        h: Vec3::new(0.0, 0.0, 0.0),
+    };
 }

@@ -21,9 +21,6 @@ const LEAST_SINE: f32 = exact::pow2(-20);
 /// Components of directions below this count as zero, so that a device that flushes subnormal numbers agrees.
 const TINY: f32 = exact::pow2(-60);
 
-/// Slack of [`Cone::contains`], in cosine: 2^-20. The cosine of a sum of two angles takes some ten roundings of 2^-24.
-const COSINE_SLACK: f32 = exact::pow2(-20);
-
 /// All directions within the angle θ_o of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
@@ -74,23 +71,6 @@ impl Cone {
         } else {
             self.smallest_around(other)
         }
-    }
-
-    /// Whether θ_d + θ_inner ≤ θ_o, within [`COSINE_SLACK`].
-    pub(crate) fn contains(self, inner: Self) -> bool {
-        let cos_d = exact::clamp(dot(self.axis, inner.axis), -1.0, 1.0);
-        // As in the union of cones: the part of one axis across the other, precise where 1 − cos² is not.
-        let across = inner.axis - self.axis * cos_d;
-        let sin_d = exact::sqrt(exact::min(length_squared(across), 1.0));
-        let (cos_i, sin_i) = (inner.cos_theta_o, sine_of(inner.cos_theta_o));
-        // A sum above π shows in its negative sine.
-        let sin_sum = sin_d * cos_i + cos_d * sin_i;
-        let cos_sum = if sin_sum < 0.0 {
-            -1.0
-        } else {
-            cos_d * cos_i - sin_d * sin_i
-        };
-        self.cos_theta_o <= cos_sum + COSINE_SLACK
     }
 
     /// [`union`](Self::union) of two cones neither of which is the whole sphere.

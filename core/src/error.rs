@@ -1,55 +1,13 @@
 //! Why input is refused: what is wrong, where, and what to do about it; and the limits of what is accepted.
 
+#[cfg(feature = "std")]
+pub use crate::bvh::RebuildError;
 #[cfg(feature = "alloc")]
-pub use crate::bvh::{EditError, EditReason, FollowError, ReadError};
+pub use crate::bvh::{EditError, EditReason, FollowError, ReadError, Violation};
 #[doc(inline)]
-pub use crate::light::{LightError, MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE};
+pub use crate::domain::{
+    DomainError, MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE, NORMAL_TOLERANCE,
+};
 #[cfg(feature = "alloc")]
 #[doc(inline)]
 pub use crate::lights::{LightsError, MAX_LIGHTS};
-#[doc(inline)]
-pub use crate::point::{NORMAL_TOLERANCE, PointError};
-#[cfg(feature = "std")]
-pub use crate::rebuilder::RebuildError;
-#[cfg(feature = "alloc")]
-pub use crate::transform::TransformError;
-#[cfg(feature = "alloc")]
-pub use crate::validate::Violation;
-
-/// A number in a message: as people write it, by a power of ten only where it is very small or very large.
-pub(crate) struct Number(pub f32);
-
-impl core::fmt::Display for Number {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let magnitude = crate::exact::abs(self.0);
-        if (1e-3..1e6).contains(&magnitude) || magnitude == 0.0 {
-            write!(f, "{}", self.0)
-        } else {
-            write!(f, "{:e}", self.0)
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    extern crate std;
-
-    use std::string::ToString;
-
-    use super::Number;
-
-    #[test]
-    fn numbers_are_written_as_people_do() {
-        for (value, text) in [
-            (-1.0, "-1"),
-            (0.0, "0"),
-            (0.25, "0.25"),
-            (1e-20, "1e-20"),
-            (3e38, "3e38"),
-            (f32::NAN, "NaN"),
-            (f32::NEG_INFINITY, "-inf"),
-        ] {
-            assert_eq!(Number(value).to_string(), text);
-        }
-    }
-}

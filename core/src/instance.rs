@@ -4,26 +4,21 @@
 //! there by `A⁻¹(x − t)`. Where A scales unevenly, distances there are not in proportion to those in the world: that costs
 //! variance, never a light. Moving an instance changes one leaf of the top level and nothing below.
 
-mod summaries;
-
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use crate::emission::has_flux;
+use crate::domain::{MAX_COORDINATE, MIN_COORDINATE};
 use crate::exact::{self, flush, pow2};
-use crate::light::INVALID;
-use crate::light::{EmissiveTriangle, Light, MAX_COORDINATE, MIN_COORDINATE, shining};
-use crate::point::ShadingPoint;
 use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, length_squared, max3, vector};
 
 /// Lengths below this in a mesh's space count as zero, metres: 2^-60. Entries of the maps are zero or at least 2^-60, so no
 /// product with them is subnormal.
-const TINY: f32 = pow2(-60);
+pub(crate) const TINY: f32 = pow2(-60);
 /// Products below this count as zero, as coordinates do, metres: no sum of such numbers is subnormal.
 const LEAST_PRODUCT: f32 = MIN_COORDINATE;
 const THIRD: f32 = 1.0 / 3.0;
 /// Greatest magnitude of a coordinate in a mesh's space, 2^60.
-const FAR: f32 = pow2(60);
+pub(crate) const FAR: f32 = pow2(60);
 
 /// A placed mesh: its map into the world, and the numbers of its lights. 124 bytes.
 ///
@@ -52,7 +47,7 @@ pub struct Instance {
     /// √3 over the Frobenius norm of A⁻¹: makes A⁻ᵀ a map of normals of about unit length.
     pub per_inverse: f32,
     /// Mean factor from the flux of a light of the mesh to that in the world: `radiance`, times what A makes of the measure over which the
-    /// mesh emits ([`Light::FLUX_POWER`]). Of surfaces that is the Frobenius norm of A's cofactors over √3, of volumes the magnitude of A's
+    /// mesh emits ([`Light::FLUX_POWER`](crate::light::Light::FLUX_POWER)). Of surfaces that is the Frobenius norm of A's cofactors over √3, of volumes the magnitude of A's
     /// determinant, of lights without size 1. Zero, or 2^-100 to 2^100.
     pub flux: f32,
     /// Factor on the mesh's radiance; 0 turns it off.
@@ -93,18 +88,6 @@ impl Instance {
         self.mirrored & Self::MIRRORS != 0
     }
 
-    /// Whether [`flux`](Self::flux) of its lights, of type `L`, grows with area.
-    #[inline(always)]
-    pub(crate) fn is_by_area<L: Light>(&self) -> bool {
-        if L::FLUX_POWER == 2 && !L::HAS_FLUX_POWERS {
-            true
-        } else if L::HAS_FLUX_POWERS {
-            self.mirrored & Self::IS_NOT_BY_AREA == 0
-        } else {
-            false
-        }
-    }
-
     /// The light that triangle `triangle` of the bottom level is here.
     #[inline(always)]
     #[must_use]
@@ -122,7 +105,7 @@ impl Instance {
     }
 
     #[inline(always)]
-    fn column(&self, k: usize) -> Vec3 {
+    pub(crate) fn column(&self, k: usize) -> Vec3 {
         // By a choice: rust-gpu inlines whatever has an index that might be out of bounds.
         if k == 0 {
             vector(&self.columns[0])
@@ -140,13 +123,13 @@ impl Instance {
 
     /// A v, of components zero or at least 2^-60. What its own are, zero or a normal number, a sum with a coordinate is too.
     #[inline(always)]
-    fn forward(&self, v: Vec3) -> Vec3 {
+    pub(crate) fn forward(&self, v: Vec3) -> Vec3 {
         flush3(self.column(0) * v.x + self.column(1) * v.y, LEAST_PRODUCT) + self.column(2) * v.z
     }
 
     /// A⁻ᵀ v, of about the length of `v`.
     #[inline(always)]
-    fn normal_to_world(&self, v: Vec3) -> Vec3 {
+    pub(crate) fn normal_to_world(&self, v: Vec3) -> Vec3 {
         Vec3::new(
             dot(vector(&self.inverse[0]), v),
             dot(vector(&self.inverse[1]), v),
@@ -160,26 +143,6 @@ impl Instance {
     pub fn vertex(&self, p: [f32; 3]) -> [f32; 3] {
         let v = within(self.mapped(vector(&p)) + self.origin());
         [v.x, v.y, v.z]
-    }
-
-    /// Triangle `local` of the mesh as it stands in the world, as part of mesh light `index`. Where the map mirrors, two
-    /// vertices are swapped, so that the front stays in front. A triangle without flux in the mesh, having no area there, has
-    /// no radiance in the world, whatever area rounding may give it: no tree holds it.
-    #[inline]
-    #[must_use]
-    pub fn triangle(&self, local: &EmissiveTriangle, index: u32) -> EmissiveTriangle {
-        let (a, b, c) = (
-            self.vertex(local.p[0]),
-            self.vertex(local.p[1]),
-            self.vertex(local.p[2]),
-        );
-        let mirrored = self.mirrors();
-        EmissiveTriangle {
-            p: [a, if mirrored { c } else { b }, if mirrored { b } else { c }],
-            radiance: shining(&local.radiance, self.radiance, has_flux(local)),
-            mesh: index,
-            flags: local.flags,
-        }
     }
 
     /// A direction of the mesh in the world, again of length 1; itself where the map loses it.
@@ -243,60 +206,6 @@ impl Instance {
         let scaled = flushed(back * pow2(-e));
         scaled * exact::rsqrt(exact::max(length_squared(scaled), pow2(-60)))
     }
-
-    /// A point of the world in the space of the mesh, its normal again of about unit length.
-    #[inline(always)]
-    #[must_use]
-    pub fn to_local(&self, point: &ShadingPoint) -> ShadingPoint {
-        let away = flushed(point.position() - self.origin());
-        let p = (vector(&self.inverse[0]) * away.x + vector(&self.inverse[1]) * away.y)
-            + vector(&self.inverse[2]) * away.z;
-        let n = point.normal();
-        let back = flushed(Vec3::new(
-            dot(self.column(0), n),
-            dot(self.column(1), n),
-            dot(self.column(2), n),
-        ));
-        let length = length_squared(back);
-        // A normal that the map loses is that of a volume.
-        let scale = if length >= pow2(-119) {
-            exact::rsqrt(length)
-        } else {
-            0.0
-        };
-        ShadingPoint {
-            p: [
-                flush(exact::clamp(p.x, -FAR, FAR), TINY),
-                flush(exact::clamp(p.y, -FAR, FAR), TINY),
-                flush(exact::clamp(p.z, -FAR, FAR), TINY),
-            ],
-            n: [
-                flush(back.x * scale, TINY),
-                flush(back.y * scale, TINY),
-                flush(back.z * scale, TINY),
-            ],
-        }
-    }
-}
-
-/// Light `light` of instance `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them: `triangles` are those
-/// of all bottom levels, in the spaces of their meshes. Without radiance where there is no such light. In a single-level tree
-/// `instance` is `u32::MAX`, and its one instance is meant.
-#[inline]
-#[must_use]
-pub fn world_light<L: Light>(triangles: &[L], instances: &[Instance], light: u32, instance: u32) -> L {
-    let index = if instance == INVALID { 0 } else { instance };
-    let mut out = L::DARK;
-    if index < instances.len() as u32 {
-        let own = instances[index as usize];
-        let triangle = own.triangle_of(light);
-        let is_own = light.wrapping_sub(own.first) < own.count;
-        if is_own && triangle < triangles.len() as u32 {
-            let local = triangles[triangle as usize];
-            out = local.in_world(&own, index);
-        }
-    }
-    out
 }
 
 /// Within the domain of coordinates.
@@ -308,7 +217,7 @@ fn within(v: Vec3) -> Vec3 {
 
 /// Without components that a product could make subnormal.
 #[inline(always)]
-fn flushed(v: Vec3) -> Vec3 {
+pub(crate) fn flushed(v: Vec3) -> Vec3 {
     Vec3::new(flush(v.x, TINY), flush(v.y, TINY), flush(v.z, TINY))
 }
 

@@ -69,14 +69,17 @@ pub mod requirements;
 mod beam;
 #[doc(hidden)]
 pub mod bounds;
+mod choose;
 #[doc(hidden)]
 pub mod cone;
+mod domain;
 #[doc(hidden)]
 pub mod instance;
 #[doc(hidden)]
 pub mod moments;
 #[doc(hidden)]
 pub mod point;
+mod random;
 #[doc(hidden)]
 pub mod summary;
 #[doc(hidden)]
@@ -86,21 +89,18 @@ pub mod traverse;
 mod unroll;
 #[doc(hidden)]
 pub mod vector;
+mod weight;
 
 #[cfg(feature = "alloc")]
 #[doc(hidden)]
 pub mod levels;
 #[cfg(feature = "alloc")]
 mod lights;
-#[cfg(feature = "std")]
-mod rebuilder;
 #[cfg(feature = "alloc")]
 mod sweep;
 #[cfg(feature = "alloc")]
 #[doc(hidden)]
 pub mod transform;
-#[cfg(feature = "alloc")]
-mod validate;
 #[doc(hidden)]
 pub mod widest;
 
@@ -110,23 +110,27 @@ mod halves;
 mod kit;
 mod prefetch;
 
+#[cfg(feature = "std")]
+pub use bvh::Rebuilder;
 #[cfg(feature = "alloc")]
 #[doc(inline)]
 pub use bvh::{Bvh, Edit, LightBvh};
 #[cfg(feature = "alloc")]
 pub use lights::Lights;
-#[cfg(feature = "std")]
-pub use rebuilder::Rebuilder;
 
 #[doc(inline)]
 pub use light::EmissiveTriangle;
 pub use point::ShadingPoint;
-pub use traverse::{Random64, SampledLight};
+pub use random::Random64;
+pub use traverse::SampledLight;
 
 // Short paths to what is documented in a module.
 #[cfg(feature = "alloc")]
 #[doc(hidden)]
 pub use build::{BuildParams, Heuristic};
+#[cfg(feature = "std")]
+#[doc(hidden)]
+pub use bvh::RebuilderParams;
 #[cfg(feature = "alloc")]
 #[doc(hidden)]
 pub use bvh::{InstanceId, MeshId};
@@ -143,9 +147,6 @@ pub use node::{
 };
 #[doc(hidden)]
 pub use point::{GlossyPoint, Receiver};
-#[cfg(feature = "std")]
-#[doc(hidden)]
-pub use rebuilder::RebuilderParams;
 #[doc(hidden)]
 pub use refit::Instance;
 #[cfg(feature = "alloc")]

@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::ops::Range;
 
-use crate::light::{EmissiveTriangle, Light, LightError};
+use crate::domain::DomainError;
+use crate::light::{EmissiveTriangle, Light};
 
 /// Most triangles that one light BVH holds: 2^30, so that every index and word address fits 32 bits.
 pub const MAX_LIGHTS: usize = 1 << 30;
@@ -84,7 +85,7 @@ pub enum LightsError {
         /// Its index.
         index: usize,
         /// What is wrong with it.
-        error: LightError,
+        error: DomainError,
     },
     /// A triangle names a mesh light out of order.
     Order {

@@ -13,15 +13,12 @@ pub use transmissive::TransmissivePoint;
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use crate::error::Number;
-use crate::exact;
-use crate::instance::Instance;
-use crate::light::{MAX_COORDINATE, MIN_COORDINATE};
-use crate::vector::{length_squared, vector};
+pub use crate::domain::NORMAL_TOLERANCE;
+use crate::domain::{DomainError, MIN_COORDINATE, checked_place};
+use crate::exact::{self, flush, pow2};
+use crate::instance::{FAR, Instance, TINY, flushed};
+use crate::vector::{dot, length_squared, vector};
 
-/// By how much the squared length of a normal may differ from 1: 2^-7, so that normals of 8-bit components divided by a rough
-/// root pass.
-pub const NORMAL_TOLERANCE: f32 = exact::pow2(-7);
 /// Magnitude of a coordinate, metres, beyond which squares overflow and numbers mean nothing: 2^60. Up to here trees over
 /// triangles in the world keep every guarantee, though [`ShadingPoint::checked`] accepts 2^40 only, as of lights.
 pub const MAX_REACH: f32 = exact::pow2(60);
@@ -44,22 +41,20 @@ impl ShadingPoint {
     /// Components smaller than [`MIN_COORDINATE`] become zero (with the sign of zero dropped); nothing else changes.
     ///
     /// # Errors
-    /// [`PointError`] for a coordinate that is not finite or beyond [`MAX_COORDINATE`], and for a normal that is neither of
+    /// [`DomainError`] for a coordinate that is not finite or beyond [`MAX_COORDINATE`], and for a normal that is neither of
     /// length 1 (up to [`NORMAL_TOLERANCE`]) nor zero.
-    pub fn checked(mut self) -> Result<Self, PointError> {
-        for axis in 0..3 {
-            let value = self.p[axis];
-            // NaN is in no range.
-            if !(-MAX_COORDINATE..=MAX_COORDINATE).contains(&value) {
-                return Err(PointError::Coordinate { axis, value });
-            }
-            self.p[axis] = exact::flush(value, MIN_COORDINATE);
-            self.n[axis] = exact::flush(self.n[axis], MIN_COORDINATE);
-        }
+    pub fn checked(mut self) -> Result<Self, DomainError> {
+        self.p = checked_place("shading point", self.p)?;
+        self.n = self.n.map(|x| exact::flush(x, MIN_COORDINATE));
         if self.has_sound_normal() {
             Ok(self)
         } else {
-            Err(PointError::Normal { n: self.n })
+            let expected = "length 1, or zero in a volume; normalize it";
+            Err(DomainError::vector(
+                "the normal of a shading point",
+                self.n,
+                expected,
+            ))
         }
     }
 
@@ -94,6 +89,42 @@ impl ShadingPoint {
     }
 }
 
+impl Instance {
+    /// A point of the world in the space of the mesh, its normal again of about unit length.
+    #[inline(always)]
+    #[must_use]
+    pub fn to_local(&self, point: &ShadingPoint) -> ShadingPoint {
+        let away = flushed(point.position() - self.origin());
+        let p = (vector(&self.inverse[0]) * away.x + vector(&self.inverse[1]) * away.y)
+            + vector(&self.inverse[2]) * away.z;
+        let n = point.normal();
+        let back = flushed(Vec3::new(
+            dot(self.column(0), n),
+            dot(self.column(1), n),
+            dot(self.column(2), n),
+        ));
+        let length = length_squared(back);
+        // A normal that the map loses is that of a volume.
+        let scale = if length >= pow2(-119) {
+            exact::rsqrt(length)
+        } else {
+            0.0
+        };
+        ShadingPoint {
+            p: [
+                flush(exact::clamp(p.x, -FAR, FAR), TINY),
+                flush(exact::clamp(p.y, -FAR, FAR), TINY),
+                flush(exact::clamp(p.z, -FAR, FAR), TINY),
+            ],
+            n: [
+                flush(back.x * scale, TINY),
+                flush(back.y * scale, TINY),
+                flush(back.z * scale, TINY),
+            ],
+        }
+    }
+}
+
 /// What a walk may be told of a receiver, to be brought into the space of each instance that it enters: a [`ShadingPoint`], or a type that
 /// says more to an importance that asks for it.
 pub trait Receiver: Copy {
@@ -119,65 +150,12 @@ impl Receiver for ShadingPoint {
     }
 }
 
-/// Why a shading point is refused.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum PointError {
-    /// A coordinate is NaN, infinite or beyond [`MAX_COORDINATE`].
-    Coordinate {
-        /// Which coordinate: x, y, z as 0, 1, 2.
-        axis: usize,
-        /// What was found.
-        value: f32,
-    },
-    /// The normal is neither of length 1 nor zero, or not finite.
-    Normal {
-        /// What was found.
-        n: [f32; 3],
-    },
-    /// The mirror direction of a [`GlossyPoint`] is neither of length 1 nor zero, or not finite.
-    Mirror {
-        /// What was found.
-        mirror: [f32; 3],
-    },
-    /// A reflectance or an exponent of a [`GlossyPoint`], or a part of a [`TransmissivePoint`], is NaN.
-    Nan {
-        /// Of what.
-        what: &'static str,
-    },
-}
-
-impl core::fmt::Display for PointError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match *self {
-            Self::Coordinate { axis, value } => write!(
-                f,
-                "coordinate {} of a shading point is {}, expected a finite number of magnitude at most 2^40 (1.1e12); {}",
-                ['x', 'y', 'z'][axis],
-                Number(value),
-                match value.is_finite() {
-                    true => "bring the scene nearer to its origin",
-                    false => "leave the point out, for it is nowhere",
-                }
-            ),
-            Self::Normal { n: [x, y, z] } => write!(
-                f,
-                "the normal of a shading point is ({x}, {y}, {z}), expected length 1, or zero in a volume; normalize it"
-            ),
-            Self::Mirror { mirror: [x, y, z] } => write!(
-                f,
-                "the mirror direction of a glossy point is ({x}, {y}, {z}), expected length 1, or zero for none; normalize it"
-            ),
-            Self::Nan { what } => write!(f, "{what} is NaN, expected a number; compute it again"),
-        }
-    }
-}
-
-impl core::error::Error for PointError {}
-
 #[cfg(test)]
 mod tests {
+    extern crate std;
+
     use super::*;
+    use crate::domain::MAX_COORDINATE;
 
     const UP: [f32; 3] = [0.0, 1.0, 0.0];
 
@@ -228,11 +206,11 @@ mod tests {
             for axis in 0..3 {
                 let mut p = [1.0; 3];
                 p[axis] = value;
-                let error = ShadingPoint { p, n: UP }.checked();
-                assert!(
-                    matches!(error, Err(PointError::Coordinate { axis: a, value: v }) if a == axis && v.to_bits() == value.to_bits()),
-                    "{error:?}"
-                );
+                let error = ShadingPoint { p, n: UP }
+                    .checked()
+                    .expect_err("out of the domain");
+                let part = ["coordinate x", "coordinate y", "coordinate z"][axis];
+                assert!(std::format!("{error}").starts_with(part), "{error}");
             }
         }
         for n in [
@@ -244,10 +222,10 @@ mod tests {
             [f32::MAX; 3],
             [MIN_COORDINATE; 3],
         ] {
-            let error = ShadingPoint { p: [0.0; 3], n }.checked();
+            let error = ShadingPoint { p: [0.0; 3], n }.checked().expect_err("no normal");
             assert!(
-                matches!(error, Err(PointError::Normal { .. })),
-                "{n:?}: {error:?}"
+                std::format!("{error}").starts_with("the normal of a shading point is ("),
+                "{error}"
             );
         }
     }

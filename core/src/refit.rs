@@ -11,11 +11,13 @@ mod limits;
 
 use bytemuck::{Pod, Zeroable};
 
+#[doc(hidden)]
 pub use self::children::{
     Child, Children, LIMITED_ROWS, PLAIN_ROWS, assembled, bottom_child, child_rows, top_child,
 };
 use crate::beam::Limits;
-pub use crate::instance::{Instance, world_light};
+pub use crate::instance::Instance;
+pub use crate::light::world_light;
 use crate::light::{Light, LightSlots};
 use crate::node::{Node, kind};
 use crate::summary::{Lanes, SUMMARY_WORDS, Summary};

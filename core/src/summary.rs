@@ -1,6 +1,7 @@
 //! What a node stores of each child: a few numbers of the lights below it that can be merged.
 
 mod bounds;
+mod world;
 
 use core::fmt::Debug;
 
@@ -8,7 +9,7 @@ use glam::Vec3;
 
 use crate::bounds::LightBounds;
 use crate::instance::Instance;
-use crate::light::{EmissiveTriangle, Light, LightSlots};
+use crate::light::{EmissiveTriangle, Light};
 use crate::unroll::each;
 
 /// Words of a summary in full, as [`BlasRoot`](crate::refit::BlasRoot) keeps them.
@@ -19,8 +20,6 @@ pub const SUMMARY_WORDS: usize = 12;
 pub trait Summary: Copy + PartialEq + Debug + Send + Sync + 'static {
     /// The summary of no light at all.
     const EMPTY: Self;
-    /// Names of the words of [`to_words`](Self::to_words), for messages.
-    const NAMES: [&'static str; SUMMARY_WORDS];
 
     /// Of one light.
     fn of_light<L: Light>(light: &L) -> Self;
@@ -45,9 +44,6 @@ pub trait Summary: Copy + PartialEq + Debug + Send + Sync + 'static {
     fn spread(&self) -> f32;
     /// A box and a cone around the lights, as far as they are known: what the paper's heuristics look at.
     fn bounds(&self) -> LightBounds;
-    /// The index among [`NAMES`](Self::NAMES) of a component in which `child` reaches out of `self`, its parent; `None` where
-    /// there is none, or where parents need not contain their children.
-    fn uncontained(&self, child: &Self) -> Option<usize>;
 
     /// The numbers in full.
     fn to_words(&self) -> [f32; SUMMARY_WORDS];
@@ -110,60 +106,5 @@ impl<const W: usize> Lanes<W> {
         each!(k, SUMMARY_WORDS, {
             self.0[k][slot] = words[k];
         });
-    }
-}
-
-/// The triangles of a node's slots word by word, as [`Lanes`].
-#[derive(Clone, Copy, Debug)]
-pub struct Triangles<const W: usize> {
-    /// The vertices, then the radiance.
-    words: [[f32; W]; 12],
-    flags: [u32; W],
-    /// All ones in a slot with a triangle, else zero.
-    present: [u32; W],
-}
-
-impl<const W: usize> LightSlots<EmissiveTriangle, W> for Triangles<W> {
-    const NONE: Self = Self {
-        words: [[0.0; W]; 12],
-        flags: [0; W],
-        present: [0; W],
-    };
-
-    #[inline(always)]
-    fn set(&mut self, slot: usize, triangle: &EmissiveTriangle) {
-        for k in 0..3 {
-            self.words[k][slot] = triangle.p[0][k];
-            self.words[3 + k][slot] = triangle.p[1][k];
-            self.words[6 + k][slot] = triangle.p[2][k];
-            self.words[9 + k][slot] = triangle.radiance[k];
-        }
-        self.flags[slot] = triangle.flags;
-        self.present[slot] = u32::MAX;
-    }
-
-    #[inline(always)]
-    fn remove(&mut self, slot: usize) {
-        self.present[slot] = 0;
-    }
-
-    #[inline(always)]
-    fn present(&self, slot: usize) -> u32 {
-        self.present[slot]
-    }
-
-    #[inline(always)]
-    fn get(&self, slot: usize) -> EmissiveTriangle {
-        let w = &self.words;
-        EmissiveTriangle {
-            p: [
-                [w[0][slot], w[1][slot], w[2][slot]],
-                [w[3][slot], w[4][slot], w[5][slot]],
-                [w[6][slot], w[7][slot], w[8][slot]],
-            ],
-            radiance: [w[9][slot], w[10][slot], w[11][slot]],
-            mesh: 0,
-            flags: self.flags[slot],
-        }
     }
 }

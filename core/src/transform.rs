@@ -1,16 +1,9 @@
 //! Affine maps of instances.
 
-mod error;
-mod extent;
-mod vector;
-
-pub use error::TransformError;
-pub(crate) use extent::Extent;
-
+use crate::domain::DomainError;
 use crate::exact;
 use crate::instance::Instance;
 use crate::light::{Light, MAX_COORDINATE, MIN_COORDINATE};
-use vector::{cross, dot, greatest, magnitude};
 
 /// Entries of the maps below this count as zero: 2^-60.
 const TINY_ENTRY: f32 = exact::pow2(-60);
@@ -20,6 +13,14 @@ const MOST_ENTRY: f64 = 1_152_921_504_606_846_976.0;
 const FLUX: [f32; 2] = [exact::pow2(-100), exact::pow2(100)];
 /// Least determinant, as a share of the cube of the greatest entry, that is divided by: 2^-60. Flatter maps have no inverse.
 const FLAT: f64 = 1.0 / 1_152_921_504_606_846_976.0;
+
+/// Names of the entries, by column.
+const ENTRIES: [[&str; 3]; 4] = [
+    ["columns[0][0]", "columns[0][1]", "columns[0][2]"],
+    ["columns[1][0]", "columns[1][1]", "columns[1][2]"],
+    ["columns[2][0]", "columns[2][1]", "columns[2][2]"],
+    ["translation[0]", "translation[1]", "translation[2]"],
+];
 
 /// An affine map `x ↦ A x + t` from a mesh's space to the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,8 +54,8 @@ impl Transform {
         light.in_world(&self.instance_by(1.0, light.flux_power()), mesh)
     }
 
-    /// Whether every entry is a number within the domain, and a mesh of that extent stays within it.
-    pub(crate) fn check(&self, extent: &Extent) -> Result<(), TransformError> {
+    /// Whether every entry is a number within the domain, and a mesh of which no coordinate is beyond `reach` stays within it.
+    pub(crate) fn check(&self, reach: f32) -> Result<(), DomainError> {
         let [a, b, c] = &self.columns;
         let columns = [a, b, c, &self.translation];
         // NaN is in no range.
@@ -67,20 +68,24 @@ impl Transform {
             for (column, entries) in columns.iter().enumerate() {
                 for (row, &value) in entries.iter().enumerate() {
                     if !within(value) {
-                        return Err(TransformError::Entry { row, column, value });
+                        return Err(DomainError::number(
+                            ENTRIES[column][row],
+                            value,
+                            "a finite number of magnitude at most 2^40 (1.1e12); repair the animation",
+                        ));
                     }
                 }
             }
         }
-        let reach = |row: usize| {
+        let farthest = |row: usize| {
             let entry = |column: &[f32; 3]| f64::from(exact::abs(column[row]));
-            ((entry(a) + entry(b)) + entry(c)) * extent.coordinate + entry(&self.translation)
+            ((entry(a) + entry(b)) + entry(c)) * f64::from(reach) + entry(&self.translation)
         };
-        let farthest = greatest(greatest(reach(0), reach(1)), reach(2));
+        let farthest = greatest(greatest(farthest(0), farthest(1)), farthest(2));
         if farthest > f64::from(MAX_COORDINATE) {
-            return Err(TransformError::TooFar {
-                metres: farthest as f32,
-            });
+            let what = "a place as far as a transform moves a mesh";
+            let expected = "at most 2^40 m (1.1e12); scale the scene or move its origin";
+            return Err(DomainError::number(what, farthest as f32, expected));
         }
         Ok(())
     }
@@ -162,6 +167,33 @@ impl Transform {
 
 /// √3.
 const SQRT_3: f64 = 1.732_050_807_568_877_2;
+
+/// Greatest magnitude of a coordinate that one of these lights reaches, metres.
+pub(crate) fn reach_of<L: Light>(lights: &[L]) -> f32 {
+    lights.iter().map(Light::reach).fold(0.0, exact::max)
+}
+
+// Vectors of `f64`, without the standard library: transforms are measured with more digits than they are applied with.
+
+fn magnitude(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & !(1 << 63))
+}
+
+fn greatest(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
 
 #[cfg(test)]
 mod tests;

@@ -5,9 +5,9 @@ use core::marker::PhantomData;
 use bytemuck::{Pod, Zeroable};
 
 use crate::importance::DefaultImportance;
-use crate::instance::{Instance, world_light};
+use crate::instance::Instance;
 pub use crate::light::INVALID;
-use crate::light::Light;
+use crate::light::{Light, world_light};
 use crate::node::DefaultNode;
 use crate::trail::{BitTrail, Path, max_levels, place_parts};
 

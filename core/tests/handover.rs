@@ -7,7 +7,7 @@
 extern crate alloc;
 
 // Of the library only this file, so that the rest of its tests need not be compiled with it.
-#[path = "../src/rebuilder/handover.rs"]
+#[path = "../src/bvh/rebuilder/handover.rs"]
 #[expect(unreachable_pub, reason = "written for its crate")]
 mod handover;
 

@@ -1,8 +1,8 @@
 //! Passes over trees of lights of any kind, [`AnyLight`]. Nodes are the default's with beams, since any kind may be a spot.
 
 use glam::UVec3;
-use lightbvh::instance::world_light;
 use lightbvh::light::{AnyLight, Light};
+use lightbvh::refit::world_light;
 use lightbvh::refit::{self, BlasRoot, Children, LIMITED_ROWS};
 use lightbvh::{Instance, LightPoint, Random64, SampledLight};
 use spirv_std::spirv;

@@ -3,8 +3,8 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::{UVec3, Vec3};
-use lightbvh::instance::world_light;
 use lightbvh::light::Light;
+use lightbvh::refit::world_light;
 use lightbvh::{EmissiveTriangle, Instance, LightPoint, Random64, SampledLight, ShadingPoint, TreeWords};
 use spirv_std::spirv;
 

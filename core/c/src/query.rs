@@ -3,7 +3,8 @@
 use std::mem::MaybeUninit;
 
 use lightbvh::bvh::EditReason;
-use lightbvh::{EmissiveTriangle, LightBvh, LightPoint, PointError, Random64, SampledLight, ShadingPoint};
+use lightbvh::error::DomainError;
+use lightbvh::{EmissiveTriangle, LightBvh, LightPoint, Random64, SampledLight, ShadingPoint};
 
 use crate::error::{Fault, Status};
 use crate::handle::Handle;
@@ -13,7 +14,7 @@ use crate::raw;
 /// Points that are sampled together, held on the stack.
 const BATCH: usize = 64;
 
-fn bad_point(error: PointError) -> Fault {
+fn bad_point(error: DomainError) -> Fault {
     Fault::new(Status::BadPoint, error)
 }
 

@@ -198,26 +198,6 @@ fn numbers_of_lights_are_kept_until_they_are_forgotten() {
     }
 }
 
-/// A build for one light BVH is dropped if the rebuilder is used with another one.
-#[test]
-fn a_build_for_another_light_bvh_is_dropped() {
-    let (bvh, other) = (lightbvh_create(), lightbvh_create());
-    let rebuilder = lightbvh_rebuilder_create(1);
-    let mut start = CFrameStart::default();
-    // SAFETY: all pointers are good.
-    unsafe {
-        add(bvh, &[at(0.0)]);
-        add(other, &[at(0.0)]);
-        ok(lightbvh_begin_frame(rebuilder, bvh, &mut start));
-        ok(lightbvh_end_frame(rebuilder, bvh));
-        ok(lightbvh_begin_frame(rebuilder, other, &mut start));
-        assert_eq!(start, CFrameStart::default());
-        lightbvh_rebuilder_free(rebuilder);
-        lightbvh_free(bvh);
-        lightbvh_free(other);
-    }
-}
-
 #[test]
 fn wrong_ids_points_and_lights_are_refused() {
     let (bvh, other) = (lightbvh_create(), lightbvh_create());

@@ -14,7 +14,22 @@ mod topology;
 mod ward;
 
 pub use cost::Heuristic;
-pub(crate) use topology::{Topology, build_each, build_over, build_top};
+pub(crate) use topology::{build_each, build_over, build_top};
+
+use alloc::vec::Vec;
+
+use crate::trail::BitTrail;
+
+/// A tree without bounds.
+#[derive(Debug)]
+pub(crate) struct Topology<N> {
+    /// Nodes in depth-first order, the root first; links count from it.
+    pub nodes: Vec<N>,
+    /// (index of primitive, its trail), in depth-first order.
+    pub trails: Vec<(u32, BitTrail)>,
+    /// Number of levels.
+    pub depth: u32,
+}
 
 /// Build options.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,26 +2,15 @@
 
 use alloc::vec::Vec;
 
-use super::BuildParams;
 use super::binary::{Binary, LEAF, binary_tree};
 use super::collapse::{Collapse, binary_levels};
 use super::primitive::Primitive;
 use super::ward::{WardPrimitive, build_ward};
+use super::{BuildParams, Topology};
 use crate::light::Light;
 use crate::node::{Node, kind};
 use crate::summary::Summary;
 use crate::trail::BitTrail;
-
-/// A tree without bounds.
-#[derive(Debug)]
-pub(crate) struct Topology<N> {
-    /// Nodes in depth-first order, the root first; links count from it.
-    pub nodes: Vec<N>,
-    /// (index of primitive, its trail), in depth-first order.
-    pub trails: Vec<(u32, BitTrail)>,
-    /// Number of levels.
-    pub depth: u32,
-}
 
 /// Builds a tree over each mesh.
 pub(crate) fn build_each<N: Node<W>, const W: usize>(

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::edit::{Edit, EditError, InstanceId, MeshId};
 use super::records::put;
-use super::{Bvh, InstanceState, Trails};
+use super::{Bvh, InstanceState};
 use crate::build::{Topology, build_each};
 use crate::instance::Instance;
 use crate::node::Node;
@@ -20,7 +20,7 @@ pub struct Added {
     pub instances: Vec<InstanceId>,
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Applies a batch of edits in their order, all or none. The next [`refit`](Self::refit) restores the quality of sampling.
     /// Until then probabilities are exact and no removed light is returned, but a sample may be none if a light was removed,
     /// and added lights have the uniform share alone.
@@ -33,8 +33,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// # Errors
     /// [`EditError`] naming the first edit that cannot be done; the scene is as before then.
     pub fn apply(&mut self, mut edits: Vec<Edit<N::Light>>) -> Result<Added, EditError> {
-        for (mesh, extent) in self.check(&mut edits)? {
-            self.meshes[mesh.index as usize].extent = extent;
+        for (mesh, reach) in self.check(&mut edits)? {
+            self.meshes[mesh.index as usize].reach = reach;
         }
         let new_meshes = edits.iter().filter_map(|edit| match edit {
             Edit::AddMesh { triangles } => Some(&**triangles),
@@ -100,11 +100,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     pub(super) fn insert_mesh(&mut self, triangles: &[N::Light], topology: &Topology<N>) -> MeshId {
         let index = self.insert_mesh_tree(triangles, topology);
-        MeshId {
-            tree: self.id.0,
-            index,
-            generation: self.meshes[index as usize].generation,
-        }
+        self.id_of_mesh(index)
     }
 
     pub(super) fn insert_instance(
@@ -138,11 +134,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.live.push(index);
         self.list(self.live.len() as u32 - 1);
         self.place(index);
-        InstanceId {
-            tree: self.id.0,
-            index,
-            generation,
-        }
+        self.id_of_instance(index)
     }
 
     fn take_instance(&mut self, index: u32) {

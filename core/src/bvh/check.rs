@@ -3,15 +3,17 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
+use super::Bvh;
 use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
-use super::{Bvh, Trails};
+use crate::exact;
 use crate::light::Light;
 use crate::lights::MAX_LIGHTS;
 use crate::node::Node;
 use crate::trail::MAX_PLACES;
-use crate::transform::{Extent, Transform};
+use crate::transform::{Transform, reach_of};
 
-type Extents = BTreeMap<MeshId, Extent>;
+/// How far the lights of deformed meshes reach.
+type Reaches = BTreeMap<MeshId, f32>;
 
 /// The effects of the earlier edits of the batch.
 #[derive(Default)]
@@ -20,8 +22,8 @@ struct Batch {
     removed_meshes: BTreeSet<MeshId>,
     /// Change of a mesh's number of instances.
     uses: BTreeMap<MeshId, i64>,
-    /// Extents of deformed meshes, and transforms of moved instances and of added ones, which have no id yet.
-    extents: Extents,
+    reaches: Reaches,
+    /// Transforms of moved instances, and of added ones, which have no id yet.
     transforms: BTreeMap<InstanceId, Transform>,
     added: BTreeMap<MeshId, Vec<Transform>>,
     /// Whether a later edit may ask for those.
@@ -30,14 +32,14 @@ struct Batch {
     instances: usize,
     lights: usize,
     triangles: usize,
-    /// Meshes added: number of triangles, and extent.
-    meshes: Vec<(usize, Extent)>,
+    /// Meshes added: number of triangles, and how far they reach.
+    meshes: Vec<(usize, f32)>,
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns the extents of meshes that
-    /// are deformed.
-    pub(super) fn check(&self, edits: &mut [Edit<N::Light>]) -> Result<Extents, EditError> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+    /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns how far meshes
+    /// reach that are deformed.
+    pub(super) fn check(&self, edits: &mut [Edit<N::Light>]) -> Result<Reaches, EditError> {
         let deforms =
             |edit: &Edit<N::Light>| matches!(edit, Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. });
         let mut batch = Batch {
@@ -51,7 +53,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.check_one(&mut batch, edit)
                 .map_err(|reason| EditError { edit: index, reason })?;
         }
-        Ok(batch.extents)
+        Ok(batch.reaches)
     }
 
     fn check_one(&self, batch: &mut Batch, edit: &mut Edit<N::Light>) -> Result<(), EditReason> {
@@ -65,18 +67,18 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 }
                 checked(triangles)?;
                 batch.triangles += triangles.len();
-                batch.meshes.push((triangles.len(), Extent::of(triangles)));
+                batch.meshes.push((triangles.len(), reach_of(triangles)));
             }
             &mut Edit::AddInstance {
                 mesh,
                 transform,
                 radiance,
             } => {
-                let (count, extent) = match mesh.place_in_batch() {
+                let (count, reach) = match mesh.place_in_batch() {
                     Some(place) => *batch.meshes.get(place).ok_or(EditReason::UnknownMesh(mesh))?,
-                    None => (self.known_mesh(batch, mesh)?, self.extent(batch, mesh)),
+                    None => (self.known_mesh(batch, mesh)?, self.reach(batch, mesh)),
                 };
-                transform.check(&extent).map_err(EditReason::Transform)?;
+                transform.check(reach).map_err(EditReason::Transform)?;
                 factor(radiance)?;
                 *batch.uses.entry(mesh).or_default() += 1;
                 if batch.deforms {
@@ -88,7 +90,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             &mut Edit::SetTransform { instance, transform } => {
                 let mesh = self.known_instance(batch, instance)?;
                 transform
-                    .check(&self.extent(batch, mesh))
+                    .check(self.reach(batch, mesh))
                     .map_err(EditReason::Transform)?;
                 if batch.deforms {
                     batch.transforms.insert(instance, transform);
@@ -162,11 +164,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The mesh of an instance that is there.
     fn known_instance(&self, batch: &Batch, id: InstanceId) -> Result<MeshId, EditReason> {
         match self.live(id) {
-            Some(placed) if !batch.removed_instances.contains(&id) => Ok(MeshId {
-                tree: self.id.0,
-                index: placed.mesh,
-                generation: self.meshes[placed.mesh as usize].generation,
-            }),
+            Some(placed) if !batch.removed_instances.contains(&id) => Ok(self.id_of_mesh(placed.mesh)),
             _ => Err(EditReason::UnknownInstance(id)),
         }
     }
@@ -176,9 +174,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// The farthest that a mesh has reached since it was set as a whole.
-    fn extent(&self, batch: &Batch, id: MeshId) -> Extent {
-        let known = batch.extents.get(&id).copied();
-        known.unwrap_or(self.meshes[id.index as usize].extent)
+    fn reach(&self, batch: &Batch, id: MeshId) -> f32 {
+        let known = batch.reaches.get(&id).copied();
+        known.unwrap_or(self.meshes[id.index as usize].reach)
     }
 
     /// Whether triangles of a mesh may become these: all its instances, those of the batch included, stay within the domain.
@@ -189,28 +187,24 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         triangles: &mut [N::Light],
     ) -> Result<(), EditReason> {
         checked(triangles)?;
-        let (known, mut extent) = (self.extent(batch, mesh), Extent::of(triangles));
+        let (known, mut reach) = (self.reach(batch, mesh), reach_of(triangles));
         if triangles.len() < self.mesh_len(mesh) {
-            extent.coordinate = extent.coordinate.max(known.coordinate);
+            reach = exact::max(reach, known);
         }
-        if extent.coordinate > known.coordinate {
+        if reach > known {
             for &index in &self.meshes[mesh.index as usize].users {
                 let placed = &self.placed[index as usize];
-                let id = InstanceId {
-                    tree: self.id.0,
-                    index,
-                    generation: placed.generation,
-                };
+                let id = self.id_of_instance(index);
                 if !batch.removed_instances.contains(&id) {
                     let transform = batch.transforms.get(&id).unwrap_or(&placed.transform);
-                    transform.check(&extent).map_err(EditReason::Transform)?;
+                    transform.check(reach).map_err(EditReason::Transform)?;
                 }
             }
             for transform in batch.added.get(&mesh).into_iter().flatten() {
-                transform.check(&extent).map_err(EditReason::Transform)?;
+                transform.check(reach).map_err(EditReason::Transform)?;
             }
         }
-        batch.extents.insert(mesh, extent);
+        batch.reaches.insert(mesh, reach);
         Ok(())
     }
 }

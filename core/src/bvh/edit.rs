@@ -3,91 +3,71 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use crate::error::Number;
-use crate::light::{EmissiveTriangle, LightError};
-use crate::transform::{Transform, TransformError};
+use crate::domain::{DomainError, Number};
+use crate::light::EmissiveTriangle;
+use crate::transform::Transform;
 use crate::tree::INVALID;
 
-/// A mesh of emissive triangles; stays the same as long as the mesh is in the scene, and never means another one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct MeshId {
-    pub(super) tree: u32,
-    pub(super) index: u32,
-    pub(super) generation: u32,
+macro_rules! id {
+    ($(#[$doc:meta])* $name:ident, $(#[$of_index:meta])*) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub struct $name {
+            pub(super) tree: u32,
+            pub(super) index: u32,
+            pub(super) generation: u32,
+        }
+
+        impl $name {
+            $(#[$of_index])*
+            #[must_use]
+            pub fn index(self) -> u32 {
+                self.index
+            }
+
+            /// The id as words, for another language. They mean something to this light BVH alone, as long as the program runs.
+            #[must_use]
+            pub const fn to_bits(self) -> [u32; 3] {
+                [self.tree, self.index, self.generation]
+            }
+
+            /// The id that [`to_bits`](Self::to_bits) made words of. Any words give an id; one that no light BVH has given is
+            /// refused wherever it is used, as the id of what was removed is.
+            #[must_use]
+            pub const fn from_bits([tree, index, generation]: [u32; 3]) -> Self {
+                Self {
+                    tree,
+                    index,
+                    generation,
+                }
+            }
+        }
+    };
 }
 
-/// A mesh's place in the world; stays the same as long as the instance is in the scene, and never means another one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct InstanceId {
-    pub(super) tree: u32,
-    pub(super) index: u32,
-    pub(super) generation: u32,
-}
+id!(
+    /// A mesh of emissive triangles; stays the same as long as the mesh is in the scene, and never means another one.
+    MeshId,
+    /// Index of the mesh; free for another one after the mesh is removed.
+);
+id!(
+    /// A mesh's place in the world; stays the same as long as the instance is in the scene, and never means another one.
+    InstanceId,
+    /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its triangles belong
+    /// to. Free for another one as soon as the instance is removed: over frames lights are told apart by ids, as this one, or
+    /// by their numbers (see [`Bvh::removed_lights`](super::Bvh::removed_lights)).
+);
 
 impl MeshId {
     /// Stands for the mesh that the same batch adds as its `place`-th, counting from 0: an instance of it can then be added by an
     /// [`Edit::AddInstance`] further on in the batch. Everywhere else no mesh has this id.
     #[must_use]
     pub const fn added(place: u32) -> Self {
-        Self {
-            tree: INVALID,
-            index: place,
-            generation: INVALID,
-        }
+        Self::from_bits([INVALID, place, INVALID])
     }
 
     pub(super) fn place_in_batch(self) -> Option<usize> {
         (self == Self::added(self.index)).then_some(self.index as usize)
-    }
-
-    /// Index of the mesh; free for another one after the mesh is removed.
-    #[must_use]
-    pub fn index(self) -> u32 {
-        self.index
-    }
-
-    /// The id as words, for another language. They mean something to this light BVH alone, as long as the program runs.
-    #[must_use]
-    pub const fn to_bits(self) -> [u32; 3] {
-        [self.tree, self.index, self.generation]
-    }
-
-    /// The id that [`to_bits`](Self::to_bits) made words of. Any words give an id; one that no light BVH has given is
-    /// refused wherever it is used, as the id of a removed mesh is.
-    #[must_use]
-    pub const fn from_bits([tree, index, generation]: [u32; 3]) -> Self {
-        Self {
-            tree,
-            index,
-            generation,
-        }
-    }
-}
-
-impl InstanceId {
-    /// The id as words, for another language. They mean something to this light BVH alone, as long as the program runs.
-    #[must_use]
-    pub const fn to_bits(self) -> [u32; 3] {
-        [self.tree, self.index, self.generation]
-    }
-
-    /// The id that [`to_bits`](Self::to_bits) made words of. Any words give an id; one that no light BVH has given is
-    /// refused wherever it is used, as the id of a removed instance is.
-    #[must_use]
-    pub const fn from_bits([tree, index, generation]: [u32; 3]) -> Self {
-        Self {
-            tree,
-            index,
-            generation,
-        }
-    }
-
-    /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its triangles belong
-    /// to. Free for another one as soon as the instance is removed: over frames lights are told apart by ids, as this one, or
-    /// by their numbers (see [`Bvh::removed_lights`](super::Bvh::removed_lights)).
-    #[must_use]
-    pub fn index(self) -> u32 {
-        self.index
     }
 }
 
@@ -174,10 +154,10 @@ pub enum EditReason {
         /// Its index in the edit.
         index: usize,
         /// What is wrong with it.
-        error: LightError,
+        error: DomainError,
     },
     /// A transform is outside the domain.
-    Transform(TransformError),
+    Transform(DomainError),
     /// A factor on radiance is outside [`RADIANCE_FACTORS`].
     Radiance {
         /// What was found.
@@ -208,8 +188,6 @@ pub enum EditReason {
     TooMany,
     /// A single-level BVH has one mesh and one instance, which stay.
     SingleLevel,
-    /// A [`StaticMeshBvh`](super::StaticMeshBvh) keeps no triangles, so no mesh is added or deformed.
-    StaticMeshes,
 }
 
 impl fmt::Display for EditError {
@@ -283,10 +261,6 @@ impl fmt::Display for EditReason {
                 f,
                 "a single-level light BVH takes new triangles of its mesh and nothing else; build one of two levels"
             ),
-            Self::StaticMeshes => write!(
-                f,
-                "meshes of this light BVH stay as they are, and none is added; keep a `Bvh` where meshes deform or come"
-            ),
         }
     }
 }
@@ -301,18 +275,14 @@ mod tests {
 
     use super::*;
     use crate::LightBvh;
+    use crate::kit::scenes::scattered;
+    use crate::kit::triangle;
 
     fn scene() -> (LightBvh, MeshId, InstanceId) {
-        let lamp = EmissiveTriangle {
-            p: [[0.0, 3.0, 0.0], [1.0, 3.0, 0.0], [0.0, 3.0, 1.0]],
-            radiance: [1.0; 3],
-            mesh: 0,
-            flags: 0,
-        };
-        let mut bvh = LightBvh::default();
-        let mesh = bvh.add_mesh(vec![lamp]).unwrap();
-        let instance = bvh.add_instance(mesh, Transform::IDENTITY).unwrap();
-        (bvh, mesh, instance)
+        let lamp = triangle([[0.0, 3.0, 0.0], [1.0, 3.0, 0.0], [0.0, 3.0, 1.0]]);
+        let (bvh, ids): (LightBvh, _) = scattered(vec![lamp], 1, |_| [0.0; 3]);
+        let mesh = bvh.mesh_of(ids[0]).unwrap();
+        (bvh, mesh, ids[0])
     }
 
     #[test]

@@ -3,13 +3,13 @@
 use alloc::vec::Vec;
 use core::fmt;
 
+use super::Bvh;
 use super::edit::EditReason;
-use super::{Bvh, Trails};
 use crate::lights::Lights;
 use crate::node::Node;
-use crate::transform::Extent;
+use crate::transform::reach_of;
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Moves or changes all triangles of a BVH built over [`Lights`], and refits it: the triangles of mesh `k` are those of
     /// mesh light `k`, or all of them in a single-level BVH.
     ///
@@ -32,18 +32,18 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 return Err(wrong(EditReason::Count { expected, found }));
             }
             let triangles = &lights.triangles()[range];
-            let extent = Extent::of(triangles);
+            let reach = reach_of(triangles);
             for &user in self.meshes.get(index).map_or(&[][..], |mesh| &mesh.users) {
                 let transform = &self.placed[user as usize].transform;
-                let checked = transform.check(&extent);
+                let checked = transform.check(reach);
                 checked.map_err(|reason| wrong(EditReason::Transform(reason)))?;
             }
             if found > 0 {
-                changes.push((index as u32, triangles, extent));
+                changes.push((index as u32, triangles, reach));
             }
         }
-        for (mesh, triangles, extent) in changes {
-            self.meshes[mesh as usize].extent = extent;
+        for (mesh, triangles, reach) in changes {
+            self.meshes[mesh as usize].reach = reach;
             self.write_triangles(mesh, 0, triangles);
         }
         self.refit();

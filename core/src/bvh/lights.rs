@@ -3,18 +3,16 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::Bvh;
 use super::edit::{InstanceId, MeshId};
-use super::{Bvh, Trails};
-use crate::instance::Instance;
 use crate::light::Light;
 use crate::lights::MAX_LIGHTS;
 use crate::node::Node;
-use crate::transform::Transform;
 
 /// So many numbers of removed lights wait to be taken, and as many as there are lights.
 const LEAST_WAITING: usize = 1 << 16;
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// The lights of an instance: numbered without gaps, the same as long as the instance lives; that of triangle
     /// `k`, as the mesh was given, is `start + k`.
     #[must_use]
@@ -47,12 +45,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// no such.
     #[must_use]
     pub fn instance_id(&self, instance: u32) -> Option<InstanceId> {
-        let placed = self.placed.get(instance as usize).filter(|placed| placed.live)?;
-        Some(InstanceId {
-            tree: self.id.0,
-            index: instance,
-            generation: placed.generation,
-        })
+        self.placed.get(instance as usize).filter(|placed| placed.live)?;
+        Some(self.id_of_instance(instance))
     }
 
     /// The mesh of an instance; `None` where there is no such instance.
@@ -72,12 +66,18 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The id of the mesh of index `mesh`, which is that of [`MeshId::index`]; `None` where there is no such.
     #[must_use]
     pub fn mesh_id(&self, mesh: u32) -> Option<MeshId> {
-        let own = self.meshes.get(mesh as usize).filter(|own| own.live)?;
-        Some(MeshId {
-            tree: self.id.0,
-            index: mesh,
-            generation: own.generation,
-        })
+        self.meshes.get(mesh as usize).filter(|own| own.live)?;
+        Some(self.id_of_mesh(mesh))
+    }
+
+    pub(super) fn id_of_mesh(&self, index: u32) -> MeshId {
+        let generation = self.meshes[index as usize].generation;
+        MeshId::from_bits([self.id.0, index, generation])
+    }
+
+    pub(super) fn id_of_instance(&self, index: u32) -> InstanceId {
+        let generation = self.placed[index as usize].generation;
+        InstanceId::from_bits([self.id.0, index, generation])
     }
 
     /// All lights in the world by number, up to the greatest in use. Their `mesh` is the index of the instance; numbers not in
@@ -96,28 +96,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
         }
         out
-    }
-
-    /// The lights of each mesh, and of each instance the index of its mesh among them, its transform, its factor and its words.
-    #[allow(clippy::type_complexity)]
-    pub(crate) fn meshes_and_places(&self) -> (Vec<&[N::Light]>, Vec<(usize, Transform, f32, Instance)>) {
-        let mut found = alloc::vec![0; self.meshes.len()];
-        let mut meshes = Vec::new();
-        for (index, mesh) in self.meshes.iter().enumerate().filter(|(_, mesh)| mesh.live) {
-            let range = &mesh.triangles;
-            found[index] = meshes.len();
-            meshes.push(&self.triangles[range.start as usize..range.end as usize]);
-        }
-        let live = self
-            .placed
-            .iter()
-            .zip(&self.instances)
-            .filter(|(placed, _)| placed.live);
-        let placed = live.map(|(placed, instance)| {
-            let mesh = found[placed.mesh as usize];
-            (mesh, placed.transform, placed.radiance, *instance)
-        });
-        (meshes, placed.collect())
     }
 
     /// Number of lights in the world.

@@ -4,7 +4,7 @@ use alloc::collections::{BTreeSet, VecDeque};
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::{Bvh, Trails};
+use super::Bvh;
 use crate::levels::Levels;
 use crate::node::{Node, kind};
 use crate::trail::{leaf_parts, place_parts};
@@ -140,7 +140,7 @@ impl RefitPlan {
     }
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Logs the edits of the top level.
     pub(super) fn log_top(&mut self) {
         let written = core::mem::take(&mut self.top.written);
@@ -318,7 +318,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// The nodes on the paths to some triangles of a mesh, each with a number that is greater for parents than for children.
     pub(super) fn path_nodes(&self, mesh: u32, triangles: Range<u32>) -> Vec<(u32, u32)> {
         let own = &self.meshes[mesh as usize];

@@ -3,10 +3,10 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::Bvh;
 use super::powers::common_power;
 use super::records::{Mesh, put};
 use super::refit::SWEPT;
-use super::{Bvh, Trails};
 use crate::build::{Topology, build_over};
 use crate::light::Light;
 #[cfg(feature = "std")]
@@ -16,7 +16,7 @@ use crate::refit::{self, BlasRoot};
 use crate::summary::Summary;
 use crate::sweep;
 use crate::trail::{BitTrail, trail_words};
-use crate::transform::Extent;
+use crate::transform::reach_of;
 use crate::tree::INVALID;
 
 /// A new tree over the triangles of a mesh, which replaces its tree.
@@ -44,7 +44,7 @@ impl<N: Holds> MeshTree<N> {
     }
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Adds a mesh with the tree of `topology`, whose primitives are numbered from 0; returns its index.
     pub(super) fn insert_mesh_tree(&mut self, triangles: &[N::Light], topology: &Topology<N>) -> u32 {
         let index = self.mesh_ranges.take(1).start;
@@ -61,7 +61,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             room: 0,
             triangles: range,
             depth: 0,
-            extent: Extent::of(triangles),
+            reach: reach_of(triangles),
             power: common_power(triangles),
             version: 0,
         };
@@ -167,9 +167,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         mesh.nodes = start..start + count;
         mesh.depth = topology.depth;
         self.bottom_depth = self.bottom_depth.max(topology.depth);
-        if T::KEPT {
-            self.place_trails(index, topology);
-        }
+        self.place_trails(index, topology);
         self.log.tree(index);
         self.compute_root(index);
     }
@@ -213,7 +211,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// The trail of a triangle; trails must be kept.
+    /// The trail of a triangle.
     pub(super) fn trail_of(&self, triangle: u32) -> BitTrail {
         let at = triangle as usize * self.trail_words as usize;
         BitTrail {
@@ -270,7 +268,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Replaces the tree of its mesh; false if the mesh was removed, or its triangles were changed and then dropped.
+    /// Replaces the tree of its mesh; false if the mesh was removed.
     #[cfg(feature = "std")]
     pub(crate) fn install_mesh(&mut self, tree: &MeshTree<N>) -> bool {
         let index = tree.mesh;
@@ -281,10 +279,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let (Some(version), Some(topology)) = (own.map(|own| own.version), &tree.topology) else {
             return false;
         };
-        // A BVH of static meshes has no triangles to compute the nodes from.
-        if version != tree.version && self.triangles.is_empty() {
-            return false;
-        }
         self.place_tree(index, topology);
         if version == tree.version {
             self.reshaped.remove(&index);

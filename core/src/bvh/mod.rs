@@ -20,8 +20,6 @@
 //! | more than a quarter of the instances are added, removed or move far | the whole top level |
 
 mod apply;
-#[cfg(feature = "std")]
-mod background;
 mod check;
 mod construct;
 mod edit;
@@ -33,15 +31,15 @@ mod one;
 mod powers;
 mod query;
 mod ranges;
+#[cfg(feature = "std")]
+mod rebuilder;
 mod records;
 mod refit;
 mod serial;
 mod static_bvh;
-mod static_mesh;
 #[cfg(test)]
 mod tests;
 mod top;
-mod trails;
 mod validate;
 
 use alloc::collections::{BTreeMap, BTreeSet};
@@ -54,28 +52,20 @@ pub use apply::Added;
 pub use edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
 pub use follow::FollowError;
 pub use log::{Cursor, RefitPlan};
+#[cfg(feature = "std")]
+pub use rebuilder::{FrameStart, RebuildError, Rebuilder, RebuilderParams, Swap};
 pub use serial::{FORMAT, ReadError};
 pub use static_bvh::StaticBvh;
-pub use static_mesh::StaticMeshBvh;
-pub use trails::{NoTrails, Trails, WithTrails};
-pub use validate::Stats;
+pub use validate::{Stats, Violation};
 
 pub use crate::levels::Levels;
-#[cfg(feature = "std")]
-pub use crate::rebuilder::{FrameStart, RebuildError, RebuilderParams, Swap};
 #[doc(inline)]
 pub use crate::transform::Transform;
 
 use self::log::Log;
-#[cfg(feature = "std")]
-pub(crate) use self::mesh::MeshTree;
 use self::ranges::Ranges;
-#[cfg(feature = "std")]
-pub(crate) use self::records::TreeId;
-#[cfg(not(feature = "std"))]
-use self::records::TreeId;
-use self::records::{InstanceState, Mesh};
-pub(crate) use self::top::{Batch, Top};
+use self::records::{InstanceState, Mesh, TreeId};
+use self::top::{Batch, Top};
 use crate::build::BuildParams;
 use crate::importance::DefaultImportance;
 use crate::instance::Instance;
@@ -88,11 +78,8 @@ use crate::tree::LightTree;
 ///
 /// A clone is another light BVH: each refuses the other's ids. Get the clone's by index
 /// ([`mesh_id`](Self::mesh_id), [`instance_id`](Self::instance_id)).
-///
-/// `T` says whether the probability of a given light can be asked for: [`WithTrails`] unless
-/// [`without_trails`](Self::without_trails) gave them up.
 #[derive(Clone, Debug)]
-pub struct Bvh<N: Holds, I, const W: usize, T = WithTrails> {
+pub struct Bvh<N: Holds, I, const W: usize> {
     /// What its ids belong to.
     id: TreeId,
     params: BuildParams,
@@ -139,7 +126,6 @@ pub struct Bvh<N: Holds, I, const W: usize, T = WithTrails> {
     /// Whether it is one mesh alone, walked from the root of its bottom level.
     single: bool,
     importance: PhantomData<I>,
-    asked: PhantomData<T>,
 }
 
 /// Batches that a rebuilder has not taken yet.
@@ -210,7 +196,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             bottom_depth: 0,
             single: false,
             importance: PhantomData,
-            asked: PhantomData,
         };
         scene.top.build(&scene.params);
         scene
@@ -236,9 +221,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// The arrays as traversal takes them. Without trails, no probability may be asked of them.
-    pub(super) fn arrays(&self) -> LightTree<'_, N, I, W> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+    /// The arrays as traversal takes them.
+    #[must_use]
+    pub fn tree(&self) -> LightTree<'_, N, I, W> {
         let mut tree = LightTree {
             nodes: &self.nodes,
             top: &self.top.nodes,
@@ -348,7 +334,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// What is known of all lights together, as of the last refit.
     #[must_use]
     pub fn summary(&self) -> N::Summary {
-        let tree = self.arrays();
+        let tree = self.tree();
         tree.top[tree.root as usize].merged()
     }
 }

@@ -3,11 +3,11 @@
 use alloc::vec::Vec;
 
 use super::edit::{Edit, EditReason, InstanceId, MeshId};
-use super::{Added, Bvh, Trails};
+use super::{Added, Bvh};
 use crate::node::Node;
 use crate::transform::Transform;
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Adds a mesh of at least one triangle, in its own space; it lights nothing before an instance puts it into the world.
     ///
     /// # Errors
@@ -57,7 +57,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Changes the triangles of a mesh from index `first` on, as many as are given. Takes time in proportion to them and to the
     /// depth of the mesh's tree, of which a [`refit`](Self::refit) then computes the paths to them; all of it where they are
-    /// more than a sixteenth of the mesh, and in a BVH without trails. If they reach farther from
+    /// more than a sixteenth of the mesh. If they reach farther from
     /// the mesh's origin than any triangle did since the mesh was set as a whole, each instance of the mesh is looked at.
     /// A mesh of points or boxes alone in a type of several kinds of light is looked at as a whole.
     ///

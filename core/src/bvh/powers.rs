@@ -1,6 +1,6 @@
 //! How the flux of a mesh grows with the scale of its instances.
 
-use super::{Bvh, Trails};
+use super::Bvh;
 use crate::instance::Instance;
 use crate::light::Light;
 use crate::node::Node;
@@ -19,7 +19,7 @@ pub(super) fn common_power<L: Light>(lights: &[L]) -> u32 {
     }
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// The words of an instance of `mesh` that depend on its map, its radiance and the kind of the mesh's lights.
     pub(super) fn in_place(&self, mesh: u32, transform: Transform, radiance: f32) -> Instance {
         let power = self.meshes[mesh as usize].power;

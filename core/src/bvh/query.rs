@@ -1,17 +1,16 @@
 //! Samples and their probabilities, the same of each owner of a tree.
 
 use super::edit::InstanceId;
-use super::trails::Sampled;
-use super::{Bvh, StaticBvh, StaticMeshBvh, Trails};
+use super::{Bvh, StaticBvh};
 use crate::importance::ImportanceModel;
 use crate::node::Node;
 use crate::point::Receiver;
-use crate::traverse::{Random64, SampledLight};
-use crate::tree::LightTree;
+use crate::random::Random64;
+use crate::traverse::SampledLight;
 
 macro_rules! samples {
     ($owner:ident) => {
-        impl<N: Node<W>, I, const W: usize, T: Trails> $owner<N, I, W, T> {
+        impl<N: Node<W>, I, const W: usize> $owner<N, I, W> {
             /// Chooses a light for a receiver, a [`ShadingPoint`](crate::ShadingPoint) within the domain of
             /// [`checked`](crate::ShadingPoint::checked) or one of which the importance knows more; see [`LightTree::sample`]. Without
             /// lights none is chosen.
@@ -21,8 +20,7 @@ macro_rules! samples {
                 I: ImportanceModel<N, W, P>,
             {
                 point.assert_within_reach();
-                const { Sampled::<N, I, W, T, P>::ALLOWED };
-                self.arrays().sample(point, random)
+                self.tree().sample(point, random)
             }
 
             /// Chooses a light for each of `points`, points as for [`sample`](Self::sample); see [`LightTree::sample_batch`].
@@ -34,8 +32,7 @@ macro_rules! samples {
             ) where
                 I: ImportanceModel<N, W, P>,
             {
-                const { Sampled::<N, I, W, T, P>::ALLOWED };
-                self.arrays().sample_batch(points, randoms, sampled);
+                self.tree().sample_batch(points, randoms, sampled);
             }
 
             /// Chooses `COUNT` lights for `point` by numbers at equal distances; see [`LightTree::sample_many`].
@@ -48,32 +45,7 @@ macro_rules! samples {
             where
                 I: ImportanceModel<N, W, P>,
             {
-                const { Sampled::<N, I, W, T, P>::ALLOWED };
-                self.arrays().sample_many(point, random)
-            }
-
-            /// Chooses a light for each place of `sampled` by numbers at equal distances; see [`LightTree::sample_spaced`].
-            pub fn sample_spaced<P: Receiver>(
-                &self,
-                point: &P,
-                random: impl Into<Random64>,
-                first: u32,
-                count: u32,
-                sampled: &mut [SampledLight],
-            ) where
-                I: ImportanceModel<N, W, P>,
-            {
-                const { Sampled::<N, I, W, T, P>::ALLOWED };
-                self.arrays()
-                    .sample_spaced(point, random, first, count, sampled);
-            }
-        }
-
-        impl<N: Node<W>, I, const W: usize> $owner<N, I, W> {
-            /// The arrays as traversal takes them.
-            #[must_use]
-            pub fn tree(&self) -> LightTree<'_, N, I, W> {
-                self.arrays()
+                self.tree().sample_many(point, random)
             }
 
             /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at
@@ -85,7 +57,7 @@ macro_rules! samples {
                 I: ImportanceModel<N, W, P>,
             {
                 point.assert_within_reach();
-                self.arrays().pmf(point, light, instance)
+                self.tree().pmf(point, light, instance)
             }
         }
     };
@@ -93,7 +65,6 @@ macro_rules! samples {
 
 samples!(Bvh);
 samples!(StaticBvh);
-samples!(StaticMeshBvh);
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// [`pmf`](Self::pmf) of triangle `triangle`, as the mesh was given, of an instance: what multiple importance sampling asks

@@ -5,7 +5,7 @@ use core::fmt;
 use core::ops::Range;
 use core::sync::atomic::{AtomicU32, Ordering};
 
-use crate::transform::{Extent, Transform};
+use crate::transform::Transform;
 
 /// A mesh: triangles and a tree over them in a space of their own, which its instances share.
 #[derive(Clone, Debug)]
@@ -20,7 +20,8 @@ pub(super) struct Mesh {
     pub room: u32,
     pub triangles: Range<u32>,
     pub depth: u32,
-    pub extent: Extent,
+    /// Greatest magnitude of a coordinate that its lights reached since all of them were set.
+    pub reach: f32,
     /// The power of an instance's scale by which the flux of its lights grows.
     pub power: u32,
     /// Counts edits of its triangles.

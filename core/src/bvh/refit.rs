@@ -4,8 +4,8 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::Bvh;
 use super::top::{Batch, Cluster, Part, may_open};
-use super::{Bvh, Trails};
 use crate::node::{Node, kind};
 use crate::refit::{Child, has_limits, leaf_child};
 use crate::summary::Summary;
@@ -20,7 +20,7 @@ pub(super) const SWEPT: usize = 16;
 /// frames' edits.
 const BEHIND: usize = 16;
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Brings the trees in line with the edits since the last call, and touches no other node. Computes the nodes of meshes that
     /// changed. In the top level, removes and inserts leaves, inserts again those that moved far from their siblings, and computes
     /// all nodes above: in time in proportion to the changed instances times the depth, at most that of a whole build.
@@ -28,7 +28,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for (mesh, ranges) in core::mem::take(&mut self.dirty) {
             let changed: usize = ranges.iter().map(ExactSizeIterator::len).sum();
             let all = self.meshes[mesh as usize].triangles.len();
-            if !T::KEPT || changed == 0 || changed * SWEPT > all {
+            if changed == 0 || changed * SWEPT > all {
                 self.sweep_mesh(mesh);
             } else {
                 ranges.iter().for_each(|range| self.refit_paths(mesh, range));

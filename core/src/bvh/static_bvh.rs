@@ -3,12 +3,12 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use super::{Bvh, Trails, WithTrails};
+use super::Bvh;
 use crate::instance::Instance;
 use crate::node::Node;
 use crate::tree::{LightTree, Links};
 
-/// The arrays of a [`Bvh`] that sampling reads, for lights that do not change: nodes, links, instances, trails if [`WithTrails`].
+/// The arrays of a [`Bvh`] that sampling reads, for lights that do not change: nodes, links, instances, trails.
 /// It keeps no triangles and nothing that edits and refits need: the caller has the lights, and [`LightTree::triangle`] finds
 /// one.
 ///
@@ -21,7 +21,7 @@ use crate::tree::{LightTree, Links};
 /// # Ok::<(), lightbvh::error::LightsError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct StaticBvh<N, I, const W: usize, T = WithTrails> {
+pub struct StaticBvh<N, I, const W: usize> {
     nodes: Box<[N]>,
     /// Nodes and links of the top level, if there are two levels.
     top: Box<[N]>,
@@ -32,15 +32,15 @@ pub struct StaticBvh<N, I, const W: usize, T = WithTrails> {
     trails: Box<[u32]>,
     /// Root, words of a trail, instances in use, lights of a single level, depth.
     words: [u32; 5],
-    chosen: core::marker::PhantomData<(I, T)>,
+    chosen: core::marker::PhantomData<I>,
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Refits and keeps what sampling reads: an instance removed and still in the tree would take its share of samples for ever.
     #[must_use]
-    pub fn into_static(mut self) -> StaticBvh<N, I, W, T> {
+    pub fn into_static(mut self) -> StaticBvh<N, I, W> {
         self.refit();
-        let tree = self.arrays();
+        let tree = self.tree();
         let words = [tree.root, tree.trail_words, tree.live, tree.lights, tree.depth];
         let is_single = self.single && !self.roots.is_empty();
         let top = if is_single { Vec::new() } else { self.top.nodes };
@@ -58,8 +58,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
-    pub(super) fn arrays(&self) -> LightTree<'_, N, I, W> {
+impl<N: Node<W>, I, const W: usize> StaticBvh<N, I, W> {
+    /// The arrays as traversal takes them.
+    #[must_use]
+    pub fn tree(&self) -> LightTree<'_, N, I, W> {
         let [root, trail_words, live, lights, depth] = self.words;
         LightTree {
             nodes: &self.nodes,

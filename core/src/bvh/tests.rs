@@ -126,13 +126,8 @@ fn uniform_choice_bounds_the_worst() {
 #[test]
 fn the_whole_domain_is_followed() {
     let far = crate::exact::pow2(40);
-    let triangle = EmissiveTriangle {
-        p: [[-far, -far, -far], [far, far, -far], [far, -far, far]],
-        radiance: [1.0; 3],
-        mesh: 0,
-        flags: 0,
-    };
-    let lights = Lights::new(std::vec![triangle]).expect("within the domain");
+    let lamp = triangle([[-far, -far, -far], [far, far, -far], [far, -far, far]]);
+    let lights = Lights::new(std::vec![lamp]).expect("within the domain");
     for mut bvh in [
         crate::LightBvh::single_level(&lights, &BuildParams::BALANCED),
         crate::LightBvh::two_level(&lights, &BuildParams::BALANCED),

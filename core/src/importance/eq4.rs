@@ -1,32 +1,11 @@
 //! The paper's importance, Eq. 4.
 
-use glam::Vec3;
-
-use super::sight::{LEAST_ALONG, offset};
+use super::sight::{LEAST_ALONG, MIN_DISTANCE_SQUARED, offset};
 use super::{ImportanceModel, Scaled, on_one_scale};
 use crate::exact::{self, exponent, pow2, recip_rough, rsqrt_rough, significand};
-use crate::node::BoundsNode;
+use crate::node::{BoundsNode, Cluster};
 use crate::point::ShadingPoint;
 use crate::vector::{dot, length_squared};
-
-/// What [`Eq4`] needs to know of the lights below a child; a node layout decodes it.
-#[derive(Clone, Copy, Debug)]
-pub struct Cluster {
-    /// Centre C of the box, metres.
-    pub center: Vec3,
-    /// Half extents of the box, metres.
-    pub extent: Vec3,
-    /// Squared radius of a sphere around the box, m².
-    pub radius_squared: f32,
-    /// Axis of the normals' cone; of length 1, or shorter by at most 2^-8.
-    pub axis: Vec3,
-    /// cos θ_o.
-    pub cos_theta_o: f32,
-    /// sin θ_o.
-    pub sin_theta_o: f32,
-    /// Flux Φ, W.
-    pub phi: f32,
-}
 
 /// Slack of the cosines, 2^-8: the least that the receiver's counts where its bound is not zero, and what is added to the emitters'.
 const SLACK: f32 = 0.003_906_25;
@@ -40,9 +19,6 @@ const HORIZON_SLACK: f32 = pow2(-20);
 
 /// Share of r² added to d² (see [`Eq4`]). A constant of its own: rust-gpu does not fold an expression of literals.
 const SOFTENING: f32 = 1.0 / 12.0;
-
-/// Squared distances count as at least this, m²: 2^-100.
-const MIN_DISTANCE_SQUARED: f32 = pow2(-100);
 
 /// Eq. 4 of Freire & Pereira 2023 (after Conty Estevez & Kulla 2018, section 4.2, Eq. 3): flux, distance, orientation of
 /// the emitters and incident angle.

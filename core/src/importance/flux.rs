@@ -1,15 +1,12 @@
-//! Flux over squared distance, without cosines.
+//! Flux over squared distance, and flux alone: without cosines.
 
-use super::sight::offset;
+use super::sight::{MIN_DISTANCE_SQUARED, offset};
 use super::{ImportanceModel, Scaled, on_one_scale};
-use crate::exact::{self, exponent, pow2, recip_rough, significand};
+use crate::exact::{self, exponent, recip_rough, significand};
 use crate::node::Node;
 use crate::point::ShadingPoint;
 use crate::summary::Summary;
 use crate::vector::length_squared;
-
-/// Squared distances count as at least this, m²: 2^-100.
-const MIN_DISTANCE_SQUARED: f32 = pow2(-100);
 
 /// Φ/(d² + σ²), σ² the variance of the lights' positions: the cheap end of the trade between speed and accuracy, right where
 /// lights shine everywhere. On any layout.
@@ -26,6 +23,25 @@ impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for FluxOverDistance {
             let soft = exact::max(length_squared(away) + summary.spread(), MIN_DISTANCE_SQUARED);
             let value = significand(phi) * recip_rough(significand(soft));
             scaled[slot] = Scaled::of(phi, value, -exponent(soft));
+        }
+        on_one_scale(&scaled)
+    }
+}
+
+/// Φ, whatever the point: every light has its share of the flux, as by pbrt-v4's `PowerLightSampler`, though by a walk. On any
+/// layout. The measure of what distance and cosines are worth, and right where all lights are equally far.
+///
+/// In two levels the flux of an instance is that of its bounds or moments in the world.
+#[derive(Clone, Copy, Debug)]
+pub struct Flux;
+
+impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for Flux {
+    #[inline(always)]
+    fn weights_in(node: &N, _: &ShadingPoint, _: f32) -> [f32; W] {
+        let mut scaled = [Scaled::ZERO; W];
+        for slot in 0..W {
+            let phi = node.summary(slot).phi();
+            scaled[slot] = Scaled::of(phi, significand(phi), 0);
         }
         on_one_scale(&scaled)
     }

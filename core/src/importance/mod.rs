@@ -8,33 +8,32 @@ mod flux;
 mod glossy;
 mod leveled;
 mod linked;
-mod math;
 mod moments;
-mod phi;
 mod sight;
 mod subtended;
 #[cfg(test)]
 mod tests;
 mod transmissive;
 
-pub use eq4::{Cluster, Eq4};
-pub use flux::FluxOverDistance;
+pub use eq4::Eq4;
+pub use flux::{Flux, FluxOverDistance};
 pub use glossy::Glossy;
 pub use leveled::Leveled;
 pub use linked::Linked;
-#[cfg(any(feature = "std", target_arch = "spirv"))]
-pub use math::NativeMath;
-pub use math::{ExactMath, Math};
 pub use moments::Moments;
-pub(crate) use moments::{Lobe, dot_by, frame, side, weight};
-pub use phi::Flux;
 pub use subtended::Subtended;
 pub use transmissive::Transmissive;
 
 use crate::exact;
+#[doc(hidden)]
+pub use crate::node::Cluster;
 use crate::point::ShadingPoint;
 #[doc(inline)]
 pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, TransmissivePoint};
+#[cfg(any(feature = "std", target_arch = "spirv"))]
+pub use crate::weight::NativeMath;
+#[doc(hidden)]
+pub use crate::weight::{ExactMath, Math};
 
 /// A measure of what the lights below each child of a node may contribute at a point. A type chooses it, so that kernels
 /// contain one only.
@@ -108,6 +107,7 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
 }
 
 /// A weight `significand · 2^exponent`. The exponent is kept apart because Φ/d² of the accepted domain spans 2^±300.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scaled {
     /// Zero without any flux, else in `[2^-24, 8)`.
@@ -141,6 +141,7 @@ impl Scaled {
 
 /// Brings the weights of a node's children to one scale: that of the greatest exponent. A weight below 2^-60 of the scale
 /// counts as that much, so a positive weight stays positive.
+#[doc(hidden)]
 #[inline(always)]
 #[must_use]
 pub fn on_one_scale<const W: usize>(scaled: &[Scaled; W]) -> [f32; W] {

@@ -4,13 +4,13 @@ mod line;
 
 use core::marker::PhantomData;
 
-use super::moments::{SOFT, soft};
 use super::{Eq4, ExactMath, ImportanceModel, Math, Moments, Scaled, on_one_scale};
 use crate::exact::{self, pow2, significand};
 use crate::moments::LEAST_LENGTH;
 use crate::node::{BoundsNode, MomentLayout};
 use crate::point::{RaySegment, ShadingPoint};
 use crate::vector::{dot, flush3, length_squared};
+use crate::weight::{SOFT, soft};
 use line::Line;
 
 /// What a [`RaySegment`] receives: flux times the angle under which the lights see the segment, over their least distance from its line (Conty

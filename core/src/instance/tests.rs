@@ -8,7 +8,7 @@ use super::Instance;
 use crate::Transform;
 use crate::bounds::LightBounds;
 use crate::exact::pow2;
-use crate::kit::{Random, Wide, cross, dot, normalize, times, wide};
+use crate::kit::{Random, Wide, cross, dot, normalize, times, triangle, wide};
 use crate::moments::LightMoments;
 use crate::point::ShadingPoint;
 
@@ -204,10 +204,8 @@ fn radiance_in_the_world() {
     let columns = [Vec3::X, Vec3::Y, Vec3::Z];
     let of = |radiance: [f32; 3], factor: f32| {
         let triangle = EmissiveTriangle {
-            p: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
             radiance,
-            mesh: 0,
-            flags: 0,
+            ..triangle([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
         };
         placed(columns, Vec3::ZERO, factor)
             .triangle(&triangle, 7)
@@ -221,12 +219,7 @@ fn radiance_in_the_world() {
     assert_eq!(of([MAX_RADIANCE, 0.0, 1.0], most), [MAX_RADIANCE, 0.0, most]);
 
     // A line in the mesh, which the map's rounding bends.
-    let line = EmissiveTriangle {
-        p: [[0.0; 3], [0.1, 0.2, 0.3], [0.2, 0.4, 0.6]],
-        radiance: [1.0; 3],
-        mesh: 0,
-        flags: 0,
-    };
+    let line = triangle([[0.0; 3], [0.1, 0.2, 0.3], [0.2, 0.4, 0.6]]);
     assert_eq!(LightBounds::of_triangle(&line).phi, 0.0);
     let mut random = Random(5);
     let mut bent = 0;
@@ -234,11 +227,7 @@ fn radiance_in_the_world() {
         let (columns, _) = map(&mut random, 1.0);
         let world = placed(columns, random.vector(), 1.0).triangle(&line, 0);
         assert_eq!(world.radiance, [0.0; 3]);
-        let lit = EmissiveTriangle {
-            radiance: [1.0; 3],
-            ..world
-        };
-        bent += u32::from(LightBounds::of_triangle(&lit).phi > 0.0);
+        bent += u32::from(LightBounds::of_triangle(&triangle(world.p)).phi > 0.0);
     }
     assert!(bent > 10, "{bent}");
 }

@@ -6,7 +6,7 @@ use super::{Random, cross, dot, minus, narrow, normalize, wide};
 use crate::bvh::{Bvh, Edit};
 use crate::exact::hash;
 use crate::importance::ImportanceModel;
-use crate::light::{AnyLight, EmissiveTriangle, LinkedAny, LinkedTriangle, SpotLight};
+use crate::light::{AnyLight, EmissiveTriangle, LinkedAny, SpotLight};
 use crate::node::Node;
 use crate::{InstanceId, SampledLight, ShadingPoint, Transform};
 
@@ -45,15 +45,6 @@ impl Lamp for AnyLight {
             mesh: 0,
         }
         .into()
-    }
-}
-
-impl Lamp for LinkedTriangle {
-    fn any(random: &mut Random) -> Self {
-        Self {
-            light: EmissiveTriangle::any(random),
-            mask: 1 << random.below(20),
-        }
     }
 }
 

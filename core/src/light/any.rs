@@ -3,15 +3,15 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{Each, Light};
+use super::record::{Each, Light, wrong_flags};
 use super::{
-    BoxLight, DiscLight, EmissiveTriangle, INVALID, LightError, LightPoint, PointLight, ProfileLight,
-    RectangleLight, SphereLight, SpotLight, TWO_SIDED,
+    BoxLight, DiscLight, EmissiveTriangle, INVALID, LightPoint, PointLight, ProfileLight, RectangleLight,
+    SphereLight, SpotLight, TWO_SIDED,
 };
 use crate::beam::Beam;
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, LightMoments};
+use crate::domain::DomainError;
 use crate::instance::Instance;
-use crate::moments::LightMoments;
 
 /// A light of any kind: 68 bytes, of which the kind says what they mean. Made of one of the others by `From`, and one of them again by
 /// [`kind`](Self::kind) and, where that is its kind, `TryFrom`.
@@ -308,16 +308,18 @@ impl Light for AnyLight {
     const HAS_FLUX_POWERS: bool = true;
     type Slots<const W: usize> = Each<Self, W>;
 
-    fn checked(self) -> Result<Self, LightError> {
+    fn checked(self) -> Result<Self, DomainError> {
         let known = match self.kind() {
             Self::TRIANGLE | Self::RECTANGLE | Self::DISC => TWO_SIDED,
             Self::PROFILE => ProfileLight::MIRRORED,
             _ => 0,
         };
         if self.flags() & !known != 0 {
-            return Err(LightError::Flags { flags: self.flags() });
+            return Err(wrong_flags(self.flags()));
         }
-        by_kind!(self, own => Ok(own.checked()?.into()), Err(LightError::Kind { kind: self.kind() }))
+        by_kind!(self, own => Ok(own.checked()?.into()), Err(DomainError::bits(
+            "the kind of a light", self.kind(), "one of AnyLight's; make it by `AnyLight::from`"
+        )))
     }
 
     #[inline(always)]

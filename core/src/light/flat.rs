@@ -3,18 +3,16 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{
-    Each, Light, bounds, checked_emission, checked_place, greatest, of_mesh_at_place, shining,
-};
+use super::record::{Each, Light, bounds, greatest, of_mesh_at_place, shining, wrong_flags};
 use super::round::disc;
-use super::{INVALID, LightError, LightPoint, MIN_OFFSET, TWO_SIDED};
-use crate::bounds::LightBounds;
+use super::{INVALID, LightPoint, MIN_OFFSET, TWO_SIDED};
+use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::{Cone, normalized};
+use crate::domain::{DomainError, checked_emission, checked_place};
 use crate::emission::{Emission, flux_of, luminance_of};
 use crate::exact::{self, pow2};
 use crate::instance::Instance;
 use crate::light::point::MAX_DENSITY;
-use crate::moments::LightMoments;
 use crate::vector::{abs3, dot, flush3, greatest_exponent, max3, vector};
 
 /// What a rectangle and a disc share: a centre and two half axes. Area 0 has no flux.
@@ -109,14 +107,14 @@ impl Flat {
         Scaled { a, b, e, emission }
     }
 
-    fn checked(mut self, names: &Names) -> Result<Self, LightError> {
+    fn checked(mut self, names: &Names) -> Result<Self, DomainError> {
         self.p = checked_place(names.place, self.p)?;
         for k in 0..2 {
             self.half[k] = checked_place(names.edge, self.half[k])?;
         }
         self.radiance = checked_emission(names.radiance, self.radiance)?;
         if self.flags & !TWO_SIDED != 0 {
-            return Err(LightError::Flags { flags: self.flags });
+            return Err(wrong_flags(self.flags));
         }
         Ok(self)
     }
@@ -285,7 +283,7 @@ macro_rules! flat_light {
             of_mesh_at_place!();
             type Slots<const W: usize> = Each<Self, W>;
 
-            fn checked(self) -> Result<Self, LightError> {
+            fn checked(self) -> Result<Self, DomainError> {
                 Ok(Self::of(&self.flat().checked(&$names)?))
             }
 

@@ -4,11 +4,11 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::record::{Each, Light};
-use super::{AnyLight, EmissiveTriangle, LightError, LightPoint};
+use super::{AnyLight, EmissiveTriangle, LightPoint};
 use crate::beam::Beam;
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, LightMoments};
+use crate::domain::DomainError;
 use crate::instance::Instance;
-use crate::moments::LightMoments;
 
 /// A record of its own for each kind of light: what is generic over the light cannot be plain words without unsafe code.
 macro_rules! linked {
@@ -39,7 +39,7 @@ macro_rules! linked {
             const HAS_FLUX_POWERS: bool = <$own>::HAS_FLUX_POWERS;
             type Slots<const W: usize> = Each<Self, W>;
 
-            fn checked(self) -> Result<Self, LightError> {
+            fn checked(self) -> Result<Self, DomainError> {
                 let light = self.light.checked()?;
                 Ok(Self { light, ..self })
             }

@@ -3,8 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
+use super::triangle::flux;
 use super::{EmissiveTriangle, MIN_OFFSET};
-use crate::emission::flux;
 use crate::exact;
 use crate::point::ShadingPoint;
 use crate::vector::{abs3, dot, flush3, greatest_exponent, length_squared, max3, vector};

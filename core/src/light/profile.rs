@@ -5,18 +5,15 @@ use glam::Vec3;
 
 use super::infinite::place_of;
 use super::punctual::{PER_MEAN_DIRECTION, TWO_PI, at, moments, phi, phi_per_intensity, within_cone};
-use super::record::{
-    Each, Light, bounds, checked_axis, checked_emission, checked_place, of_mesh_at_place, shining, towards,
-};
-use super::{INVALID, LightError, LightPoint};
+use super::record::{Each, Light, bounds, checked_axis, of_mesh_at_place, shining, towards};
+use super::{INVALID, LightPoint};
 use crate::beam::Beam;
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::Cone;
+use crate::domain::{DomainError, NORMAL_TOLERANCE, checked_emission, checked_place};
 use crate::emission::luminance_of;
 use crate::exact::{self, pow2};
 use crate::instance::Instance;
-use crate::moments::LightMoments;
-use crate::point::NORMAL_TOLERANCE;
 use crate::vector::{cross, dot, flush3, length_squared, vector};
 
 /// A point with a photometric profile: what it sends in each direction is its greatest intensity times what a table says there, as IES files
@@ -100,28 +97,39 @@ impl Light for ProfileLight {
     const FLUX_POWER: u32 = 0;
     type Slots<const W: usize> = Each<Self, W>;
 
-    fn checked(mut self) -> Result<Self, LightError> {
+    fn checked(mut self) -> Result<Self, DomainError> {
         self.p = checked_place("light with a profile", self.p)?;
         self.intensity = checked_emission("intensity of a light with a profile", self.intensity)?;
         self.axis = checked_axis(self.axis)?;
         self.across = checked_axis(self.across)?;
         if exact::abs(dot(vector(&self.axis), vector(&self.across))) > NORMAL_TOLERANCE {
-            return Err(LightError::Axis { axis: self.across });
+            let expected = "a direction at right angles to the axis; take out what is along it";
+            return Err(DomainError::vector(
+                "the direction across a profile",
+                self.across,
+                expected,
+            ));
         }
         let (outer, whole, mean) = (self.cos_outer, self.whole, self.mean_cosine);
-        let is_known = (-1.0..=1.0 - pow2(-20)).contains(&outer)
-            && (whole == 0.0 || (pow2(-40)..=2.0).contains(&whole))
-            && (-1.0..=1.0).contains(&mean)
-            && (mean >= outer || whole == 0.0);
-        if !is_known {
-            return Err(LightError::Profile {
-                cos_outer: outer,
-                whole,
-                mean_cosine: mean,
-            });
+        let refused = |what, found, expected| Err(DomainError::number(what, found, expected));
+        if !(-1.0..=1.0 - pow2(-20)).contains(&outer) {
+            let expected = "-1 up to 1 - 2^-20; compute it from the table";
+            return refused("the cosine of a profile's cone", outer, expected);
+        }
+        if whole != 0.0 && !(pow2(-40)..=2.0).contains(&whole) {
+            let expected = "0 or a number from 2^-40 to 2; compute it from the table";
+            return refused("the integral of a profile", whole, expected);
+        }
+        if !(-1.0..=1.0).contains(&mean) || (mean < outer && whole != 0.0) {
+            let expected = "the cosine of its cone up to 1; compute it from the table";
+            return refused("the mean cosine of a profile", mean, expected);
         }
         if self.flags & !Self::MIRRORED != 0 {
-            return Err(LightError::Flags { flags: self.flags });
+            return Err(DomainError::bits(
+                "the word of flags",
+                self.flags,
+                "0 or MIRRORED (2); clear the other bits",
+            ));
         }
         Ok(self)
     }

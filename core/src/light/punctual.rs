@@ -3,17 +3,15 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{
-    Each, Light, bounds, checked_axis, checked_emission, checked_place, of_mesh_at_place, shining, towards,
-};
-use super::{INVALID, LightError, LightPoint, MAX_COORDINATE, MIN_RADIANCE};
+use super::record::{Each, Light, bounds, checked_axis, of_mesh_at_place, shining, towards};
+use super::{INVALID, LightPoint, MAX_COORDINATE, MIN_RADIANCE};
 use crate::beam::Beam;
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::Cone;
+use crate::domain::{DomainError, checked_emission, checked_place};
 use crate::emission::{bounded_phi, luminance_of};
 use crate::exact::{self, exponent, pow2, significand};
 use crate::instance::Instance;
-use crate::moments::LightMoments;
 use crate::vector::{flush3, length_squared, vector};
 
 /// A point that sends the same intensity in every direction. An instance that scales leaves it as it is, and its range.
@@ -122,13 +120,14 @@ fn window(p: &[f32; 3], range: f32, from: Vec3) -> f32 {
 }
 
 /// A range that is one, 0 among them.
-fn checked_range(range: f32) -> Result<f32, LightError> {
+fn checked_range(range: f32) -> Result<f32, DomainError> {
     // NaN is in no range.
     if range == 0.0 || (pow2(-20)..=MAX_COORDINATE).contains(&range) {
         // Of the two zeros the positive one.
         Ok(if range == 0.0 { 0.0 } else { range })
     } else {
-        Err(LightError::Range { range })
+        let expected = "0 for none, or 2^-20 to 2^40 metres; leave it out, or turn the light off";
+        Err(DomainError::number("the range of a light", range, expected))
     }
 }
 
@@ -156,7 +155,7 @@ impl Light for PointLight {
     const FLUX_POWER: u32 = 0;
     type Slots<const W: usize> = Each<Self, W>;
 
-    fn checked(mut self) -> Result<Self, LightError> {
+    fn checked(mut self) -> Result<Self, DomainError> {
         self.p = checked_place("point light", self.p)?;
         self.intensity = checked_emission("intensity of a point light", self.intensity)?;
         self.range = checked_range(self.range)?;
@@ -204,7 +203,7 @@ impl SpotLight {
     /// Intensity in a direction, of length 1 up to 2^-16, over that along the axis.
     #[inline(always)]
     #[must_use]
-    pub fn falloff(&self, direction: Vec3) -> f32 {
+    fn falloff(&self, direction: Vec3) -> f32 {
         let gap = 0.5 * apart_squared(vector(&self.axis), direction);
         let linear = exact::clamp(exact::div((1.0 - self.cos_outer) - gap, self.fall()), 0.0, 1.0);
         // What a device flushes is cut here.
@@ -250,18 +249,20 @@ impl Light for SpotLight {
     const FLUX_POWER: u32 = 0;
     type Slots<const W: usize> = Each<Self, W>;
 
-    fn checked(mut self) -> Result<Self, LightError> {
+    fn checked(mut self) -> Result<Self, DomainError> {
         self.p = checked_place("spot", self.p)?;
         self.intensity = checked_emission("intensity of a spot", self.intensity)?;
         self.range = checked_range(self.range)?;
         self.axis = checked_axis(self.axis)?;
         let (inner, outer) = (self.cos_inner, self.cos_outer);
         // NaN is in no range.
-        if !(-1.0..=1.0).contains(&inner) || !(-1.0..=1.0 - pow2(-20)).contains(&outer) || inner < outer {
-            return Err(LightError::Cone {
-                cos_inner: inner,
-                cos_outer: outer,
-            });
+        if !(-1.0..=1.0 - pow2(-20)).contains(&outer) {
+            let expected = "-1 up to 1 - 2^-20; widen the cone";
+            return Err(DomainError::number("the outer cosine of a spot", outer, expected));
+        }
+        if !(outer..=1.0).contains(&inner) {
+            let expected = "the outer one up to 1; swap the angles";
+            return Err(DomainError::number("the inner cosine of a spot", inner, expected));
         }
         Ok(self)
     }

@@ -5,18 +5,13 @@ use core::fmt::Debug;
 use bytemuck::Pod;
 use glam::Vec3;
 
-use super::{
-    EmissiveTriangle, LightError, LightPoint, MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE,
-};
+use super::{INVALID, LightPoint, MAX_RADIANCE, MIN_RADIANCE};
 use crate::beam::Beam;
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::Cone;
-use crate::emission::has_flux;
+use crate::domain::{DomainError, NORMAL_TOLERANCE};
 use crate::exact::{self, pow2};
 use crate::instance::Instance;
-use crate::moments::LightMoments;
-use crate::point::NORMAL_TOLERANCE;
-use crate::summary::Triangles;
 use crate::vector::{flush3, greatest_exponent, length_squared, vector};
 
 /// A light as the arrays of a light BVH hold it: plain words, the same on devices.
@@ -42,8 +37,8 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     /// [`MIN_COORDINATE`](super::MIN_COORDINATE) become zero; nothing else changes.
     ///
     /// # Errors
-    /// [`LightError`], naming the number.
-    fn checked(self) -> Result<Self, LightError>;
+    /// [`DomainError`], naming the number.
+    fn checked(self) -> Result<Self, DomainError>;
     /// Index of the mesh light that owns it.
     fn mesh(&self) -> u32;
     /// The same light of another mesh.
@@ -134,67 +129,24 @@ impl<L: Light, const W: usize> LightSlots<L, W> for Each<L, W> {
     }
 }
 
-impl Light for EmissiveTriangle {
-    const NAME: &'static str = "emissive triangle";
-    const DARK: Self = Self {
-        p: [[0.0; 3]; 3],
-        radiance: [0.0; 3],
-        mesh: super::INVALID,
-        flags: 0,
-    };
-    const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
-    type Slots<const W: usize> = Triangles<W>;
-
-    fn checked(self) -> Result<Self, LightError> {
-        Self::checked(self)
+/// Light `light` of instance `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them: `triangles` are those
+/// of all bottom levels, in the spaces of their meshes. Without radiance where there is no such light. In a single-level tree
+/// `instance` is `u32::MAX`, and its one instance is meant.
+#[inline]
+#[must_use]
+pub fn world_light<L: Light>(triangles: &[L], instances: &[Instance], light: u32, instance: u32) -> L {
+    let index = if instance == INVALID { 0 } else { instance };
+    let mut out = L::DARK;
+    if index < instances.len() as u32 {
+        let own = instances[index as usize];
+        let triangle = own.triangle_of(light);
+        let is_own = light.wrapping_sub(own.first) < own.count;
+        if is_own && triangle < triangles.len() as u32 {
+            let local = triangles[triangle as usize];
+            out = local.in_world(&own, index);
+        }
     }
-
-    #[inline(always)]
-    fn mesh(&self) -> u32 {
-        self.mesh
-    }
-
-    #[inline(always)]
-    fn of_mesh(self, mesh: u32) -> Self {
-        Self { mesh, ..self }
-    }
-
-    #[inline(always)]
-    fn centroid(&self) -> [f32; 3] {
-        let p = &self.p;
-        let third = |k: usize| ((p[0][k] + p[1][k]) + p[2][k]) * (1.0 / 3.0);
-        [third(0), third(1), third(2)]
-    }
-
-    fn reach(&self) -> f32 {
-        let coordinates = self.p.iter().flatten();
-        coordinates.fold(0.0, |most, &x| exact::max(most, exact::abs(x)))
-    }
-
-    #[inline(always)]
-    fn has_flux(&self) -> bool {
-        has_flux(self)
-    }
-
-    #[inline(always)]
-    fn bounds(&self) -> LightBounds {
-        LightBounds::of_triangle(self)
-    }
-
-    #[inline(always)]
-    fn moments(&self) -> LightMoments {
-        LightMoments::of_triangle(self)
-    }
-
-    #[inline(always)]
-    fn in_world(&self, instance: &Instance, index: u32) -> Self {
-        instance.triangle(self, index)
-    }
-
-    #[inline(always)]
-    fn point_for(&self, _from: Vec3, uv: [f32; 2]) -> LightPoint {
-        self.point(uv)
-    }
+    out
 }
 
 /// Greatest magnitude among coordinates.
@@ -204,42 +156,28 @@ pub(super) fn greatest(coordinates: &[f32]) -> f32 {
         .fold(0.0, |most, &x| exact::max(most, exact::abs(x)))
 }
 
-/// Coordinates in the domain, of what is named.
-pub(super) fn checked_place(what: &'static str, mut place: [f32; 3]) -> Result<[f32; 3], LightError> {
-    for axis in 0..3 {
-        let value = place[axis];
-        // NaN is in no range.
-        if !(-MAX_COORDINATE..=MAX_COORDINATE).contains(&value) {
-            return Err(LightError::Place { what, axis, value });
-        }
-        place[axis] = exact::flush(value, MIN_COORDINATE);
-    }
-    Ok(place)
-}
-
-/// Linear R, G, B in the domain, of what is named.
-pub(in crate::light) fn checked_emission(
-    what: &'static str,
-    mut emission: [f32; 3],
-) -> Result<[f32; 3], LightError> {
-    for channel in 0..3 {
-        let value = emission[channel];
-        if value != 0.0 && !(MIN_RADIANCE..=MAX_RADIANCE).contains(&value) {
-            return Err(LightError::Emission { what, channel, value });
-        }
-        emission[channel] = exact::flush(value, MIN_RADIANCE);
-    }
-    Ok(emission)
+/// Why flags of a light with sides are refused.
+pub(super) fn wrong_flags(flags: u32) -> DomainError {
+    DomainError::bits(
+        "the word of flags",
+        flags,
+        "0 or TWO_SIDED (1); clear the other bits",
+    )
 }
 
 /// A direction of length 1, up to [`NORMAL_TOLERANCE`], at length 1.
-pub(in crate::light) fn checked_axis(axis: [f32; 3]) -> Result<[f32; 3], LightError> {
+pub(in crate::light) fn checked_axis(axis: [f32; 3]) -> Result<[f32; 3], DomainError> {
     let squared = length_squared(vector(&axis));
     // NaN is in no range.
     if (1.0 - NORMAL_TOLERANCE..=1.0 + NORMAL_TOLERANCE).contains(&squared) {
         Ok(unit(axis))
     } else {
-        Err(LightError::Axis { axis })
+        let what = "the axis of a spot or a profile, or the direction of a sun,";
+        Err(DomainError::vector(
+            what,
+            axis,
+            "length 1, and across at right angles; normalize it",
+        ))
     }
 }
 
@@ -257,7 +195,7 @@ pub(super) fn bounds(p: &[f32; 3], half: Vec3, cone: Cone, phi: f32) -> LightBou
 
 /// What a light of a mesh sends in the world: `factor` times as much, within the range; nothing where it has no flux in the mesh.
 #[inline(always)]
-pub(crate) fn shining(emission: &[f32; 3], factor: f32, has_flux: bool) -> [f32; 3] {
+pub(super) fn shining(emission: &[f32; 3], factor: f32, has_flux: bool) -> [f32; 3] {
     let shines = (factor > 0.0) & has_flux;
     let shine = |l: f32| {
         let scaled = exact::clamp(l * factor, MIN_RADIANCE, MAX_RADIANCE);

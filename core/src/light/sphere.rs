@@ -3,18 +3,16 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{
-    Each, Light, bounds, checked_emission, checked_place, greatest, of_mesh_at_place, shining,
-};
+use super::record::{Each, Light, bounds, greatest, of_mesh_at_place, shining};
 use super::round::circle;
-use super::{INVALID, LightError, LightPoint};
-use crate::bounds::LightBounds;
+use super::{INVALID, LightPoint};
+use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::Cone;
+use crate::domain::{DomainError, checked_emission, checked_place};
 use crate::emission::{bounded_phi, luminance_of};
 use crate::exact::{self, exponent, flush, pow2, significand};
 use crate::instance::Instance;
 use crate::light::point::MAX_DENSITY;
-use crate::moments::LightMoments;
 use crate::vector::{flush3, greatest_exponent, length_squared, vector};
 
 /// A sphere whose surface emits the same radiance in every direction outward.
@@ -66,12 +64,17 @@ impl Light for SphereLight {
     of_mesh_at_place!();
     type Slots<const W: usize> = Each<Self, W>;
 
-    fn checked(mut self) -> Result<Self, LightError> {
+    fn checked(mut self) -> Result<Self, DomainError> {
         self.p = checked_place("centre of a sphere", self.p)?;
         self.radiance = checked_emission("radiance of a sphere", self.radiance)?;
         // NaN is in no range.
         if !(RADII[0]..=RADII[1]).contains(&self.radius) {
-            return Err(LightError::Radius { value: self.radius });
+            let expected = "2^-60 to 2^40 m; make it a point light, or leave it out";
+            return Err(DomainError::number(
+                "the radius of a sphere",
+                self.radius,
+                expected,
+            ));
         }
         Ok(self)
     }

@@ -10,6 +10,7 @@ use std::vec::Vec;
 use glam::Vec3;
 
 use super::*;
+use crate::exact;
 use crate::kit::lights::{SHINE, disc, glow, rectangle, sphere, spot};
 use crate::kit::{Random, Wide, cross, dot, minus, narrow, normalize, times, wide};
 use crate::point::ShadingPoint;

@@ -4,17 +4,15 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::punctual::FOUR_PI;
-use super::record::{
-    Each, Light, bounds, checked_emission, checked_place, greatest, of_mesh_at_place, shining,
-};
-use super::{INVALID, LightError, LightPoint, MIN_OFFSET};
-use crate::bounds::LightBounds;
+use super::record::{Each, Light, bounds, greatest, of_mesh_at_place, shining};
+use super::{INVALID, LightPoint, MIN_OFFSET};
+use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::Cone;
+use crate::domain::{DomainError, checked_emission, checked_place};
 use crate::emission::{bounded_phi, luminance_of};
 use crate::exact::{self, exponent, hash, pow2, significand, unit_f32};
 use crate::instance::Instance;
 use crate::light::point::MAX_DENSITY;
-use crate::moments::LightMoments;
 use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, max3, vector};
 
 /// A box of glowing matter, which sends the same light from every place within it in every direction: fire, plasma. A parallelepiped
@@ -112,7 +110,7 @@ impl Light for BoxLight {
     const FLUX_POWER: u32 = 3;
     type Slots<const W: usize> = Each<Self, W>;
 
-    fn checked(mut self) -> Result<Self, LightError> {
+    fn checked(mut self) -> Result<Self, DomainError> {
         self.p = checked_place("centre of a box", self.p)?;
         for k in 0..3 {
             self.half[k] = checked_place("half axis of a box", self.half[k])?;

@@ -8,11 +8,11 @@
 mod merge;
 #[cfg(test)]
 mod tests;
-mod triangle;
 
 use glam::Vec3;
 
 use crate::bounds::LightBounds;
+pub use crate::bounds::LightMoments;
 use crate::cone::Cone;
 use crate::exact::{self, pow2};
 use crate::instance::Instance;
@@ -32,58 +32,11 @@ pub(crate) mod row {
     pub const H: usize = 9;
 }
 
-/// Least exponent of a set's size: 2^-100 m, the least coordinate that is not zero.
-pub(crate) const LEAST_EXPONENT: i32 = -100;
 /// Lengths that are computed count as zero below this, metres: 2^-120. A device would flush some of them.
 pub(crate) const LEAST_LENGTH: f32 = pow2(-120);
 
-/// What is known of a set of lights.
-///
-/// Standard deviations, not variances: the squares of the accepted lengths (2^-100 m to 2^41 m) leave the range of `f32`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LightMoments {
-    /// Radiant flux Φ, W, weighted by luminance; zero, or in 2^-100..=2^126.
-    pub phi: f32,
-    /// Flux-weighted centre, metres.
-    pub c: Vec3,
-    /// Standard deviation of position across the mean normal, per axis, metres.
-    pub across: f32,
-    /// Standard deviation of position along the mean normal, metres; equal to `across` where there is no such direction.
-    pub along: f32,
-    /// Flux-weighted mean of the unit normals; zero for lights that shine from both sides.
-    pub m: Vec3,
-    /// Half extents, about the centre, of a box around the lights, metres.
-    pub h: Vec3,
-}
-
-impl LightMoments {
-    /// No light at all.
-    pub const EMPTY: Self = Self {
-        phi: 0.0,
-        c: Vec3::new(0.0, 0.0, 0.0),
-        across: 0.0,
-        along: 0.0,
-        m: Vec3::new(0.0, 0.0, 0.0),
-        h: Vec3::new(0.0, 0.0, 0.0),
-    };
-}
-
 impl Summary for LightMoments {
     const EMPTY: Self = Self::EMPTY;
-    const NAMES: [&'static str; SUMMARY_WORDS] = [
-        "flux",
-        "centre x",
-        "centre y",
-        "centre z",
-        "deviation across",
-        "deviation along",
-        "normal x",
-        "normal y",
-        "normal z",
-        "half extent x",
-        "half extent y",
-        "half extent z",
-    ];
 
     #[inline(always)]
     fn of_light<L: Light>(light: &L) -> Self {
@@ -140,11 +93,6 @@ impl Summary for LightMoments {
             cos_theta_o: if alike { 1.0 } else { -1.0 },
             phi: self.phi,
         }
-    }
-
-    /// Means need not contain their parts.
-    fn uncontained(&self, _child: &Self) -> Option<usize> {
-        None
     }
 
     #[inline(always)]

@@ -8,9 +8,9 @@ use reference::{Exact, merged};
 
 use super::LightMoments;
 use crate::exact::{self, pow2};
-use crate::kit::{Random, cross, dot, minus, normalize, wide};
+use crate::kit::{Random, cross, dot, minus, node, normalize, wide};
 use crate::light::{EmissiveTriangle, TWO_SIDED};
-use crate::node::{LightNode, MomentNode, Node, kind};
+use crate::node::{MomentNode, Node, kind};
 use crate::vector::{max3, min3};
 
 impl Random {
@@ -156,15 +156,6 @@ fn moments_of_triangles_are_the_integrals() {
     }
 }
 
-fn node<N: LightNode<8, Summary = LightMoments>>(sets: &[LightMoments; 8]) -> N {
-    let mut node = N::EMPTY;
-    for slot in 0..8 {
-        node.set_child(slot, kind::LIGHT, slot as u32);
-    }
-    node.set_summaries(sets);
-    node
-}
-
 #[test]
 fn packed_moments_are_within_half_a_code() {
     let mut random = Random(7);
@@ -254,7 +245,7 @@ fn sets_without_flux_do_not_matter() {
         }
         assert_eq!(LightMoments::merge(&plain), LightMoments::merge(&dirty));
         assert_eq!(LightMoments::merge(&[garbage; 8]), LightMoments::EMPTY);
-        assert_eq!(node::<MomentNode<8>>(&plain), node(&dirty));
+        assert_eq!(node::<MomentNode<8>, 8>(&plain), node(&dirty));
     }
 }
 
@@ -333,6 +324,6 @@ fn sets_fit_into_their_frame() {
         let rows = super::merge::framed(&crate::summary::Lanes::of(&sets)).sets.0;
         assert_eq!(rows[super::row::PHI][6], pow2(kept), "{ratio}");
         assert_eq!(rows[super::row::PHI][0], 0.0);
-        assert!(node::<MomentNode<8>>(&sets).summary(6).phi > 0.0, "{ratio}");
+        assert!(node::<MomentNode<8>, 8>(&sets).summary(6).phi > 0.0, "{ratio}");
     }
 }

@@ -13,9 +13,9 @@ use glam::Vec3;
 
 use crate::beam::Beam;
 use crate::exact::{self, pow2};
-use crate::importance::{Lobe, Math, dot_by};
 use crate::moments::LightMoments;
 use crate::vector::{flush3, length_squared};
+use crate::weight::{Lobe, Math, dot_by};
 
 /// A weight outside of the cone is this part of what it is without one: positive, for whatever the rounding of coordinates may put there.
 const OUTSIDE: f32 = pow2(-16);

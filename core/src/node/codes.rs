@@ -24,7 +24,7 @@ pub(crate) const BREADTH_SHIFT: u32 = 20;
 pub(crate) const BREADTH_MASK: u32 = 0xff << BREADTH_SHIFT;
 /// Added to the exponent of a shifted breadth code, which so becomes 2^-30 to nearly 2^2 units; the code 0 a little less. None
 /// is zero, and none need be.
-pub(crate) const BREADTH_BIAS: i32 = 97;
+const BREADTH_BIAS: i32 = 97;
 /// Half extents are stored up to this many breadths; those of sets whose flux lies mostly in one place are cut.
 pub(crate) const EXTENT_RANGE: f32 = 8.0;
 /// A constant of its own: rust-gpu does not fold an expression of literals.
@@ -158,6 +158,14 @@ pub(super) fn breadth_code(deviation: f32, per_unit: f32) -> u32 {
     let bounded = exact::min(exact::max(breadth, LEAST_BREADTH), MOST_BREADTH);
     let rounded = bounded.to_bits().wrapping_add(1 << (BREADTH_SHIFT - 1));
     (rounded >> BREADTH_SHIFT).wrapping_sub((BREADTH_BIAS as u32) << 3)
+}
+
+/// What brings a shifted breadth code to its length, in a frame of which a unit is `unit`, a power of two.
+#[inline(always)]
+pub(super) fn breadth_bias(unit: f32) -> u32 {
+    unit.to_bits()
+        .wrapping_sub(ONE_BITS)
+        .wrapping_add((BREADTH_BIAS as u32) << 23)
 }
 
 /// The breadth that a code stands for, in units of the frame.

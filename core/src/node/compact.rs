@@ -3,11 +3,10 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::{BoundsNode, Holds, Node};
+use super::{BoundsNode, Cluster, Holds, Node};
 use crate::bounds::LightBounds;
 use crate::cone::{normalized, widened};
 use crate::exact::{self, exponent, pow2};
-use crate::importance::Cluster;
 use crate::light::EmissiveTriangle;
 use crate::summary::Lanes;
 use crate::vector::length_squared;

@@ -5,11 +5,11 @@ use core::marker::PhantomData;
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::{BoundsNode, Holds, MomentLayout, Node};
+use super::{BoundsNode, Cluster, Holds, MomentLayout, Node};
 use crate::beam::{Beam, Limits};
-use crate::importance::{Cluster, Math};
 use crate::light::Light;
 use crate::summary::Lanes;
+use crate::weight::Math;
 
 /// A node of layout `N` in a tree whose leaves are lights `L`: the same words, the same weights.
 ///

@@ -9,7 +9,6 @@ mod compact;
 mod lit;
 mod moment;
 
-pub(crate) use codes::BREADTH_BIAS;
 pub use compact::CompactNode;
 pub use lit::Lit;
 pub use moment::{
@@ -19,13 +18,15 @@ pub use moment::{
 use bytemuck::Pod;
 use glam::Vec3;
 
+#[doc(hidden)]
 pub use crate::beam::{Beam, Limits};
 pub use crate::bounds::LightBounds;
-use crate::importance::{Cluster, Math};
 use crate::light::{EmissiveTriangle, Light};
 pub use crate::moments::LightMoments;
 use crate::summary::Lanes;
+#[doc(hidden)]
 pub use crate::summary::Summary;
+use crate::weight::Math;
 
 /// The node of `LightBvh`.
 pub type DefaultNode = MomentNode<8>;
@@ -137,13 +138,35 @@ pub trait LightNode<const W: usize>: Node<W> + Holds<Light = EmissiveTriangle> {
 
 impl<N: Node<W> + Holds<Light = EmissiveTriangle>, const W: usize> LightNode<W> for N {}
 
+/// What [`Eq4`](crate::Eq4) needs to know of the lights below a child; a node layout decodes it.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct Cluster {
+    /// Centre C of the box, metres.
+    pub center: Vec3,
+    /// Half extents of the box, metres.
+    pub extent: Vec3,
+    /// Squared radius of a sphere around the box, m².
+    pub radius_squared: f32,
+    /// Axis of the normals' cone; of length 1, or shorter by at most 2^-8.
+    pub axis: Vec3,
+    /// cos θ_o.
+    pub cos_theta_o: f32,
+    /// sin θ_o.
+    pub sin_theta_o: f32,
+    /// Flux Φ, W.
+    pub phi: f32,
+}
+
 /// A layout that stores [`LightBounds`].
+#[doc(hidden)]
 pub trait BoundsNode<const W: usize>: Node<W, Summary = LightBounds> {
     /// The child's bounds as [`Eq4`](crate::Eq4) needs them.
     fn cluster(&self, slot: usize) -> Cluster;
 }
 
 /// A layout that stores [`LightMoments`].
+#[doc(hidden)]
 pub trait MomentLayout<const W: usize>: Node<W, Summary = LightMoments> {
     /// The weights of the children at the point `p` with the normal `n`, in the node's space, by the operations `M`; see
     /// [`ImportanceModel::weights`](crate::ImportanceModel::weights). `slack` is [`Instance::slack`](crate::Instance::slack).

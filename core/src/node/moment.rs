@@ -7,18 +7,18 @@ use glam::Vec3;
 use super::beam_row::{beam_factor, beam_of, beam_word, cone_slack};
 use super::codes::{
     BREADTH_MASK, BREADTH_SHIFT, EXTENT_RANGE, PER_EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_2,
-    SQRT_HALF, WORD_UNIT, breadth_code, breadth_value, field, fraction, frame_of, phi_code, phi_value,
-    spread_code,
+    SQRT_HALF, WORD_UNIT, breadth_bias, breadth_code, breadth_value, field, fraction, frame_of, phi_code,
+    phi_value, spread_code,
 };
 use super::{Holds, MomentLayout, Node};
 use crate::beam::{Beam, Limits, Union, rounding_at};
 use crate::exact::{self, pow2};
-use crate::importance::{Lobe, Math, dot_by, frame, side, weight};
 use crate::light::EmissiveTriangle;
 use crate::moments::{Frame, Framed, LEAST_LENGTH, LightMoments, row};
 use crate::summary::{Lanes, SUMMARY_WORDS};
 use crate::unroll::each;
 use crate::vector::{abs3, flush3};
+use crate::weight::{Lobe, Math, dot_by, frame, side, weight};
 
 /// Words of a node: row 0 is the header (origin x, y, z, exponents), the others hold a word of each child. After the first ones come its
 /// box and its link; a row of normals stands before them, a row of beams and one of masks after them, where there is one.
@@ -377,7 +377,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> MomentLayout<W>
         let frame = frame(self.origin(), self.unit_exponent(), p);
         let side = side(n, WORD_UNIT);
         let word_unit = frame.unit * WORD_UNIT;
-        let breadth_bias = frame.breadth_bias();
+        let breadth_bias = breadth_bias(frame.unit);
         let up = abs3(n) * (2.0 * EXTENT_RANGE);
         let up_sum = (up.x + up.y) + up.z;
         let up = up * WORD_UNIT;

@@ -2,7 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{PointError, Receiver, ShadingPoint};
+use super::{Receiver, ShadingPoint};
+use crate::domain::DomainError;
 use crate::exact;
 use crate::instance::Instance;
 use crate::vector::vector;
@@ -32,22 +33,24 @@ impl GlossyPoint {
     /// exponent are clamped to their ranges.
     ///
     /// # Errors
-    /// [`PointError`] as of the shading point, and as of a normal for a mirror direction that is neither of length 1 nor zero, and for a
+    /// [`DomainError`] as of the shading point, and as of a normal for a mirror direction that is neither of length 1 nor zero, and for a
     /// reflectance or exponent that is no number.
-    pub fn checked(self) -> Result<Self, PointError> {
+    pub fn checked(self) -> Result<Self, DomainError> {
         let point = self.point.checked()?;
         let mirror = ShadingPoint {
             p: [0.0; 3],
             n: self.mirror,
         }
         .checked()
-        .map_err(|_| PointError::Mirror { mirror: self.mirror })?
+        .map_err(|_| {
+            let what = "the mirror direction of a glossy point";
+            DomainError::vector(what, self.mirror, "length 1, or zero for none; normalize it")
+        })?
         .n;
         let within = |value: f32, least: f32, most: f32| {
             if value.is_nan() {
-                Err(PointError::Nan {
-                    what: "a reflectance or exponent of a glossy point",
-                })
+                let what = "a reflectance or exponent of a glossy point";
+                Err(DomainError::number(what, value, "a number; compute it again"))
             } else {
                 Ok(exact::clamp(value, least, most))
             }

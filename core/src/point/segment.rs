@@ -2,9 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{PointError, Receiver, ShadingPoint};
+use super::{Receiver, ShadingPoint};
+use crate::domain::{DomainError, MIN_OFFSET};
 use crate::instance::Instance;
-use crate::light::MIN_OFFSET;
 use crate::vector::{flush3, vector};
 
 /// A piece of a ray through a volume, from one point to another: light reaches it everywhere. What
@@ -22,8 +22,8 @@ impl RaySegment {
     /// Brings both ends into the domain of this crate, or says why they cannot be; see [`ShadingPoint::checked`].
     ///
     /// # Errors
-    /// [`PointError::Coordinate`] for a coordinate that is not finite or beyond 2^40 m.
-    pub fn checked(self) -> Result<Self, PointError> {
+    /// [`DomainError`] for a coordinate that is not finite or beyond 2^40 m.
+    pub fn checked(self) -> Result<Self, DomainError> {
         let [from, to] = self.ends();
         Ok(Self {
             from: from.checked()?.p,

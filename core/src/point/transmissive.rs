@@ -2,7 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{PointError, Receiver, ShadingPoint};
+use super::{Receiver, ShadingPoint};
+use crate::domain::DomainError;
 use crate::exact;
 use crate::instance::Instance;
 
@@ -24,13 +25,12 @@ impl TransmissivePoint {
     /// and those below 2^-20 are none.
     ///
     /// # Errors
-    /// [`PointError`] as of the shading point, and for a part that is no number.
-    pub fn checked(self) -> Result<Self, PointError> {
+    /// [`DomainError`] as of the shading point, and for a part that is no number.
+    pub fn checked(self) -> Result<Self, DomainError> {
         let part = |value: f32| {
             if value.is_nan() {
-                Err(PointError::Nan {
-                    what: "a part of a transmissive point",
-                })
+                let what = "a part of a transmissive point";
+                Err(DomainError::number(what, value, "a number; compute it again"))
             } else {
                 Ok(exact::flush(exact::clamp(value, 0.0, 1.0), LEAST_PART))
             }

@@ -6,10 +6,9 @@
 
 use glam::Vec3;
 
-use super::limits::{has_limits, limits_of_instance};
+use super::limits::{has_limits, limits_of_instance, limits_of_light};
 use super::{BlasRoot, Instance, root};
 use crate::beam::{Beam, Limits};
-use crate::light::Light;
 use crate::node::{Node, kind};
 use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
 use crate::trail::leaf_parts;
@@ -169,19 +168,6 @@ fn inner_child<N: Node<W>, const W: usize>(nodes: &[N], link: u32) -> Child<N::S
         Limits::NONE
     };
     Child { summary, limits }
-}
-
-/// What `light` is to a node with limits.
-#[inline(always)]
-pub(super) fn limits_of_light<N: Node<W>, const W: usize>(light: &N::Light) -> Limits {
-    Limits {
-        mask: light.mask(),
-        beam: if N::HAS_BEAMS {
-            light.beam()
-        } else {
-            Beam::ANYWHERE
-        },
-    }
 }
 
 /// Node `index` with the children of the node of number `place` in `children`; the node as it is where there is no such place.

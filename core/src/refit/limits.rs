@@ -4,9 +4,9 @@
 //! common bit comes to no dead end. A beam holds those of all lights below.
 
 use super::BlasRoot;
-use super::children::limits_of_light;
-use crate::beam::Limits;
+use crate::beam::{Beam, Limits};
 use crate::instance::Instance;
+use crate::light::Light;
 use crate::node::{Node, kind};
 use crate::summary::Lanes;
 
@@ -39,6 +39,19 @@ pub(crate) fn limits_below<N: Node<W>, const W: usize>(
         }
     }
     limits
+}
+
+/// What `light` is to a node with limits.
+#[inline(always)]
+pub(super) fn limits_of_light<N: Node<W>, const W: usize>(light: &N::Light) -> Limits {
+    Limits {
+        mask: light.mask(),
+        beam: if N::HAS_BEAMS {
+            light.beam()
+        } else {
+            Beam::ANYWHERE
+        },
+    }
 }
 
 /// The limits of a bottom level that `instance` puts into the world. They stand in the node of the root alone, so that the records of roots are

@@ -14,11 +14,9 @@ mod model;
 #[cfg(test)]
 mod tests;
 
-use crate::bvh::{Bvh, Trails};
-use crate::light::EmissiveTriangle;
-use crate::moments::LightMoments;
+use crate::bvh::Bvh;
+use crate::instance::Instance;
 use crate::node::LightNode;
-use crate::transform::Transform;
 
 pub use model::{Layout, Model, Updates};
 
@@ -36,61 +34,17 @@ pub struct Declared {
     pub instances: bool,
     /// Meshes are inserted of which nothing is known yet.
     pub meshes: bool,
-    /// The probability of a given light is asked for, as multiple importance sampling does of a light that a ray has hit.
-    pub pmf: bool,
 }
 
 impl Declared {
-    /// Nothing changes, and probabilities of given lights are asked for.
+    /// Nothing changes.
     pub const STATIC: Self = Self {
         transforms: false,
         radiance: false,
         triangles: false,
         instances: false,
         meshes: false,
-        pmf: true,
     };
-}
-
-/// The simplest kind that a map is of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum TransformKind {
-    /// Every entry is that of the identity.
-    Identity,
-    /// The linear part A is that of the identity.
-    Translation,
-    /// AᵀA is the identity, up to 2^-20: lengths stay.
-    Rigid,
-    /// AᵀA is a multiple of the identity, up to 2^-20 of it: all lengths grow alike.
-    Uniform,
-    /// Lengths grow unlike in different directions.
-    NonUniform,
-}
-
-impl TransformKind {
-    /// Of `transform`. A mirroring map is of the kind that its lengths say.
-    #[must_use]
-    pub fn of(transform: &Transform) -> Self {
-        if transform.columns == Transform::IDENTITY.columns {
-            let stays = transform.translation == [0.0; 3];
-            return [Self::Translation, Self::Identity][usize::from(stays)];
-        }
-        // Rotations rounded to `f32` are within 2^-22.
-        let near = |found: f64, expected: f64, unit: f64| (found - expected).abs() <= unit / 1_048_576.0;
-        let columns = transform.columns.map(|column| column.map(f64::from));
-        let gram = |i: usize, j: usize| -> f64 { (0..3).map(|k| columns[i][k] * columns[j][k]).sum() };
-        let squared = (gram(0, 0) + gram(1, 1) + gram(2, 2)) / 3.0;
-        let of_scale = |k: usize| if k % 4 == 0 { squared } else { 0.0 };
-        let alike = (0..9).all(|k| near(gram(k / 3, k % 3), of_scale(k), squared));
-        // A map onto one point has no scale.
-        if !alike || squared <= 0.0 {
-            Self::NonUniform
-        } else if near(squared, 1.0, 1.0) {
-            Self::Rigid
-        } else {
-            Self::Uniform
-        }
-    }
 }
 
 /// Counts of a scene's lights, and the declared changes. [`model`](Self::model) draws the conclusion.
@@ -109,57 +63,36 @@ pub struct Requirements {
     pub triangles: usize,
     /// Number of lights: triangles of all instances.
     pub lights: usize,
-    /// How many of them have no flux: no area, no radiance, or an instance that is off.
-    pub dark: usize,
     /// Triangles of all meshes that shine from one side, so that they have a normal or may get one.
     pub one_sided: usize,
-    /// Instances by [`TransformKind`], in its order.
-    pub transforms: [usize; 5],
-    /// Instances whose factor on radiance is not 1.
-    pub dimmed: usize,
+    /// Instances that stand elsewhere than at the identity, or whose factor on radiance is not 1.
+    pub placed: usize,
 }
 
 impl Requirements {
-    /// Counts the lights of a light BVH's scene. Takes time in proportion to its lights, about that of a
-    /// refit.
+    /// Counts the lights of a light BVH's scene. Takes time in proportion to its triangles.
     #[must_use]
-    pub fn of<N, I, const W: usize, T>(bvh: &Bvh<N, I, W, T>, declared: Declared) -> Self
-    where
-        N: LightNode<W>,
-        T: Trails,
-    {
-        let (meshes, placed) = bvh.meshes_and_places();
-        let mut users = alloc::vec![0_usize; meshes.len()];
+    pub fn of<N: LightNode<W>, I, const W: usize>(bvh: &Bvh<N, I, W>, declared: Declared) -> Self {
+        let meshes = (0..bvh.roots().len() as u32).filter_map(|mesh| bvh.mesh_id(mesh));
+        let meshes = meshes.filter_map(|mesh| bvh.mesh_triangles(mesh));
+        let one_sided = meshes.clone().flatten().filter(|own| !own.is_two_sided());
         let mut found = Self {
             declared,
-            meshes: meshes.len(),
-            instances: placed.len(),
-            triangles: meshes.iter().map(|mesh| mesh.len()).sum(),
+            meshes: meshes.clone().count(),
+            triangles: meshes.clone().map(<[_]>::len).sum(),
+            one_sided: one_sided.count(),
             ..Self::default()
         };
-        let all = meshes.iter().copied().flatten();
-        found.one_sided = all.filter(|triangle| !triangle.is_two_sided()).count();
-        for (mesh, transform, radiance, instance) in placed {
-            users[mesh] += 1;
-            found.transforms[TransformKind::of(&transform) as usize] += 1;
-            found.dimmed += usize::from(radiance.to_bits() != 1.0_f32.to_bits());
-            for local in meshes[mesh] {
-                let light: EmissiveTriangle = instance.triangle(local, 0);
-                found.dark += usize::from(LightMoments::of_triangle(&light).phi <= 0.0);
-            }
-            found.lights += meshes[mesh].len();
+        let mut users = alloc::vec![0_usize; bvh.roots().len()];
+        for own in bvh.instances().iter().filter(|own| own.count > 0) {
+            found.instances += 1;
+            found.lights += own.count as usize;
+            users[own.blas as usize] += 1;
+            let stays = own.columns == Instance::IDENTITY.columns && own.translation == [0.0; 3];
+            found.placed += usize::from(!stays || own.radiance.to_bits() != 1.0_f32.to_bits());
         }
         found.most_instances = users.into_iter().max().unwrap_or(0);
         found
-    }
-
-    /// The simplest kind that the maps of all instances are of; the identity where there is none.
-    #[must_use]
-    pub fn transform(&self) -> TransformKind {
-        use TransformKind as K;
-        let kinds = [K::Identity, K::Translation, K::Rigid, K::Uniform, K::NonUniform];
-        let last = self.transforms.iter().rposition(|&count| count > 0);
-        kinds[last.unwrap_or(0)]
     }
 
     /// Whether there is one mesh, in one place.

@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use core::fmt;
 
-use super::Requirements;
+use super::{Declared, Requirements};
 
 /// What nodes store of each child.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -27,22 +27,20 @@ impl Layout {
     }
 }
 
-/// What a light BVH keeps to be changed by. Each serves what the one before it does.
+/// What a light BVH keeps to be changed by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Updates {
     /// Nothing: a [`StaticBvh`](crate::bvh::StaticBvh).
     Nothing,
-    /// What instances are moved, dimmed, added and removed by: a [`StaticMeshBvh`](crate::bvh::StaticMeshBvh).
-    Instances,
-    /// Triangles too, and the lists by which bottom levels are refitted: a [`Bvh`](crate::Bvh).
-    Meshes,
+    /// Triangles, instances, and the lists by which they are refitted: a [`Bvh`](crate::Bvh).
+    All,
 }
 
 impl Updates {
     /// Name for options.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        ["nothing", "instances", "meshes"][self as usize]
+        ["nothing", "all"][self as usize]
     }
 }
 
@@ -56,11 +54,8 @@ pub struct Model {
     pub single_level: bool,
     /// Children of a node.
     pub width: usize,
-    /// Share of uniform choice as the number of times that 1 is halved; 0 for none ([`Defensive`](crate::Defensive)). Its lights are
-    /// found by trails.
+    /// Share of uniform choice as the number of times that 1 is halved; 0 for none ([`Defensive`](crate::Defensive)).
     pub uniform_halvings: u32,
-    /// Whether trails are kept, by which a given light's probability is found ([`NoTrails`](crate::bvh::NoTrails)).
-    pub trails: bool,
     /// What may change.
     pub updates: Updates,
 }
@@ -72,8 +67,7 @@ impl Model {
         single_level: false,
         width: 8,
         uniform_halvings: 6,
-        trails: true,
-        updates: Updates::Meshes,
+        updates: Updates::All,
     };
 
     /// The type of a node, as Rust has it.
@@ -97,10 +91,9 @@ impl Model {
     /// The type of the light BVH, as Rust has it.
     #[must_use]
     pub fn type_name(&self) -> String {
-        let owner = ["StaticBvh", "StaticMeshBvh", "Bvh"][self.updates as usize];
-        let trails = if self.trails { "" } else { ", NoTrails" };
+        let owner = ["StaticBvh", "Bvh"][self.updates as usize];
         let (node, importance, width) = (self.node_type(), self.importance_type(), self.width);
-        format!("{owner}<{node}, {importance}, {width}{trails}>")
+        format!("{owner}<{node}, {importance}, {width}>")
     }
 }
 
@@ -117,9 +110,9 @@ impl fmt::Display for Model {
 }
 
 impl Requirements {
-    /// The smallest model that is sufficient. Layout, trails and updates keep the bits of probabilities. One level in place of
-    /// several, or of a mesh that stands elsewhere than at the identity, is another tree, and without uniform choice
-    /// probabilities are others too: what that does to the variance depends on the scene, and `lightbvh inspect` measures it.
+    /// The smallest model that is sufficient. Layout and updates keep the bits of probabilities. One level in place of
+    /// several, or of a mesh that stands elsewhere than at the identity, is another tree: what that does to the variance
+    /// depends on the scene, and `lightbvh inspect` measures it.
     #[must_use]
     pub fn model(&self) -> Model {
         let d = self.declared;
@@ -133,14 +126,10 @@ impl Requirements {
             single_level: !(d.transforms || d.radiance || d.instances || d.meshes)
                 && (!d.triangles || self.meshes.max(self.instances) < 2)
                 && self.most_instances < 2,
-            uniform_halvings: if d.pmf { Model::DEFAULT.uniform_halvings } else { 0 },
-            trails: d.pmf,
-            updates: if d.triangles || d.meshes {
-                Updates::Meshes
-            } else if d.transforms || d.radiance || d.instances {
-                Updates::Instances
-            } else {
+            updates: if d == Declared::STATIC {
                 Updates::Nothing
+            } else {
+                Updates::All
             },
             ..Model::DEFAULT
         }

@@ -5,57 +5,25 @@ extern crate std;
 use std::string::ToString;
 use std::vec::Vec;
 
-use super::{Declared, Layout, Model, Requirements, TransformKind, Updates};
+use super::{Declared, Layout, Model, Requirements, Updates};
 use crate::bvh::LightBvh;
 use crate::kit::Random;
 use crate::kit::scenes::lamps;
 use crate::{EmissiveTriangle, Transform};
 
-/// Maps of each kind; the third mirrors.
-fn maps() -> [Transform; 5] {
-    let at = Transform::at([1.0, 2.0, 3.0]);
-    let of = |x: f32, y: f32, z: f32| Transform {
-        columns: [[0.0, x, 0.0], [-y, 0.0, 0.0], [0.0, 0.0, z]],
-        ..at
-    };
-    [
-        Transform::IDENTITY,
-        at,
-        of(1.0, -1.0, 1.0),
-        of(2.0, 2.0, 2.0),
-        of(1.0, 1.000_01, 1.0),
-    ]
-}
-
-#[test]
-fn transforms_are_of_their_kind() {
-    use TransformKind as K;
-    let kinds = [K::Identity, K::Translation, K::Rigid, K::Uniform, K::NonUniform];
-    assert_eq!(maps().map(|map| TransformKind::of(&map)), kinds);
-    let columns = |scale: f32, shear: f32| Transform {
-        columns: [[scale, 0.0, 0.0], [shear, scale, 0.0], [0.0, 0.0, scale]],
-        ..maps()[1]
-    };
-    assert_eq!(TransformKind::of(&columns(1.0e-9, 0.0)), K::Uniform);
-    for (scale, shear) in [(2.0, 0.001), (0.0, 0.0)] {
-        assert_eq!(TransformKind::of(&columns(scale, shear)), K::NonUniform);
-    }
-}
-
-/// Two meshes of three lights each, one of them dark: maps of each kind, two factors, one removed instance.
+/// Two meshes of three lights each: two maps, three factors, one removed instance.
 fn scene(flags: u32, instances: u32) -> LightBvh {
     let random = &mut Random(1);
     let mut bvh = LightBvh::default();
     let mut mesh = || {
         let mut mesh: Vec<EmissiveTriangle> = lamps(random, 3);
         mesh.iter_mut().for_each(|own| own.flags = flags);
-        mesh[0].radiance = [0.0; 3];
         mesh
     };
     let meshes = [bvh.add_mesh(mesh()), bvh.add_mesh(mesh())].map(|mesh| mesh.expect("lights"));
     for k in 0..=instances {
-        let own = bvh.add_instance(meshes[k as usize % 2], maps()[k as usize % 5]);
-        let own = own.expect("a mesh");
+        let at = Transform::at([if k % 5 == 0 { 0.0 } else { 1.0 }, 0.0, 0.0]);
+        let own = bvh.add_instance(meshes[k as usize % 2], at).expect("a mesh");
         bvh.set_radiance(own, [1.0, 0.5, 0.0][k as usize % 3])
             .expect("a factor");
         if k == instances {
@@ -70,11 +38,8 @@ fn counts_are_those_of_the_scene() {
     let found = Requirements::of(&scene(EmissiveTriangle::TWO_SIDED, 7), Declared::STATIC);
     assert_eq!((found.meshes, found.instances, found.most_instances), (2, 7, 4));
     assert_eq!((found.triangles, found.lights, found.one_sided), (6, 21, 0));
-    // Off twice, and of five more one light each.
-    assert_eq!(
-        (found.transforms, found.dimmed, found.dark),
-        ([2, 2, 1, 1, 1], 4, 11)
-    );
+    // Of two at the identity one is dimmed or off.
+    assert_eq!(found.placed, 6);
     assert_eq!(Requirements::of(&scene(0, 2), Declared::STATIC).one_sided, 6);
 }
 
@@ -95,34 +60,24 @@ fn models_are_no_larger_than_scenes_need() {
         single_level: false,
         ..still
     };
-    let moving = Model {
-        updates: Updates::Instances,
-        ..two_levels
-    };
-    let deforming = Model {
-        updates: Updates::Meshes,
+    let changing = Model {
+        updates: Updates::All,
         ..two_levels
     };
     let growing = Model {
         layout: Layout::Moments,
-        ..deforming
-    };
-    let unasked = Model {
-        uniform_halvings: 0,
-        trails: false,
-        ..still
+        ..changing
     };
     assert_eq!(of(2, |_| {}), still);
     assert_eq!(of(3, |_| {}), two_levels);
-    assert_eq!(of(2, |d| d.pmf = false), unasked);
-    assert_eq!(of(2, |d| d.triangles = true), deforming);
     assert_eq!(of(2, |d| d.meshes = true), growing);
     for change in [
         |d: &mut Declared| d.transforms = true,
         |d: &mut Declared| d.radiance = true,
         |d: &mut Declared| d.instances = true,
+        |d: &mut Declared| d.triangles = true,
     ] {
-        assert_eq!(of(2, change), moving);
+        assert_eq!(of(2, change), changing);
     }
     let one_sided = Requirements::of(&scene(0, 2), Declared::STATIC).model();
     assert_eq!(one_sided.layout, Layout::Moments);

@@ -14,20 +14,6 @@ const TWELFTH: f32 = 1.0 / 12.0;
 
 impl Summary for LightBounds {
     const EMPTY: Self = Self::EMPTY;
-    const NAMES: [&'static str; SUMMARY_WORDS] = [
-        "least x",
-        "least y",
-        "least z",
-        "greatest x",
-        "greatest y",
-        "greatest z",
-        "axis x",
-        "axis y",
-        "axis z",
-        "cos θ_o",
-        "zero",
-        "flux",
-    ];
 
     #[inline(always)]
     fn of_light<L: Light>(light: &L) -> Self {
@@ -80,26 +66,6 @@ impl Summary for LightBounds {
     #[inline(always)]
     fn bounds(&self) -> LightBounds {
         *self
-    }
-
-    fn uncontained(&self, child: &Self) -> Option<usize> {
-        // Without flux a box and a cone mean nothing.
-        if child.phi == 0.0 {
-            return None;
-        }
-        let (outer, inner) = (self.to_words(), child.to_words());
-        for k in 0..3 {
-            if inner[k] < outer[k] {
-                return Some(k);
-            }
-            if inner[3 + k] > outer[3 + k] {
-                return Some(3 + k);
-            }
-        }
-        if !self.cone().contains(child.cone()) {
-            return Some(9);
-        }
-        (child.phi > self.phi).then_some(11)
     }
 
     #[inline(always)]

@@ -1,10 +1,10 @@
 //! Several walks at once.
 
-use super::random::Random64;
 use super::sample::{SampledLight, Started, begin};
 use crate::importance::ImportanceModel;
 use crate::node::Node;
 use crate::point::Receiver;
+use crate::random::Random64;
 use crate::tree::LightTree;
 
 /// Walks that take turns: enough to hide the latency of memory behind the others' arithmetic, few enough to stay in the first

@@ -1,12 +1,12 @@
 //! Several lights for one point, by numbers at equal distances and one descent: nodes that the walks share are evaluated once.
 
-use super::choose::Shares;
-use super::random::Random64;
 use super::sample::{SampledLight, Started, begin, sample};
 use super::walk::{leading, narrowed};
+use crate::choose::Shares;
 use crate::importance::ImportanceModel;
 use crate::node::Node;
 use crate::point::Receiver;
+use crate::random::Random64;
 use crate::tree::LightTree;
 
 /// Walks that have come the same way.

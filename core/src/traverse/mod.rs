@@ -9,23 +9,38 @@
 //! share of numbers that lead to the light.
 
 mod batch;
-mod choose;
 mod many;
-mod random;
 mod sample;
 #[cfg(test)]
 mod tests;
 mod walk;
-mod widest;
 
-pub(crate) use choose::{FULL, FULL_BITS, choose};
-pub use random::Random64;
 pub use sample::SampledLight;
 
 use crate::importance::ImportanceModel;
 use crate::node::Node;
 use crate::point::Receiver;
+use crate::random::Random64;
 use crate::tree::LightTree;
+
+/// A walk with the machine's widest registers.
+#[cfg(feature = "simd")]
+macro_rules! dispatched {
+    ($walk:expr) => {
+        crate::widest::widest(
+            #[inline(always)]
+            || $walk,
+        )
+    };
+}
+
+/// A walk as it is.
+#[cfg(not(feature = "simd"))]
+macro_rules! dispatched {
+    ($walk:expr) => {
+        $walk
+    };
+}
 
 impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
     /// Chooses one light for `point` by `random` (paper section 3.6), after at most as many steps as the tree is deep. `point` is
@@ -40,7 +55,8 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
     where
         I: ImportanceModel<N, W, P>,
     {
-        widest::sample(self, point, random.into())
+        let random = random.into();
+        dispatched!(sample::sample(self, point, random))
     }
 
     /// Chooses a light for each point by its random number, to the same words as [`sample`](Self::sample) one at a time, but
@@ -51,7 +67,7 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
     where
         I: ImportanceModel<N, W, P>,
     {
-        widest::sample_batch(self, points, randoms, sampled);
+        dispatched!(batch::sample_batch(self, points, randoms, sampled));
     }
 
     /// Chooses `COUNT` lights for `point`, 1 to 256, by numbers at equal distances: light `k` is that of
@@ -72,7 +88,8 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
     {
         // All walks are on the stack.
         const { assert!(COUNT > 0 && COUNT <= 256, "1 to 256") };
-        widest::sample_many(self, point, random.into())
+        let random = random.into();
+        dispatched!(many::sample_many(self, point, random))
     }
 
     /// Chooses a light for each place of `sampled`: place `k` is that of [`sample`](Self::sample) by
@@ -89,7 +106,8 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
     ) where
         I: ImportanceModel<N, W, P>,
     {
-        widest::sample_spaced(self, point, random.into(), first, count, sampled);
+        let random = random.into();
+        dispatched!(many::sample_spaced(self, point, random, first, count, sampled));
     }
 
     /// The probability with which [`sample`](Self::sample) returns light `light` of instance `instance`
@@ -100,6 +118,6 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
     where
         I: ImportanceModel<N, W, P>,
     {
-        widest::pmf(self, point, light, instance)
+        dispatched!(sample::pmf(self, point, light, instance))
     }
 }

@@ -2,13 +2,13 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::choose::FULL_BITS;
-use super::random::Random64;
 use super::walk::{Walk, uniform_numbers};
+use crate::choose::FULL_BITS;
 use crate::exact;
 use crate::importance::ImportanceModel;
 use crate::node::Node;
 use crate::point::{Receiver, ShadingPoint};
+use crate::random::Random64;
 use crate::trail::Path;
 use crate::tree::{INVALID, LightTree};
 

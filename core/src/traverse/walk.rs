@@ -1,11 +1,11 @@
 //! One walk from the root to a light, chosen by a number or along a known path.
 
-use super::choose::{FULL, FULL_BITS, Share, choose};
-use super::random::Random64;
+use crate::choose::{FULL, FULL_BITS, Share, choose};
 use crate::exact;
 use crate::importance::ImportanceModel;
 use crate::node::{Node, kind};
 use crate::point::{Receiver, ShadingPoint};
+use crate::random::Random64;
 use crate::trail::{Path, leaf_parts, max_levels};
 use crate::tree::{INVALID, LightTree};
 

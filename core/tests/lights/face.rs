@@ -1,9 +1,8 @@
-//! Empty trees, lights that are followed, borrowed arrays.
+//! Empty trees, lights that are followed.
 
 use lightbvh::error::{EditReason, FollowError};
 use lightbvh::{
-    BuildParams, DefaultTree, Edit, EmissiveTriangle, INVALID, LightBvh, Lights, MeshId, Random64,
-    ShadingPoint, Transform, TreeWords,
+    BuildParams, Edit, EmissiveTriangle, INVALID, LightBvh, Lights, MeshId, ShadingPoint, Transform,
 };
 
 const POINT: ShadingPoint = ShadingPoint {
@@ -129,61 +128,6 @@ fn lights_are_followed_after_edits() {
     assert_eq!(bvh.follow(&lights(1.0)), Err(FollowError { mesh: 1, reason }));
     let first = Lights::new(vec![lamp(0), lamp(0)]).expect("lamps");
     assert_eq!(bvh.follow(&first), Ok(()));
-}
-
-/// Arrays as a shader has them answer as the light BVH does, also for names of no light.
-#[test]
-fn borrowed_arrays_name_the_same_lights() {
-    let lights =
-        |meshes: &[u32]| Lights::new(meshes.iter().map(|&mesh| lamp(mesh)).collect()).expect("lamps");
-    let params = BuildParams::default();
-    for bvh in [
-        LightBvh::two_level(&lights(&[0, 0, 1, 2]), &params),
-        LightBvh::single_level(&lights(&[0, 0, 1, 2]), &params),
-    ] {
-        let tree = bvh.tree();
-        let links = tree.links;
-        // The layout of a device: the top level behind the meshes, links behind the trails.
-        let is_single = bvh.is_single_level();
-        let top = if is_single { 0 } else { tree.nodes.len() as u32 };
-        let nodes = [
-            tree.nodes,
-            &tree.top[if is_single { tree.top.len() } else { 0 }..],
-        ]
-        .concat();
-        let trails = [tree.trails, links.above, links.places, links.parts].concat();
-        let above = tree.trails.len() as u32;
-        let places = above + links.above.len() as u32;
-        let words = TreeWords {
-            root: tree.root,
-            trail_words: tree.trail_words,
-            live: tree.live,
-            lights: tree.lights,
-            depth: tree.depth,
-            top,
-            above,
-            places,
-            parts: places + links.places.len() as u32,
-        };
-        let tree: DefaultTree<'_> = words.tree(&nodes, tree.instances, &trails);
-        assert_eq!(
-            tree.sample(&POINT, Random64::from(7_u32)),
-            bvh.sample(&POINT, 7_u32)
-        );
-        for light in [0, 1, 2, 3, 4, INVALID] {
-            for instance in [0, 1, 2, 3, INVALID - 1, INVALID] {
-                let found = tree.triangle(bvh.triangles(), light, instance);
-                assert_eq!(
-                    tree.pmf(&POINT, light, instance),
-                    bvh.pmf(&POINT, light, instance)
-                );
-                match bvh.triangle(light, instance) {
-                    Some(expected) => assert_eq!((found.p, found.radiance), (expected.p, expected.radiance)),
-                    None => assert_eq!(found.radiance, [0.0; 3], "{light} of {instance}"),
-                }
-            }
-        }
-    }
 }
 
 /// What a mesh was given, whatever has changed since.

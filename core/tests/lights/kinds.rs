@@ -139,7 +139,7 @@ fn any_light_is_its_kind() {
             (any.centroid(), any.reach(), any.has_flux(), any.beam()),
             (own.centroid(), own.reach(), own.has_flux(), own.beam())
         );
-        let from = random.vector(3.0).into();
+        let from = random.within(3.0).into();
         let uv = [random.unit(), random.unit()];
         assert_eq!(any.point_for(from, uv), own.point_for(from, uv));
         let mut bvh = Tree::default();

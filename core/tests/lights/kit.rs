@@ -1,5 +1,6 @@
-//! Numbers that look random and are the same in every run, vectors in `f64`, lights of each kind, a room, variances in it.
+//! Lights of each kind, a room, variances in it.
 
+pub use crate::numbers::{Random, Wide, cross, dot, minus, times};
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::importance::{ImportanceModel, Receiver};
 use lightbvh::light::{
@@ -7,36 +8,14 @@ use lightbvh::light::{
 };
 use lightbvh::{BuildParams, Bvh, EmissiveTriangle, LightNode, Lights, ShadingPoint, Transform};
 
-/// Hashes of 1, 2, 3 and so on after its seed.
-pub struct Random(pub u32);
-
 impl Random {
-    pub fn word(&mut self) -> u32 {
-        self.0 = self.0.wrapping_add(1);
-        hash(self.0)
-    }
-
-    pub fn below(&mut self, count: u32) -> u32 {
-        ((u64::from(self.word()) * u64::from(count)) >> 32) as u32
-    }
-
-    /// From 0 to 1.
-    pub fn unit(&mut self) -> f32 {
-        unit_f32(self.word())
-    }
-
-    /// From -1 to 1.
-    pub fn signed(&mut self) -> f32 {
-        2.0 * self.unit() - 1.0
-    }
-
-    pub fn vector(&mut self, scale: f32) -> [f32; 3] {
-        core::array::from_fn(|_| self.signed() * scale)
+    pub fn within(&mut self, scale: f32) -> [f32; 3] {
+        (self.vector() * scale).to_array()
     }
 
     pub fn unit_vector(&mut self) -> [f32; 3] {
         loop {
-            let v = self.vector(1.0);
+            let v = self.within(1.0);
             let squared: f32 = v.iter().map(|x| x * x).sum();
             if (0.01..=1.0).contains(&squared) {
                 return v.map(|x| x / squared.sqrt());
@@ -59,7 +38,7 @@ impl Random {
 
     /// On a surface within `reach`, or one of three in a volume.
     pub fn point(&mut self, reach: f32) -> ShadingPoint {
-        let p = self.vector(reach);
+        let p = self.within(reach);
         let n = match self.below(3) {
             0 => [0.0; 3],
             _ => self.unit_vector(),
@@ -77,7 +56,7 @@ impl Random {
         let sign = if self.below(2) == 0 { -s } else { s };
         Transform {
             columns: [a.map(|x| x * s), b.map(|x| x * s), c.map(|x| x * sign)],
-            translation: self.vector(reach),
+            translation: self.within(reach),
         }
     }
 
@@ -89,7 +68,7 @@ impl Random {
 
     pub fn triangle(&mut self) -> EmissiveTriangle {
         EmissiveTriangle {
-            p: core::array::from_fn(|_| self.vector(0.5)),
+            p: core::array::from_fn(|_| self.within(0.5)),
             radiance: self.shine(),
             mesh: 0,
             flags: u32::from(self.unit() < 0.3),
@@ -98,7 +77,7 @@ impl Random {
 
     pub fn bulb(&mut self) -> PointLight {
         PointLight {
-            p: self.vector(1.0),
+            p: self.within(1.0),
             intensity: self.shine(),
             range: 0.0,
             mesh: 0,
@@ -107,7 +86,7 @@ impl Random {
 
     pub fn sphere(&mut self) -> SphereLight {
         SphereLight {
-            p: self.vector(1.0),
+            p: self.within(1.0),
             radius: 0.01 + 0.2 * self.unit(),
             radiance: self.shine(),
             mesh: 0,
@@ -116,8 +95,8 @@ impl Random {
 
     pub fn rectangle(&mut self) -> RectangleLight {
         RectangleLight {
-            p: self.vector(1.0),
-            half: [self.vector(0.3), self.vector(0.3)],
+            p: self.within(1.0),
+            half: [self.within(0.3), self.within(0.3)],
             radiance: self.shine(),
             mesh: 0,
             flags: u32::from(self.unit() < 0.3),
@@ -126,8 +105,8 @@ impl Random {
 
     pub fn disc(&mut self) -> DiscLight {
         DiscLight {
-            p: self.vector(1.0),
-            half: [self.vector(0.3), self.vector(0.3)],
+            p: self.within(1.0),
+            half: [self.within(0.3), self.within(0.3)],
             radiance: self.shine(),
             mesh: 0,
             flags: u32::from(self.unit() < 0.3),
@@ -136,8 +115,8 @@ impl Random {
 
     pub fn glow(&mut self) -> BoxLight {
         BoxLight {
-            p: self.vector(1.0),
-            half: [self.vector(0.3), self.vector(0.3), self.vector(0.3)],
+            p: self.within(1.0),
+            half: [self.within(0.3), self.within(0.3), self.within(0.3)],
             radiance: self.shine(),
             mesh: 0,
         }
@@ -146,7 +125,7 @@ impl Random {
     pub fn spot(&mut self) -> SpotLight {
         let outer = self.signed() * 0.95;
         SpotLight {
-            p: self.vector(1.0),
+            p: self.within(1.0),
             intensity: self.shine(),
             range: 0.0,
             axis: self.unit_vector(),
@@ -160,7 +139,7 @@ impl Random {
         let axis = self.unit_vector();
         let outer = self.signed() * 0.95;
         ProfileLight {
-            p: self.vector(1.0),
+            p: self.within(1.0),
             intensity: self.shine(),
             axis,
             across: self.across(axis),
@@ -187,34 +166,12 @@ impl Random {
     }
 }
 
-pub type Wide = [f64; 3];
-
 pub fn wide(v: [f32; 3]) -> Wide {
     v.map(f64::from)
 }
 
-pub fn minus(a: Wide, b: Wide) -> Wide {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-pub fn times(v: Wide, s: f64) -> Wide {
-    v.map(|x| x * s)
-}
-
-pub fn dot(a: Wide, b: Wide) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
 pub fn length(v: Wide) -> f64 {
     dot(v, v).sqrt()
-}
-
-pub fn cross(a: Wide, b: Wide) -> Wide {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 /// Twice a triangle's area times its normal, and the middles of `N`² pieces of it.
@@ -247,9 +204,9 @@ pub fn emitted(triangle: &EmissiveTriangle, cosine: f64) -> f64 {
 /// 200 triangles of up to half a metre in a room of 10 m, in four meshes.
 pub fn room(random: &mut Random) -> Lights {
     let triangle = |k: u32| {
-        let at = random.vector(5.0);
+        let at = random.within(5.0);
         let mut corner = || {
-            let edge = random.vector(0.5);
+            let edge = random.within(0.5);
             [at[0] + edge[0], at[1] + edge[1], at[2] + edge[2]]
         };
         EmissiveTriangle {

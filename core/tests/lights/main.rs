@@ -3,10 +3,15 @@
 
 #![allow(clippy::disallowed_methods, reason = "nothing here is shared with devices")]
 
+use lightbvh::exact;
+
 mod face;
 mod kinds;
 mod kit;
 mod linked;
+#[path = "../../src/kit/numbers.rs"]
+#[allow(dead_code, reason = "shared with the tests of core")]
+mod numbers;
 mod receivers;
 mod smaller;
 mod spots;

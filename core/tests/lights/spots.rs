@@ -4,9 +4,8 @@
 use crate::kit::Random;
 use glam::Vec3;
 use lightbvh::exact::hash;
-use lightbvh::importance::{Leveled, Linked, LinkedPoint};
-use lightbvh::light::{AnyLight, Light, LinkedAny, SpotLight};
-use lightbvh::node::{LinkedSpotMomentNode, Lit, MomentNode, Node, SpotMomentNode, kind};
+use lightbvh::light::{AnyLight, Light, SpotLight};
+use lightbvh::node::{Lit, MomentNode, Node, SpotMomentNode, kind};
 use lightbvh::refit::world_light;
 use lightbvh::trail::leaf_parts;
 use lightbvh::{BuildParams, Bvh, ImportanceModel, Lights, Moments, ShadingPoint, Transform};
@@ -21,7 +20,7 @@ fn spots(random: &mut Random, count: u32, reach: f32) -> Vec<AnyLight> {
     let (shared, apart) = (random.unit_vector(), [1, 4][random.below(2) as usize]);
     let spot = |_| {
         let axis = if random.below(apart) == 0 {
-            let off = random.vector(0.1);
+            let off = random.within(0.1);
             let v: [f32; 3] = core::array::from_fn(|k| shared[k] + off[k]);
             let length = v.iter().map(|x| x * x).sum::<f32>().sqrt();
             v.map(|x| x / length)
@@ -31,7 +30,7 @@ fn spots(random: &mut Random, count: u32, reach: f32) -> Vec<AnyLight> {
         let outer = (90.0_f32 * 0.0028_f32.powf(random.unit())).to_radians().cos();
         let inner = outer + (1.0 - outer) * random.unit() * random.below(2) as f32;
         SpotLight {
-            p: random.vector(reach),
+            p: random.within(reach),
             intensity: [10.0_f32.powf(3.0 * random.signed()); 3],
             range: 0.0,
             axis,
@@ -224,7 +223,7 @@ fn far_from_the_origin_no_light_is_told_not_to_reach_a_point() {
         let mut seen = Seen::default();
         for turn in 0..30 {
             let mut bvh = Tree::default();
-            let about = random.vector(far);
+            let about = random.within(far);
             // By instances of any scale, or in a mesh that stands there itself.
             let scale = [1.0, 0.02, 50.0][turn % 3];
             for _ in 0..1 + random.below(6) {
@@ -263,7 +262,7 @@ fn wide_sets_of_narrow_cones_leave_no_light_out() {
         let axis = random.unit_vector();
         let angle = (0.25_f32 * 20.0_f32.powf(random.unit())).to_radians();
         let own = (0..12 + random.below(40)).map(|_| SpotLight {
-            p: random.vector(1.0),
+            p: random.within(1.0),
             axis,
             intensity: [1.0; 3],
             range: 0.0,
@@ -287,9 +286,9 @@ fn the_top_level_chooses_by_cones() {
     let random = &mut Random(37);
     let mut bvh = Tree::default();
     for _ in 0..300 {
-        let [x, y, _] = random.vector(8.0);
+        let [x, y, _] = random.within(8.0);
         // Half a turn about x: the spot up from below shines down.
-        let up = SpotLight::try_from(down(random.vector(0.5), 1.0, 16.0)).expect("a spot");
+        let up = SpotLight::try_from(down(random.within(0.5), 1.0, 16.0)).expect("a spot");
         let own = SpotLight {
             axis: [0.0, 0.0, 1.0],
             cos_inner: 0.97,
@@ -304,7 +303,7 @@ fn the_top_level_chooses_by_cones() {
     bvh.refit();
     let (mut lit, mut total, mut points) = (0.0, 0.0, 0);
     while points < 200 {
-        let [x, y, _] = random.vector(6.0);
+        let [x, y, _] = random.within(6.0);
         let point = floor(x, y);
         let all = told(&bvh, &point);
         if !all.iter().any(|own| sends(&bvh, own, point.p)) {
@@ -352,36 +351,6 @@ fn where_no_beam_counts_samples_are_those_without() {
         }
         let mut placed = with.instances().iter().filter(|own| own.count > 0);
         assert!(placed.all(|own| own.is_even() != has_spots));
-    }
-}
-
-/// Masks and beams together: a light has a probability just where it has a bit in common.
-#[test]
-fn masks_go_with_beams() {
-    type Both = Bvh<Lit<LinkedSpotMomentNode<8>, LinkedAny>, Linked<Leveled<Moments, 9>>, 8>;
-    let random = &mut Random(25);
-    let own: Vec<LinkedAny> = spots(random, 200, 4.0)
-        .into_iter()
-        .map(|light| LinkedAny {
-            light,
-            mask: 1 << random.below(8),
-        })
-        .collect();
-    let lights = Lights::new(own.clone()).expect("in the domain");
-    let bvh = Both::single_level(&lights, &BuildParams::default());
-    for _ in 0..200 {
-        let receiver = LinkedPoint {
-            point: random.point(8.0),
-            mask: random.below(256),
-        };
-        let mut sum = 0.0;
-        for (k, own) in (0..).zip(&own) {
-            let pmf = bvh.tree().pmf(&receiver, k, u32::MAX);
-            assert_eq!(pmf > 0.0, own.mask & receiver.mask != 0);
-            sum += f64::from(pmf);
-        }
-        let expected = f64::from(u8::from(receiver.mask != 0));
-        assert!((sum - expected).abs() < 1.0e-5, "{sum} for {:#x}", receiver.mask);
     }
 }
 

@@ -53,20 +53,19 @@ fn assert_sound(report: &Value) {
 }
 
 #[test]
-fn built_in_scenes_keep_no_triangles_of_meshes_that_stay() {
+fn built_in_scenes_that_stay_keep_no_triangles() {
     let moving = report("inspect street --json --points 16");
     assert_sound(&moving);
     assert_eq!(fact(&moving, "orientation"), "present");
     assert_eq!(fact(&moving, "one mesh"), "no");
-    assert_eq!(fact(&moving, "transforms"), "rigid");
-    assert_eq!(moving["model"]["updates"], "instances");
+    assert_eq!(moving["model"]["updates"], "all");
     assert_eq!(moving["checked_frame"], 1);
     assert_eq!(moving["kernels"]["committed"], true);
     // One for each part of the model, and what follows from the wet road.
     let reasons = moving["reasons"].as_array().expect("reasons");
-    assert_eq!(reasons.len(), 5);
+    assert_eq!(reasons.len(), 4);
     assert!(
-        reasons[4]
+        reasons[3]
             .as_str()
             .is_some_and(|reason| reason.starts_with("glossy surfaces"))
     );
@@ -75,8 +74,7 @@ fn built_in_scenes_keep_no_triangles_of_meshes_that_stay() {
     assert_sound(&still);
     assert_eq!(still["model"]["updates"], "nothing");
     assert_eq!(still["checked_frame"], 0);
-    // The states of instances and the lists of the top level on top.
-    assert!(saved(&still) > saved(&moving) && saved(&moving) > 5.0);
+    assert!(saved(&still) > 5.0 && saved(&moving) == 0.0);
     // Nothing is left out where anything may change.
     let anything = report("inspect street --json --points 16 --changes triangles,meshes");
     assert_eq!(anything["steps"], json!([]));
@@ -103,11 +101,6 @@ fn one_mesh_of_two_sided_lamps_needs_neither_normals_nor_a_top_level() {
         command.contains("--layout two-sided --width 8 --share 6"),
         "{command}"
     );
-    // Without a question for probabilities there are no trails, unless their uniform share is put back.
-    let least = report(&format!("inspect {path} --json --no-mis"));
-    assert_sound(&least);
-    let put_back = step(&least, "uniform share")["put_back"] == true;
-    assert_eq!(least["model"]["trails"], put_back);
 }
 
 #[test]
@@ -121,7 +114,6 @@ fn words_are_for_people() {
         "of 24 triangles 0 shine from one side",
         "  layout: ",
         "  levels: one, because one mesh",
-        "  trails: kept",
         "  updates: nothing changes",
         "kernels for devices: not committed",
         "saved against the default: ",
@@ -145,7 +137,7 @@ fn each_animation_is_looked_at() {
     let path = with_clips(&folder);
     let report = report(&format!("inspect {path} --points 16 --json"));
     assert_eq!(report["motion"], json!({ "moving": 1, "bending": 0 }));
-    assert_eq!(report["model"]["updates"], "instances");
+    assert_eq!(report["model"]["updates"], "all");
     let shown: Vec<&Value> = report["animations"]
         .as_array()
         .expect("animations")

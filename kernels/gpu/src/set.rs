@@ -122,8 +122,7 @@ impl KernelSet {
         let default = Model::DEFAULT;
         let is_compiled = model.layout == Layout::Moments
             && model.width == default.width
-            && model.uniform_halvings == default.uniform_halvings
-            && model.trails;
+            && model.uniform_halvings == default.uniform_halvings;
         if is_compiled {
             Ok(&MOMENTS)
         } else {
@@ -210,11 +209,7 @@ mod tests {
             assert!(core::ptr::eq(set, &MOMENTS));
         }
         let two_sided = with(|own| own.layout = Layout::TwoSidedMoments);
-        let others: [fn(&mut Model); 3] = [
-            |own| own.width = 16,
-            |own| own.uniform_halvings = 0,
-            |own| own.trails = false,
-        ];
+        let others: [fn(&mut Model); 2] = [|own| own.width = 16, |own| own.uniform_halvings = 0];
         for model in others.map(with).into_iter().chain([two_sided]) {
             assert_eq!(KernelSet::of(&model).err(), Some(NotCompiled { model }));
         }

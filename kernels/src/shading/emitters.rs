@@ -1,7 +1,7 @@
 //! The lights of a scene, read through their instances: where an instance moves, its record is all that changes.
 
-use lightbvh::instance::world_light;
 use lightbvh::light::Light;
+use lightbvh::refit::world_light;
 use lightbvh::{EmissiveTriangle, INVALID, Instance};
 
 /// What emits. Lights in world space are those of one instance, [`listed`].

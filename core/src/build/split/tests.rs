@@ -6,7 +6,7 @@ extern crate std;
 
 use std::vec::Vec;
 
-use reference::{Exact, Light, bin, least_cost};
+use reference::{Exact, Light, least_cost};
 
 use super::split;
 use crate::LightBounds;
@@ -166,13 +166,4 @@ fn the_first_split_is_the_cheapest_of_all_planes() {
             }
         }
     }
-}
-
-/// The bins of the reference: equal parts of the extent of the centres.
-#[test]
-fn bins_are_equal_parts() {
-    assert_eq!(
-        [0.0, 0.24, 0.26, 0.51, 1.0].map(|x| bin(x, 0.0, 1.0, 4)),
-        [0, 0, 1, 2, 3]
-    );
 }

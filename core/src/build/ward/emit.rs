@@ -2,7 +2,7 @@
 
 use super::grow::Growth;
 use super::range::Range;
-use crate::build::topology::Topology;
+use crate::build::Topology;
 use crate::node::{Node, kind};
 use crate::trail::{BitTrail, max_levels};
 

@@ -21,7 +21,7 @@ use alloc::vec::Vec;
 pub use primitive::WardPrimitive;
 
 use super::BuildParams;
-use super::topology::Topology;
+use super::Topology;
 use crate::node::Node;
 use emit::Emitter;
 use frame::Extent;

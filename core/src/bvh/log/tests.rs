@@ -9,7 +9,7 @@ use crate::importance::{Defensive, Eq4, ImportanceModel, Moments};
 use crate::instance::Instance;
 use crate::kit::Random;
 use crate::kit::scenes::{
-    Lamp, bare, edits, instances, lamps, lights, moved, number, points, scattered, sound_samples,
+    Lamp, bare, edits, instances, lamps, lights, moved, number, points, scattered, sound, sound_samples,
 };
 use crate::light::{Light, LinkedAny};
 use crate::node::{CompactNode, Holds, LinkedSpotMomentNode, Lit};
@@ -151,6 +151,14 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
                     == tree.triangle(bvh.triangles(), light, instance)
             );
         }
+        // Names of no light.
+        for (light, instance) in [(INVALID, 0), (0, INVALID - 1), (INVALID, INVALID)] {
+            assert_eq!(
+                (own.pmf(&point, light, instance), bvh.triangle(light, instance)),
+                (0.0, None)
+            );
+            assert!(!own.triangle(&self.triangles, light, instance).has_flux());
+        }
     }
 }
 
@@ -170,7 +178,7 @@ where
     };
     let mut own = rebuilder();
     let [mut often, mut seldom] = [0; 2].map(|_| Mirror::<N, W>::new());
-    let mut swapped = 0;
+    let (mut swapped, mut opened) = (0, 0);
     for frame in 0..120 {
         let start = own.begin_frame(&mut bvh).expect("no panic");
         swapped += start.meshes + u32::from(start.swapped);
@@ -178,7 +186,11 @@ where
         let count = if frame % 10 < 4 { 0 } else { random.below(10) };
         // A refused batch changes nothing.
         let _ = bvh.apply(edits(random, &bvh, count, 50));
+        sound_samples(&bvh);
         bvh.refit();
+        sound(&bvh);
+        assert_eq!(bvh.top.count as usize, instances(&bvh).len());
+        opened += bvh.top.opened.values().filter(|own| own.first != INVALID).count();
         if frame % 10 == 9 {
             bvh.rebuild();
         }
@@ -195,7 +207,7 @@ where
         }
     }
     assert_eq!((often.wholes, seldom.wholes), (2, 2));
-    assert!(swapped > 10, "{swapped}");
+    assert!(swapped > 10 && opened > 100, "{swapped} {opened}");
     // More changes than the log holds.
     for _ in 0..400 {
         let moves = instances(&bvh).into_iter();

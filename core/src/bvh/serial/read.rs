@@ -11,7 +11,7 @@ use crate::bvh::top::{Opened, Shape, Top};
 use crate::bvh::{Bvh, EditReason, InstanceState};
 use crate::light::Light;
 use crate::node::{Node, kind};
-use crate::transform::{Extent, Transform};
+use crate::transform::{Transform, reach_of};
 use crate::tree::INVALID;
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
@@ -52,7 +52,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 room: 0,
                 triangles: 0..0,
                 depth: 0,
-                extent: Extent::of::<N::Light>(&[]),
+                reach: 0.0,
                 power: 0,
                 version: 0,
             };
@@ -196,11 +196,11 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         for mesh in &mut self.meshes {
             let range = mesh.triangles.start as usize..mesh.triangles.end as usize;
-            mesh.extent = Extent::of(&self.triangles[range.clone()]);
+            mesh.reach = reach_of(&self.triangles[range.clone()]);
             mesh.power = common_power(&self.triangles[range]);
         }
         for (instance, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
-            let checked = placed.transform.check(&self.meshes[placed.mesh as usize].extent);
+            let checked = placed.transform.check(self.meshes[placed.mesh as usize].reach);
             checked
                 .map_err(EditReason::Transform)
                 .and_then(|()| factor(placed.radiance))

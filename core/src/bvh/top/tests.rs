@@ -7,13 +7,10 @@ use std::vec::Vec;
 use super::*;
 use crate::bvh::{Bvh, Cursor};
 use crate::exact::pow2;
-use crate::importance::{Defensive, Eq4, ImportanceModel, Moments};
-use crate::kit::scenes::{
-    Lamp, edits, instances, lamps, moved, scattered, sound, sound_samples, with_one_far,
-};
+use crate::importance::{Eq4, Moments};
+use crate::kit::scenes::{lamps, moved, scattered, with_one_far};
 use crate::kit::{Random, triangle};
-use crate::light::LinkedAny;
-use crate::node::{CompactNode, LightNode, LinkedSpotMomentNode, Lit, MomentNode};
+use crate::node::{CompactNode, LightNode, MomentNode};
 use crate::trail::max_levels;
 use crate::{InstanceId, LightBvh, Transform};
 
@@ -56,38 +53,6 @@ fn to_fresh(bvh: &LightBvh) -> f64 {
 fn edited<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>, cursor: &mut Cursor) -> Option<usize> {
     let plan = bvh.plan(cursor);
     (!plan.whole_top).then(|| plan.written_top.iter().map(ExactSizeIterator::len).sum())
-}
-
-fn follows_its_edits<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32)
-where
-    N::Light: Lamp,
-{
-    let random = &mut Random(seed);
-    let mut bvh = Bvh::<N, I, W>::default();
-    let (mut cursor, mut wholes, mut opened) = (Cursor::default(), 0, 0);
-    for frame in 0..70 {
-        let count = if frame % 10 == 0 { 60 } else { 1 + random.below(12) };
-        // A refused batch changes nothing.
-        let _ = bvh.apply(edits(random, &bvh, count, 300));
-        sound_samples(&bvh);
-        bvh.refit();
-        sound(&bvh);
-        assert_eq!(bvh.top.count as usize, instances(&bvh).len());
-        wholes += u32::from(edited(&bvh, &mut cursor).is_none());
-        opened += bvh.top.opened.values().filter(|own| own.first != INVALID).count();
-    }
-    assert!((7..60).contains(&wholes) && opened > 100, "{wholes} {opened}");
-    let read = Bvh::<N, I, W>::from_words(&bvh.to_words()).expect("its own words");
-    assert!(read.to_words() == bvh.to_words());
-    assert_eq!(sound_samples(&read), sound_samples(&bvh));
-}
-
-#[test]
-fn random_edits_keep_every_invariant() {
-    follows_its_edits::<MomentNode<8>, Defensive<Moments, 6>, 8>(1);
-    follows_its_edits::<CompactNode<4>, Eq4, 4>(2);
-    follows_its_edits::<CompactNode<2>, Eq4, 2>(3);
-    follows_its_edits::<Lit<LinkedSpotMomentNode<8>, LinkedAny>, Defensive<Moments, 6>, 8>(4);
 }
 
 #[test]

@@ -140,7 +140,7 @@ fn broken_triangles_are_found() {
     });
     finds("light's mesh", |s| s.triangles[3].mesh += 1);
     // Moved without a refit.
-    finds("least x after a refit", |s| s.triangles[0].p[0][0] -= 8.0);
+    finds("word 0: expected", |s| s.triangles[0].p[0][0] -= 8.0);
 }
 
 #[test]

@@ -3,10 +3,10 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::violation::{Violation, equal};
 use crate::node::{Node, kind};
 use crate::trail::{BitTrail, max_levels};
 use crate::tree::INVALID;
-use crate::validate::{Violation, equal};
 
 /// A leaf as a walk comes to it.
 #[derive(Clone, Copy, Debug)]

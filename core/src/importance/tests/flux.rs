@@ -1,4 +1,4 @@
-//! Φ/(d² + σ²) on each kind of layout.
+//! Φ and Φ/(d² + σ²) on each kind of layout.
 
 use glam::Vec3;
 
@@ -6,7 +6,7 @@ use super::{Random, dot, minus, wide};
 use crate::importance::{Flux, FluxOverDistance, ImportanceModel};
 use crate::node::{CompactNode, LightNode, MomentNode};
 use crate::point::ShadingPoint;
-use crate::{LightBounds, LightMoments, Summary, exact};
+use crate::{LightBounds, LightMoments, Summary};
 
 /// Two reciprocals, each within 3·10^-3.
 const ROUGH: f64 = 6.1e-3;
@@ -35,11 +35,7 @@ fn check<N: LightNode<4>>(
     size: f32,
     of: impl Fn(&N::Summary) -> (f32, Vec3, f64),
 ) {
-    let mut node = N::EMPTY;
-    for slot in 0..4 {
-        node.set_child(slot, crate::node::kind::LIGHT, slot as u32);
-    }
-    node.set_summaries(sets);
+    let node: N = crate::kit::node(sets);
     let point = point(random, size);
     let expected = [0, 1, 2, 3].map(|slot| {
         let (phi, center, spread) = of(&node.summary(slot));
@@ -47,10 +43,21 @@ fn check<N: LightNode<4>>(
         f64::from(phi) / (dot(away, away) + spread)
     });
     alike(FluxOverDistance::weights(&node, &point), expected, N::NAME);
+    // Flux alone, whatever the point.
+    let expected = [0, 1, 2, 3].map(|slot| f64::from(node.summary(slot).phi()));
+    let found = Flux::weights(&node, &point);
+    for slot in 0..4 {
+        let ratio = f64::from(found[slot]) / f64::from(found[0]);
+        assert!(
+            (ratio / (expected[slot] / expected[0]) - 1.0).abs() < 1e-6,
+            "{}",
+            N::NAME
+        );
+    }
 }
 
 #[test]
-fn flux_over_distance_of_bounds() {
+fn flux_and_distance_of_bounds() {
     let random = &mut Random(1);
     for _ in 0..4000 {
         let size = random.power(-20, 20);
@@ -74,7 +81,7 @@ fn flux_over_distance_of_bounds() {
 }
 
 #[test]
-fn flux_over_distance_of_moments() {
+fn flux_and_distance_of_moments() {
     let random = &mut Random(2);
     for _ in 0..4000 {
         let size = random.power(-20, 20);
@@ -92,37 +99,5 @@ fn flux_over_distance_of_moments() {
             (s.phi, s.c, 2.0 * across.powi(2) + along.powi(2))
         };
         check::<MomentNode<4>>(random, &sets, size, of);
-    }
-}
-
-/// Flux alone, on both kinds of layout, whatever the point.
-#[test]
-fn flux_alone_is_flux() {
-    fn check<N: LightNode<4>>(random: &mut Random, sets: &[N::Summary; 4]) {
-        let mut node = N::EMPTY;
-        for slot in 0..4 {
-            node.set_child(slot, crate::node::kind::LIGHT, slot as u32);
-        }
-        node.set_summaries(sets);
-        let expected = [0, 1, 2, 3].map(|slot| f64::from(node.summary(slot).phi()));
-        let found = Flux::weights(&node, &point(random, 1.0));
-        for slot in 0..4 {
-            let ratio = f64::from(found[slot]) / f64::from(found[0]);
-            assert_eq!(ratio, expected[slot] / expected[0], "{}", N::NAME);
-        }
-    }
-    let random = &mut Random(3);
-    for _ in 0..1000 {
-        let phi = [0; 4].map(|_| exact::pow2(random.below(40) as i32 - 20));
-        let bounds = phi.map(|phi| LightBounds {
-            phi,
-            ..LightBounds::EMPTY
-        });
-        check::<CompactNode<4>>(random, &bounds);
-        let moments = phi.map(|phi| LightMoments {
-            phi,
-            ..LightMoments::EMPTY
-        });
-        check::<MomentNode<4>>(random, &moments);
     }
 }

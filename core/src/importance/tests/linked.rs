@@ -1,11 +1,10 @@
-//! Weights of which masks and least shares leave some.
+//! Weights of which masks leave some.
 
-use super::Random;
 use crate::beam::{Beam, Limits};
-use crate::importance::{ImportanceModel, Leveled, Linked};
-use crate::node::{LinkedMomentNode, Node, kind};
+use crate::choose::{FULL, choose};
+use crate::importance::{ImportanceModel, Linked};
+use crate::node::{LinkedMomentNode, Node};
 use crate::point::{LinkedPoint, ShadingPoint};
-use crate::traverse::{FULL, choose};
 use crate::{LightMoments, exact};
 
 /// The least and the greatest that an importance may give.
@@ -19,15 +18,12 @@ impl<N> ImportanceModel<N, 4> for Extremes {
     }
 }
 
-fn node(masks: [u32; 4], phi: [f32; 4]) -> LinkedMomentNode<4> {
-    let mut node = LinkedMomentNode::<4>::EMPTY;
-    for slot in 0..4 {
-        node.set_child(slot, kind::LIGHT, slot as u32);
-    }
-    node.set_summaries(&phi.map(|phi| LightMoments {
-        phi,
+fn node(masks: [u32; 4]) -> LinkedMomentNode<4> {
+    let light = LightMoments {
+        phi: 1.0,
         ..LightMoments::EMPTY
-    }));
+    };
+    let mut node: LinkedMomentNode<4> = crate::kit::node(&[light; 4]);
     node.set_limits(&masks.map(|mask| Limits {
         mask,
         beam: Beam::ANYWHERE,
@@ -48,7 +44,7 @@ fn receiver(mask: u32) -> LinkedPoint<ShadingPoint> {
 /// However far below the others those are that are left, all numbers are shared out among them.
 #[test]
 fn what_is_left_gets_all_numbers() {
-    let node = node([1, 2, 4, 8], [1.0; 4]);
+    let node = node([1, 2, 4, 8]);
     for mask in 0..16 {
         let weights = Linked::<Extremes>::weights(&node, &receiver(mask));
         let mut sum = 0;
@@ -65,53 +61,5 @@ fn what_is_left_gets_all_numbers() {
         }
         let any = mask & 7 != 0;
         assert_eq!(sum, if any { FULL } else { 0 }, "{mask}");
-    }
-}
-
-#[test]
-fn children_without_flux_are_in_no_union() {
-    let random = &mut Random(3);
-    for _ in 0..200 {
-        let masks = [0; 4].map(|_| 1 << random.below(32));
-        let phi = [0; 4].map(|_| random.below(2) as f32);
-        let node = node(masks, phi);
-        let mut all = 0;
-        for slot in 0..4 {
-            let own = if phi[slot] > 0.0 { masks[slot] } else { 0 };
-            assert_eq!(node.mask(slot), own);
-            all |= own;
-        }
-        assert_eq!(node.merged_mask(), all);
-        // A child set anew has none.
-        let mut node = node;
-        node.set_child(1, kind::INNER, 9);
-        assert_eq!(node.mask(1), 0);
-    }
-}
-
-/// Weights of 2^0 to 2^-40 and none.
-struct Steps;
-
-impl<N> ImportanceModel<N, 8> for Steps {
-    fn weights_in(_: &N, _: &ShadingPoint, _: f32) -> [f32; 8] {
-        [1.0, 0.0, 2e-3, 1e-3, 1e-4, 1e-12, 0.5, 0.0]
-    }
-}
-
-#[test]
-fn a_least_share_is_kept_of_what_has_weight() {
-    let own = Steps::weights(&(), &receiver(0).point);
-    let found = Leveled::<Steps, 9>::weights(&(), &receiver(0).point);
-    let sum: f32 = own.iter().sum();
-    for slot in 0..8 {
-        let expected = if own[slot] > 0.0 {
-            f64::from(own[slot]).max(f64::from(sum) / 512.0)
-        } else {
-            0.0
-        };
-        assert!(
-            (f64::from(found[slot]) - expected).abs() < 1e-6 * expected + 1e-30,
-            "{slot}"
-        );
     }
 }

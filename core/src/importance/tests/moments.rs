@@ -6,7 +6,7 @@ use super::{Random, Wide, dot, minus, narrow, normalize, top, wide};
 #[cfg(feature = "std")]
 use crate::importance::NativeMath;
 use crate::importance::{ExactMath, ImportanceModel, Math, Moments};
-use crate::node::{MomentNode, Node, kind};
+use crate::node::{MomentNode, Node};
 use crate::point::ShadingPoint;
 use crate::{LightMoments, exact, vector};
 
@@ -72,44 +72,20 @@ fn spread(m: Vec3) -> f64 {
     }
 }
 
-/// Which parts of the table decide a weight; each is to be seen often.
-#[derive(Debug, Default)]
-struct Seen {
-    /// The cut is that of the box, or the least.
-    cut: u32,
-    least: u32,
-    /// The emitters face away.
-    away: u32,
-    /// The set is broader than it is far.
-    broad: u32,
-    /// All normals are alike.
-    alike: u32,
-    volume: u32,
-}
-
-impl Seen {
-    fn note(&mut self, c: &Child, n: Wide) {
-        let d = dot(c.x, c.x).sqrt();
-        let height = (dot(n, c.x) + c.up) / d;
-        let in_volume = n == [0.0; 3];
-        self.cut += u32::from(!in_volume && height > 1e-3 && height < 0.03);
-        self.least += u32::from(!in_volume && height < 0.0);
-        self.away += u32::from(dot(c.m, c.x) > 0.1 * d);
-        self.broad += u32::from(c.b > d);
-        self.alike += u32::from(c.q == 0.0);
-        self.volume += u32::from(in_volume);
-    }
-
-    fn all(&self) -> [u32; 6] {
-        [
-            self.cut,
-            self.least,
-            self.away,
-            self.broad,
-            self.alike,
-            self.volume,
-        ]
-    }
+/// Which parts of the table decide a weight: the cut of the box, the least cut, emitters that face away, a set broader than it is far,
+/// normals all alike, a volume. Each is to be seen often.
+fn deciding(c: &Child, n: Wide) -> [bool; 6] {
+    let d = dot(c.x, c.x).sqrt();
+    let height = (dot(n, c.x) + c.up) / d;
+    let in_volume = n == [0.0; 3];
+    [
+        !in_volume && height > 1e-3 && height < 0.03,
+        !in_volume && height < 0.0,
+        dot(c.m, c.x) > 0.1 * d,
+        c.b > d,
+        c.q == 0.0,
+        in_volume,
+    ]
 }
 
 /// Relative error of two weights' quotient. In each the rough root, within 6.6·10^-4, comes twice into either cosine, and the
@@ -163,7 +139,7 @@ fn known(point: &ShadingPoint, size: f32) -> LightMoments {
 /// were given.
 fn check<M: Math>(seed: u32) {
     let random = &mut Random(seed);
-    let (mut seen, mut off, mut high) = (Seen::default(), 0.0, 0);
+    let (mut seen, mut off, mut high) = ([0; 6], 0.0, 0);
     for _ in 0..20_000 {
         let scale = random.power(-20, 20);
         let point = ShadingPoint {
@@ -179,11 +155,7 @@ fn check<M: Math>(seed: u32) {
         for slot in 1..4 {
             sets[slot] = set(random, &point, size);
         }
-        let mut node = MomentNode::<4>::EMPTY;
-        for slot in 0..4 {
-            node.set_child(slot, kind::LIGHT, slot as u32);
-        }
-        node.set_summaries(&sets);
+        let node: MomentNode<4> = crate::kit::node(&sets);
         let weights = Moments::<M>::weights(&node, &point).map(f64::from);
         let children = [0, 1, 2, 3].map(|i| {
             // Packed in units of 1/255.
@@ -200,7 +172,8 @@ fn check<M: Math>(seed: u32) {
                 "{found}, expected {least} to {most}: {:?} at {point:?}",
                 node.summary(slot)
             );
-            seen.note(c, n);
+            let parts = deciding(c, n);
+            (0..6).for_each(|k| seen[k] += u32::from(parts[k]));
             let taken = LightMoments {
                 along: exact::min(sets[slot].along, 2.0 * sets[slot].across),
                 ..sets[slot]
@@ -215,7 +188,7 @@ fn check<M: Math>(seed: u32) {
     }
     off /= f64::from(high);
     assert!(off < 0.05, "{off} from the given value");
-    assert!(seen.all().iter().all(|&count| count >= 500), "{seen:?}");
+    assert!(seen.iter().all(|&count| count >= 500), "{seen:?}");
 }
 
 #[test]
@@ -234,7 +207,7 @@ fn native_weights_are_the_table_s() {
 fn small_frames_far_away_keep_their_size() {
     for (below, kept) in [(0, 0), (20, 20), (39, 39), (40, 40), (41, 40), (90, 40)] {
         let far = Vec3::new(exact::pow2(50), 0.0, 0.0);
-        let frame = crate::importance::frame(far, 50 - below, Vec3::ZERO);
+        let frame = crate::weight::frame(far, 50 - below, Vec3::ZERO);
         assert_eq!(frame.unit, exact::pow2(-kept), "{below}");
     }
 }

@@ -2,9 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::error::LightError;
+use crate::domain::{DomainError, checked_emission};
 use crate::exact;
-use crate::light::record::{checked_axis, checked_emission};
+use crate::light::record::checked_axis;
 use crate::point::ShadingPoint;
 use crate::vector::{dot, vector};
 
@@ -23,8 +23,8 @@ impl DistantLight {
     /// [`NORMAL_TOLERANCE`](crate::error::NORMAL_TOLERANCE), an irradiance that is not finite, negative or out of range.
     ///
     /// # Errors
-    /// [`LightError::Axis`] or [`LightError::Emission`].
-    pub fn checked(mut self) -> Result<Self, LightError> {
+    /// [`DomainError::Axis`] or [`DomainError::Emission`].
+    pub fn checked(mut self) -> Result<Self, DomainError> {
         self.direction = checked_axis(self.direction)?;
         self.irradiance = checked_emission("distant light", self.irradiance)?;
         Ok(self)

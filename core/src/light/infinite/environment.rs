@@ -7,7 +7,7 @@
 
 use super::octahedron::{cubed_distance, direction_at, place_of};
 use crate::exact;
-use crate::traverse::Random64;
+use crate::random::Random64;
 
 /// Most levels below the root: 2048 × 2048 texels.
 pub const MAX_LEVELS: u32 = 11;
@@ -106,7 +106,7 @@ impl EnvironmentMap<'_> {
     /// The texel that a direction lies in, which need not be of length 1.
     #[inline]
     #[must_use]
-    pub fn texel_of(&self, direction: [f32; 3]) -> u32 {
+    pub(super) fn texel_of(&self, direction: [f32; 3]) -> u32 {
         let half = exact::pow2(self.depth() as i32 - 1);
         let place = place_of(direction);
         let last = (1_u32 << self.depth()) - 1;

@@ -6,8 +6,8 @@ use core::fmt;
 use super::counts::counts_of;
 use super::environment::{EnvironmentMap, MAX_LEVELS, start_of};
 use super::octahedron::direction_at;
+use crate::domain::Number;
 use crate::emission::luminance_of;
-use crate::error::Number;
 use crate::light::{MAX_RADIANCE, MIN_RADIANCE};
 
 /// Places of a texel, in each direction, by whose mean it is known.

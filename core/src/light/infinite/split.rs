@@ -1,7 +1,8 @@
 //! Which of several kinds of light a sample goes to.
 
+use crate::choose::{FULL, FULL_BITS, choose};
 use crate::exact;
-use crate::traverse::{FULL, FULL_BITS, Random64, choose};
+use crate::random::Random64;
 
 /// Probabilities of `COUNT` sources, 1 to 16: the tree, an environment, suns.
 #[derive(Clone, Copy, Debug, PartialEq)]

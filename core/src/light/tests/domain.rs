@@ -8,12 +8,12 @@ fn wrong_lights_are_refused_by_name() {
     refused(
         spot(0.9, 0.5),
         &[
+            (|l| l.cos_inner = 0.4, "inner cosine of a spot is 0.4"),
             (
-                |l| l.cos_inner = 0.4,
-                "inner cosine of 0.4 to an outer one of 0.5",
+                |l| (l.cos_outer, l.cos_inner) = (1.0, 1.0),
+                "outer cosine of a spot is 1",
             ),
-            (|l| (l.cos_outer, l.cos_inner) = (1.0, 1.0), "outer < 1"),
-            (|l| l.cos_inner = f32::NAN, "inner cosine of NaN"),
+            (|l| l.cos_inner = f32::NAN, "inner cosine of a spot is NaN"),
             (|l| l.cos_outer = -1.5, "-1.5"),
             (|l| l.axis = [0.0; 3], "is (0, 0, 0), expected length 1"),
             (|l| l.axis = [f32::NAN; 3], "is (NaN"),
@@ -29,7 +29,7 @@ fn wrong_lights_are_refused_by_name() {
         let wrong = SphereLight { radius, ..sphere() };
         refused(wrong, &[(|_| (), "the radius of a sphere is")]);
     }
-    refused(rectangle(0), &[(|l| l.flags = 2, "flags are 0x2")]);
+    refused(rectangle(0), &[(|l| l.flags = 2, "flags is 0x2")]);
     let axis = "coordinate y of the half axis of a disc is NaN";
     refused(disc(0), &[(|l| l.half[0][1] = f32::NAN, axis)]);
     refused(
@@ -39,13 +39,13 @@ fn wrong_lights_are_refused_by_name() {
     refused(
         profile(),
         &[
-            (|l| l.whole = 2.5, "integral 2.5"),
-            (|l| l.whole = f32::NAN, "a profile of integral"),
-            (|l| l.mean_cosine = 0.4, "mean cosine 0.4"),
-            (|l| l.cos_outer = 1.0, "cone from cosine 1"),
+            (|l| l.whole = 2.5, "integral of a profile is 2.5"),
+            (|l| l.whole = f32::NAN, "integral of a profile is NaN"),
+            (|l| l.mean_cosine = 0.4, "mean cosine of a profile is 0.4"),
+            (|l| l.cos_outer = 1.0, "cosine of a profile's cone is 1"),
             (|l| l.across = [0.0, -0.6, 0.8], "at right angles"),
             (|l| l.axis = [0.0; 3], "expected length 1"),
-            (|l| l.flags = 1, "flags are 0x1"),
+            (|l| l.flags = 1, "flags is 0x1"),
             (|l| l.p[0] = f32::NAN, "light with a profile"),
             (|l| l.intensity = [-1.0; 3], "intensity of a light with a profile"),
         ],

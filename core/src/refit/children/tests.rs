@@ -7,7 +7,7 @@ use bytemuck::cast_slice;
 use super::*;
 use crate::kit::Random;
 use crate::kit::scenes::{Lamp, lamps};
-use crate::light::{AnyLight, LinkedAny, LinkedTriangle};
+use crate::light::{AnyLight, LinkedAny};
 use crate::node::{
     CompactNode, LinkedMomentNode, LinkedSpotMomentNode, Lit, MomentNode, SpotMomentNode, TwoSidedMomentNode,
 };
@@ -108,7 +108,7 @@ fn nodes_child_by_child_are_nodes_as_a_whole() {
 
 #[test]
 fn limits_go_by_way_of_children_too() {
-    check::<Lit<LinkedMomentNode<8>, LinkedTriangle>, 8, LIMITED_ROWS>();
+    check::<Lit<LinkedMomentNode<8>, LinkedAny>, 8, LIMITED_ROWS>();
     check::<Lit<SpotMomentNode<8>, AnyLight>, 8, LIMITED_ROWS>();
     check::<Lit<LinkedSpotMomentNode<8>, LinkedAny>, 8, LIMITED_ROWS>();
     // They are there to be lost.
@@ -165,48 +165,4 @@ fn what_is_not_there_is_no_child() {
         top_child(&nodes, 0, instances, &lost, at as u32, 3).limits,
         Limits::NONE
     );
-}
-
-/// The union of the masks of the lights below a node of a bottom level.
-fn masks_below(nodes: &[Lit<LinkedSpotMomentNode<8>, LinkedAny>], lights: &[LinkedAny], node: u32) -> u32 {
-    let node = &nodes[node as usize];
-    let of = |slot| match node.kind(slot) {
-        kind::LIGHT => lights[node.link(slot) as usize].mask,
-        kind::INNER => masks_below(nodes, lights, node.link(slot)),
-        _ => 0,
-    };
-    (0..8).fold(0, |all, slot| all | of(slot))
-}
-
-/// Masks are the unions over the lights of the mesh, and beams stand where the instance is.
-#[test]
-fn the_top_level_knows_the_limits_of_its_meshes() {
-    type Layout = Lit<LinkedSpotMomentNode<8>, LinkedAny>;
-    let bvh = scene::<Layout, 8>(&mut Random(5));
-    let plan = bvh.plan_of_everything();
-    let (nodes, first) = flat(&bvh);
-    let (mut partial, mut narrow) = (0, 0);
-    for index in plan.top.nodes().iter().map(|node| first + node) {
-        for slot in 0..8 {
-            let node = &nodes[index as usize];
-            if node.kind(slot) == kind::MESH {
-                let (instance, part) = leaf_parts(node.link(slot));
-                let blas = bvh.instances()[instance as usize].blas;
-                let mut root = bvh.roots()[blas as usize].node;
-                if part > 0 {
-                    root = nodes[root as usize].link(part as usize - 1);
-                }
-                let union = masks_below(&nodes, bvh.triangles(), root);
-                let child = top_child(&nodes, first, bvh.instances(), bvh.roots(), index, slot);
-                assert_eq!(child.limits.mask, union);
-                partial += u32::from(union != u32::MAX);
-                if child.limits.beam.is_narrow() {
-                    let away = child.limits.beam.c - child.summary.c;
-                    assert!(crate::vector::length_squared(away) < 30.0 * 30.0, "{away}");
-                    narrow += 1;
-                }
-            }
-        }
-    }
-    assert!(partial > 40 && narrow > 20, "{partial} {narrow}");
 }

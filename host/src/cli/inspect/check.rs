@@ -1,12 +1,10 @@
 //! From the default to the chosen model, one part at a time, each checked on the scene's own points.
 
-use lightbvh::bvh::Trails;
 use lightbvh::importance::DefaultImportance;
 use lightbvh::refit::Instance;
-use lightbvh::requirements::{Layout, Model, Requirements, TransformKind, Updates};
+use lightbvh::requirements::{Layout, Model, Requirements, Updates};
 use lightbvh::{
-    BuildParams, Bvh, ImportanceModel, LightNode, Lights, MomentNode, Moments, ShadingPoint,
-    TwoSidedMomentNode,
+    BuildParams, Bvh, ImportanceModel, LightNode, Lights, MomentNode, ShadingPoint, TwoSidedMomentNode,
 };
 use lightbvh_kernels::bvh::WIDTH;
 use rayon::prelude::*;
@@ -118,14 +116,10 @@ struct Subject {
 }
 
 /// Bytes that sampling reads, and bytes of all arrays, of a light BVH that keeps what `updates` need.
-fn bytes<N: LightNode<WIDTH>, I, T: Trails>(bvh: Bvh<N, I, WIDTH, T>, updates: Updates) -> [usize; 2] {
+fn bytes<N: LightNode<WIDTH>, I>(bvh: Bvh<N, I, WIDTH>, updates: Updates) -> [usize; 2] {
     match updates {
         Updates::Nothing => [bvh.into_static().bytes(); 2],
-        Updates::Instances => {
-            let bvh = bvh.into_static_meshes();
-            [bvh.bytes(), bvh.memory()]
-        }
-        Updates::Meshes => [bvh.bytes(), bvh.memory()],
+        Updates::All => [bvh.bytes(), bvh.memory()],
     }
 }
 
@@ -141,12 +135,8 @@ struct Source<'a> {
 
 impl Source<'_> {
     fn build(&self, model: &Model, points: &[ShadingPoint]) -> Result<Subject, HostError> {
-        match (model.layout, model.uniform_halvings) {
-            (Layout::TwoSidedMoments, 0) => self.of::<TwoSidedMomentNode<WIDTH>, Moments>(model, points),
-            (Layout::TwoSidedMoments, _) => {
-                self.of::<TwoSidedMomentNode<WIDTH>, DefaultImportance>(model, points)
-            }
-            (_, 0) => self.of::<MomentNode<WIDTH>, Moments>(model, points),
+        match model.layout {
+            Layout::TwoSidedMoments => self.of::<TwoSidedMomentNode<WIDTH>, DefaultImportance>(model, points),
             _ => self.of::<MomentNode<WIDTH>, DefaultImportance>(model, points),
         }
     }
@@ -164,10 +154,7 @@ impl Source<'_> {
                 .collect()
         };
         let pmfs = points.par_iter().flat_map_iter(of).collect();
-        let bytes = match model.trails {
-            true => bytes(bvh, model.updates),
-            false => bytes(bvh.without_trails(), model.updates),
-        };
+        let bytes = bytes(bvh, model.updates);
         Ok(Subject { bytes, pmfs })
     }
 
@@ -211,27 +198,19 @@ impl Source<'_> {
 /// A part of a model, and how one model takes it from another.
 type Part = (&'static str, fn(&mut Model, &Model));
 
-/// Each is taken after those before it: without a share of uniform choice trails can go.
-const PARTS: [Part; 5] = [
+/// Each is taken after those before it.
+const PARTS: [Part; 3] = [
     ("layout", |to, from| to.layout = from.layout),
     ("levels", |to, from| to.single_level = from.single_level),
-    ("uniform share", |to, from| {
-        to.uniform_halvings = from.uniform_halvings
-    }),
-    ("trails", |to, from| {
-        to.trails = from.trails || to.uniform_halvings > 0
-    }),
     ("updates", |to, from| to.updates = from.updates),
 ];
 
 fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
-    let is_identity = requirements.is_one_mesh()
-        && requirements.transform() == TransformKind::Identity
-        && requirements.dimmed == 0;
+    let is_identity = requirements.is_one_mesh() && requirements.placed == 0;
     match part {
         "layout" if model.layout == Layout::TwoSidedMoments && requirements.one_sided == 0 => Promise::Bits,
         "levels" if model.single_level && is_identity => Promise::BitsBelowInstance,
-        "trails" | "updates" => Promise::Bits,
+        "updates" => Promise::Bits,
         _ => Promise::Variance,
     }
 }
@@ -279,7 +258,7 @@ pub(super) fn check(
         let new = source.build(&then, points)?;
         let promise = promise(part, &then, requirements);
         // Nothing that a probability is computed from changes by the other parts.
-        let is_compared = matches!(part, "layout" | "levels" | "uniform share");
+        let is_compared = matches!(part, "layout" | "levels");
         let seen = match promise {
             Promise::BitsBelowInstance => {
                 let seen = points.iter().map(|point| Instance::IDENTITY.to_local(point));

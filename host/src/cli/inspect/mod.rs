@@ -41,9 +41,6 @@ pub struct Args {
     /// What changes besides what the scene's animations move; a file cannot say so.
     #[arg(long, value_enum, value_delimiter = ',')]
     changes: Vec<Change>,
-    /// No probability of a given light is asked for: there is no multiple importance sampling.
-    #[arg(long)]
-    no_mis: bool,
     /// Points on surfaces that probabilities are compared at; fewer for more than 131,072 lights.
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     points: u32,
@@ -227,7 +224,6 @@ fn without_triangles(
         );
     }
     text += &line("changes", &yes(!changes(&declared).is_empty()));
-    text += &line("pmf of given lights", &yes(declared.pmf));
     text += about;
     if let Some(tree) = tree {
         text += &format!("\na tree over its lights: {tree}, two levels\n");
@@ -260,7 +256,6 @@ fn declared(args: &Args, motion: Motion) -> Declared {
         triangles: has(Change::Triangles) || !args.still && motion.bending > 0,
         instances: has(Change::Instances),
         meshes: has(Change::Meshes),
-        pmf: !args.no_mis,
     }
 }
 
@@ -345,21 +340,12 @@ fn changes(declared: &Declared) -> Vec<&'static str> {
 
 /// Every fact, each with its reason.
 fn facts(found: &Requirements, surfaces: &Surfaces) -> Vec<Fact> {
-    let (triangles, one_sided, dimmed) = (found.triangles, found.one_sided, found.dimmed);
+    let (triangles, one_sided) = (found.triangles, found.one_sided);
     let changes = changes(&found.declared);
     let changed = match changes.is_empty() {
         true => "everything stays as it is".to_owned(),
         false => changes.join(", "),
     };
-    let kinds = [
-        "identity",
-        "translations",
-        "rigid",
-        "uniform scales",
-        "non-uniform",
-    ];
-    let counts = kinds.iter().zip(found.transforms).filter(|(_, count)| *count > 0);
-    let counts: Vec<String> = counts.map(|(kind, count)| format!("{count} {kind}")).collect();
     let fact = |name, found: &str, reason: String| Fact {
         name,
         found: found.to_owned(),
@@ -372,38 +358,22 @@ fn facts(found: &Requirements, surfaces: &Surfaces) -> Vec<Fact> {
         "meshes: {}, instances: {}, at most {} of a mesh",
         found.meshes, found.instances, found.most_instances
     );
-    let transform = kinds[found.transform() as usize];
     vec![
         fact("orientation", orientation, sides.clone()),
         fact("two-sided only", is(one_sided == 0 && triangles > 0), sides),
         fact("one mesh", is(found.is_one_mesh()), meshes),
-        fact(
-            "dark lights",
-            is(found.dark > 0),
-            format!("{} of {} have no flux", found.dark, found.lights),
-        ),
-        fact(
-            "transforms",
-            transform,
-            format!("instances: {}; {dimmed} dimmed", counts.join(", ")),
-        ),
         fact(
             "changes",
             is(!changes.is_empty()),
             format!("{changed}, as declared"),
         ),
         fact("glossy receivers", is(surfaces.glossy > 0), surfaces.gloss()),
-        fact(
-            "pmf of given lights",
-            is(found.declared.pmf),
-            "multiple importance sampling asks for them; as declared".to_owned(),
-        ),
     ]
 }
 
 /// Why each part of the smallest model is what it is: a sentence for each that begins with its name.
 fn reasons(found: &Requirements, surfaces: &Surfaces) -> Vec<String> {
-    let (model, pmf) = (found.model(), found.declared.pmf);
+    let model = found.model();
     let layout = match (model.layout, found.one_sided) {
         (Layout::TwoSidedMoments, _) => {
             "no light has a normal, so nodes leave their row out: 20 bytes of each child instead of 24"
@@ -429,38 +399,23 @@ fn reasons(found: &Requirements, surfaces: &Surfaces) -> Vec<String> {
             found.meshes
         ),
     };
-    let trails = match pmf {
-        true => {
-            "kept, because probabilities of given lights are asked for; 1/64 of uniform choice finds its lights by them"
-        }
-        false => {
-            "none, because no probability of a given light is asked for; without them there is no share of uniform choice"
-        }
-    };
     let updates = match model.updates {
         Updates::Nothing => {
             "nothing changes, so triangles, instance states and lists for refits are not kept"
         }
-        Updates::Instances => {
-            "instances change and meshes stay, so triangles and their lists are not kept on the CPU"
-        }
-        Updates::Meshes => "meshes change or come, so everything is kept",
+        Updates::All => "lights change, so everything is kept",
     };
     let mut said = vec![
         format!("layout: {layout}"),
         format!("levels: {levels}"),
-        format!("trails: {trails}"),
         format!("updates: {updates}"),
     ];
     if surfaces.glossy > 0 {
-        said.push(match pmf {
-            true => "glossy surfaces: rays into their lobes share lights with samples by probabilities (multiple importance sampling); an \
-                     importance that knows the lobe (`Glossy`) may have less variance for the same samples, and takes longer for each"
+        said.push(
+            "glossy surfaces: rays into their lobes share lights with samples by probabilities (multiple importance sampling); an \
+             importance that knows the lobe (`Glossy`) may have less variance for the same samples, and takes longer for each"
                 .to_owned(),
-            false => "glossy surfaces: without probabilities of given lights no ray into a lobe can share a light with a sample; ask for \
-                      them, resample several candidates (`sample_many`), or take `Glossy`"
-                .to_owned(),
-        });
+        );
     }
     said
 }
@@ -490,10 +445,9 @@ fn print_check(checked: &Checked, points: u32, [frame, moved]: [u32; 2]) -> Resu
         default.memory_per_light,
     ))?;
     for row in checked.rows.iter().filter(|row| !row.held) {
-        let done = match (row.put_back, row.part) {
-            (true, "uniform share") => "it is put back, and trails stay for it",
-            (true, _) => "the part is put back",
-            (false, _) => "this is a fault of lightbvh; please report it",
+        let done = match row.put_back {
+            true => "the part is put back",
+            false => "this is a fault of lightbvh; please report it",
         };
         let promise = row.promised();
         table::print_text(&format!(
@@ -541,8 +495,6 @@ fn model_json(model: &Model) -> Value {
         "layout": model.layout.name(),
         "levels": 2 - u32::from(model.single_level),
         "width": model.width,
-        "uniform_halvings": model.uniform_halvings,
-        "trails": model.trails,
         "updates": model.updates.name(),
     })
 }

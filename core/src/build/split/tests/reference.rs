@@ -114,7 +114,7 @@ impl Exact {
 }
 
 /// The bin, of `bins` equal ones from `low` to `high`, of a centre at `x`.
-pub fn bin(x: f64, low: f64, high: f64, bins: usize) -> usize {
+fn bin(x: f64, low: f64, high: f64, bins: usize) -> usize {
     // The last centre belongs to the last bin.
     (((x - low) / (high - low) * bins as f64 * (1.0 - 1e-6)) as usize).min(bins - 1)
 }

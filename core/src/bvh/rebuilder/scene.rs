@@ -3,23 +3,24 @@
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-use super::{Batch, Bvh, Top, Trails};
 use crate::build::BuildParams;
+use crate::bvh::Bvh;
+use crate::bvh::top::{Batch, Top};
 use crate::node::Node;
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Number of this light BVH; no other has it.
-    pub(crate) fn number(&self) -> u32 {
+    pub(super) fn number(&self) -> u32 {
         self.id.0
     }
 
-    pub(crate) fn params(&self) -> &BuildParams {
+    pub(super) fn params(&self) -> &BuildParams {
         &self.params
     }
 
     /// Keeps batches for a rebuilder from now on, and drops those before number `seen`; false if some from there on are not kept,
     /// or another rebuilder took part since.
-    pub(crate) fn follow_batches(&mut self, rebuilder: u32, seen: u64) -> bool {
+    pub(super) fn follow_batches(&mut self, rebuilder: u32, seen: u64) -> bool {
         let own = &mut self.outbox;
         let is_known = seen >= own.first;
         let dropped = seen.saturating_sub(own.first).min(own.batches.len() as u64);
@@ -34,30 +35,30 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Whether batches are kept for that rebuilder.
-    pub(crate) fn is_followed_by(&self, rebuilder: u32) -> bool {
+    pub(super) fn is_followed_by(&self, rebuilder: u32) -> bool {
         self.outbox.rebuilder == rebuilder
     }
 
     /// Number of the next batch.
-    pub(crate) fn next_batch(&self) -> u64 {
+    pub(super) fn next_batch(&self) -> u64 {
         self.outbox.first + self.outbox.batches.len() as u64
     }
 
     /// The batches from number `seen` on.
-    pub(crate) fn batches_from(&self, seen: u64) -> Vec<Arc<Batch>> {
+    pub(super) fn batches_from(&self, seen: u64) -> Vec<Arc<Batch>> {
         let from = seen.saturating_sub(self.outbox.first) as usize;
         self.outbox.batches.get(from..).unwrap_or(&[]).to_vec()
     }
 
     /// A copy of the top level.
-    pub(crate) fn copy_top(&self) -> Top<N> {
+    pub(super) fn copy_top(&self) -> Top<N> {
         let mut top = self.top.clone();
         self.unapplied.iter().for_each(|batch| top.set(batch));
         top
     }
 
     /// Swaps the top level for another, to which the next refit applies `batches`.
-    pub(crate) fn swap_top(&mut self, top: &mut Top<N>, batches: Vec<Arc<Batch>>) {
+    pub(super) fn swap_top(&mut self, top: &mut Top<N>, batches: Vec<Arc<Batch>>) {
         core::mem::swap(&mut self.top, top);
         // If no refit came since the last swap.
         self.unapplied.iter().for_each(|batch| top.set(batch));

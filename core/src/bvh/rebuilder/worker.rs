@@ -12,7 +12,8 @@ use std::thread::{self, JoinHandle};
 use super::clock::Clock;
 use super::handover::{Handover, Outcome};
 use crate::build::BuildParams;
-use crate::bvh::{Batch, MeshTree, Top};
+use crate::bvh::mesh::MeshTree;
+use crate::bvh::top::{Batch, Top};
 use crate::node::{Holds, Node};
 
 /// Trees to build.

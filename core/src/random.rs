@@ -38,7 +38,7 @@ impl Random64 {
     /// The number times 2^`bits` without its integer part; `bits` in 0..=22.
     #[inline(always)]
     #[must_use]
-    pub(super) fn shifted(self, bits: u32) -> Self {
+    pub(crate) fn shifted(self, bits: u32) -> Self {
         // No shift by 32.
         let carried = (self.low >> 1) >> (31 - bits);
         Self {
@@ -65,7 +65,7 @@ impl Random64 {
     /// The integer part of the number times `count`, below `count`, and what remains: again a uniform number.
     #[inline(always)]
     #[must_use]
-    pub(super) fn pick(self, count: u32) -> (u32, Self) {
+    pub(crate) fn pick(self, count: u32) -> (u32, Self) {
         let (carry, low) = wide_product(self.low, count);
         let (index, high) = wide_product(self.high, count);
         let sum = high.wrapping_add(carry);

@@ -49,7 +49,7 @@ pub(crate) fn choose<const W: usize>(
 
 /// A range of numbers shared out among children in `ROWS` rows of four.
 #[derive(Clone, Copy)]
-pub(super) struct Shares<const ROWS: usize> {
+pub(crate) struct Shares<const ROWS: usize> {
     /// Where the share of each child ends. Integers, but in `f32`, where processors add and compare several at a time.
     ends: Rows<ROWS>,
     /// The last child with weight, of each column.

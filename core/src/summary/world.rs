@@ -2,13 +2,12 @@
 
 use glam::Vec3;
 
-use super::{Instance, flushed};
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::normalized;
 use crate::emission::{MAX_SUM, MIN_PHI};
 use crate::exact::{self, exponent, pow2, significand};
+use crate::instance::{Instance, flushed};
 use crate::light::{Light, MIN_COORDINATE};
-use crate::moments::LightMoments;
 use crate::vector::{abs3, dot, flush3, greatest_exponent, length_squared, max3};
 
 /// A constant of its own: rust-gpu does not fold an expression of literals.
@@ -18,6 +17,18 @@ const THIRD: f32 = 1.0 / 3.0;
 const LEAST_WORLD_EXPONENT: i32 = -84;
 
 impl Instance {
+    /// Whether [`flux`](Self::flux) of its lights, of type `L`, grows with area.
+    #[inline(always)]
+    fn is_by_area<L: Light>(&self) -> bool {
+        if L::FLUX_POWER == 2 && !L::HAS_FLUX_POWERS {
+            true
+        } else if L::HAS_FLUX_POWERS {
+            self.mirrored & Self::IS_NOT_BY_AREA == 0
+        } else {
+            false
+        }
+    }
+
     /// Bounds in the world of what has the bounds `local` in the space of the mesh: the box around the mapped box; the cone
     /// about the mapped axis where the map leaves the axis its length, as similarities do, else all directions.
     #[inline(always)]

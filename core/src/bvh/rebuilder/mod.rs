@@ -9,6 +9,7 @@ mod clock;
 mod handover;
 mod params;
 mod report;
+mod scene;
 mod worker;
 
 use alloc::boxed::Box;
@@ -19,7 +20,10 @@ use self::clock::Clock;
 pub use self::params::{RebuilderParams, Swap};
 pub use self::report::{FrameStart, RebuildError};
 use self::worker::{Built, Job, Outcomes, Work, Worker, build};
-use crate::bvh::{Bvh, Top, Trails, TreeId};
+use super::Bvh;
+use super::mesh::MeshTree;
+use super::records::TreeId;
+use super::top::Top;
 use crate::node::{DefaultNode, Holds, Node};
 
 /// Builds the trees of one [`Bvh`] in the background (paper section 3.5). Call [`begin_frame`](Self::begin_frame) before the
@@ -105,10 +109,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     ///
     /// # Errors
     /// [`RebuildError`], once, if the build that was due failed. The frame can go on without it.
-    pub fn begin_frame<I, T: Trails>(
-        &mut self,
-        scene: &mut Bvh<N, I, W, T>,
-    ) -> Result<FrameStart, RebuildError> {
+    pub fn begin_frame<I>(&mut self, scene: &mut Bvh<N, I, W>) -> Result<FrameStart, RebuildError> {
         let mut start = FrameStart::default();
         let is_own = self.tree == scene.number();
         let first = self.flight.as_ref().and_then(|flight| flight.first);
@@ -159,13 +160,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     }
 
     /// Puts finished trees in place.
-    fn swap<I, T: Trails>(
-        &mut self,
-        scene: &mut Bvh<N, I, W, T>,
-        built: Built<N>,
-        first: u64,
-        start: &mut FrameStart,
-    ) {
+    fn swap<I>(&mut self, scene: &mut Bvh<N, I, W>, built: Built<N>, first: u64, start: &mut FrameStart) {
         match built.work {
             Work::Top(mut top) => {
                 let first = first + built.batches as u64;
@@ -216,7 +211,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     /// pause after the last one is not over. Call it after the frame's [`Bvh::refit`]. Takes time in proportion to the changes,
     /// and copies at most [`RebuilderParams::bytes`] of meshes. The first call, and the first with another scene, copies the top
     /// level.
-    pub fn end_frame<I, T: Trails>(&mut self, scene: &Bvh<N, I, W, T>) {
+    pub fn end_frame<I>(&mut self, scene: &Bvh<N, I, W>) {
         if self.tree != scene.number() || !scene.is_followed_by(self.id.0) {
             self.lose();
             (self.tree, self.seen) = (scene.number(), scene.next_batch());
@@ -265,7 +260,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     }
 
     /// The next work: the top level and meshes in turn.
-    fn next_work<I, T: Trails>(&mut self, scene: &Bvh<N, I, W, T>) -> Option<Work<N>> {
+    fn next_work<I>(&mut self, scene: &Bvh<N, I, W>) -> Option<Work<N>> {
         let has_top = self.is_due && !scene.is_single_level();
         if core::mem::take(&mut self.is_meshes_turn) || !has_top {
             let meshes = self.next_meshes(scene);
@@ -282,7 +277,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     }
 
     /// Copies of meshes that changed since they were built, as far as the frame may copy.
-    fn next_meshes<I, T: Trails>(&mut self, scene: &Bvh<N, I, W, T>) -> Vec<crate::bvh::MeshTree<N>> {
+    fn next_meshes<I>(&mut self, scene: &Bvh<N, I, W>) -> Vec<MeshTree<N>> {
         let mut meshes = Vec::new();
         let mut left = self.params.bytes;
         for (mesh, bytes) in scene.reshaped_from(self.next_mesh) {

@@ -1,0 +1,131 @@
+//! The weight of a child that is known by its moments.
+
+mod math;
+
+use glam::Vec3;
+
+#[cfg(any(feature = "std", target_arch = "spirv"))]
+pub use math::NativeMath;
+pub use math::{ExactMath, Math};
+
+use crate::exact::{self, pow2};
+use crate::vector::greatest_exponent;
+
+/// Least cosine that the soft ones are spread by: no light is ever quite out of sight. Its square is the ε of the tables.
+pub(crate) const SOFT: f32 = 0.031_622_78;
+/// What the height of a box above the horizon counts as at least: what is left of a set all below it.
+const FLOOR: f32 = 1.0e-4;
+/// Variance of all three axes in squared breadths: 1 for a flat set, 1.5 for a round one.
+const FAR: f32 = 1.25;
+/// The variance in the denominator's second distance: less than in the first, which did better than equal ones.
+const NEAR: f32 = 0.5;
+/// Squared distances, in units of the scale, are at least this: about (2^-25)². It absorbs whatever devices flush.
+const LEAST_DISTANCE: f32 = pow2(-50);
+/// A frame this much smaller than its distance counts as this small: its square is far below LEAST_DISTANCE's part of 1.
+const LEAST_FRAME: i32 = -40;
+
+/// What all children of a node share of the evaluation at a point: one power of two makes every length about 1.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    /// Origin minus point, scaled.
+    pub x: Vec3,
+    /// The node's unit, scaled: 2^-40 to 1.
+    pub unit: f32,
+    /// A metre, scaled: 2^-42 to 2^40.
+    pub per_metre: f32,
+}
+
+/// The scale is the exponent of the greater of distance (of the frame's origin) and unit. So squares of what follows neither
+/// overflow nor underflow, and a scene scaled by a power of two gives the same bits.
+#[inline(always)]
+pub(crate) fn frame(origin: Vec3, unit_exponent: i32, p: Vec3) -> Frame {
+    let x = origin - p;
+    let e = greatest_exponent(x, unit_exponent);
+    let below = unit_exponent - e;
+    let bounded = if below < LEAST_FRAME { LEAST_FRAME } else { below };
+    let per_metre = pow2(-e);
+    Frame {
+        x: x * per_metre,
+        unit: pow2(bounded),
+        per_metre,
+    }
+}
+
+/// The receiver as the weight needs it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Side {
+    /// Twice the normal; a zero normal, in a volume, gives all children the same factor.
+    pub n: Vec3,
+    /// The normal by the unit of the children's mean normals, and minus twice that unit.
+    pub for_m: Vec3,
+    pub m_unit: f32,
+}
+
+#[inline(always)]
+pub(crate) fn side(n: Vec3, m_unit: f32) -> Side {
+    Side {
+        n: n + n,
+        for_m: n * m_unit,
+        m_unit: -2.0 * m_unit,
+    }
+}
+
+/// A child as the weight needs it, lengths in units of the frame's scale.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lobe {
+    pub phi: f32,
+    pub x: Vec3,
+    /// √2 times the deviation across the mean normal, and how much less than it the one along is: their ratio less 1.
+    pub breadth: f32,
+    pub less: f32,
+    /// Mean normal, in units of [`Side::m_unit`].
+    pub m: Vec3,
+    /// √(1 − |m|²).
+    pub spread: f32,
+    /// Twice the height of the box above its centre, along the receiver's normal, in breadths.
+    pub reach: f32,
+}
+
+/// Twice a soft max(0, cosine): `2 max(0, a) + s·cut / (2|a| + s)`. Where cut = s that is about a + √(a² + s²), without its
+/// root and without its cancellation. As numerator and denominator, for one reciprocal serves both cosines and the
+/// distance; `a` comes doubled.
+#[inline(always)]
+pub(crate) fn soft<M: Math>(doubled: f32, s: f32, cut: f32) -> (f32, f32) {
+    let below = exact::abs(doubled) + s;
+    (M::add_product(exact::max(doubled, 0.0) * below, s, cut), below)
+}
+
+/// `(ax bx + ay by) + az bz`.
+#[inline(always)]
+pub(crate) fn dot_by<M: Math>(a: Vec3, b: Vec3) -> f32 {
+    M::add_product(M::add_product(a.x * b.x, a.y, b.y), a.z, b.z)
+}
+
+/// Φ · soft cos θ · soft cos θ' / distance², positive for any positive Φ.
+#[inline(always)]
+pub(crate) fn weight<M: Math>(l: &Lobe, side: &Side) -> f32 {
+    let squared = l.breadth * l.breadth;
+    let d_squared = dot_by::<M>(l.x, l.x) + LEAST_DISTANCE;
+    let near = M::add_product(d_squared, NEAR, squared);
+    let inverse = M::rsqrt(M::add_product(d_squared, FAR, squared));
+    let u = l.breadth * inverse;
+
+    // The receiver's side. The spread along its normal is the breadth, but less where that runs along the mean normal.
+    let turn = dot_by::<M>(side.for_m, l.m);
+    let incident_spread = M::add_product(SOFT, u, M::add_product(1.0, l.less, turn * turn));
+    let incident = dot_by::<M>(side.n, l.x) * inverse;
+    // What lies above the horizon is no more than the box allows: its top, where it is low, cuts the tail.
+    let cut = exact::min(
+        exact::max(M::add_product(incident, l.reach, u), FLOOR),
+        incident_spread,
+    );
+    let (n1, d1) = soft::<M>(incident, incident_spread, cut);
+
+    // The emitters' side: spread by the depth of the set along its normal, and by the spread of the normals.
+    let depth = M::add_product(u, u, l.less);
+    let emitted_spread = M::add_product(SOFT + depth, l.spread, 0.5 - depth);
+    let emitted = dot_by::<M>(l.m, l.x) * (side.m_unit * inverse);
+    let (n2, d2) = soft::<M>(emitted, emitted_spread, emitted_spread);
+
+    (l.phi * (n1 * n2)) * M::recip((d1 * d2) * near)
+}
