@@ -27,6 +27,7 @@
 //! | [`refit`], [`exact`] | passes and arithmetic, the same on devices |
 //! | [`reservoir`] | one of several light samples by what they would contribute (resampled importance sampling) |
 //! | [`error`] | why input is refused |
+//! | [`device`] | unstable: what the kernels, the host and the tests of this workspace share with the tree |
 //!
 //! `core/examples` has programs, the first page of the repository a frame with its edits.
 //!
@@ -49,6 +50,7 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
+pub mod device;
 pub mod error;
 pub mod exact;
 pub mod importance;
@@ -65,50 +67,36 @@ pub mod bvh;
 #[cfg(feature = "alloc")]
 pub mod requirements;
 
-// For the kernels, the host and the tests, which are of this workspace: not part of the interface.
 mod beam;
-#[doc(hidden)]
-pub mod bounds;
+mod bounds;
 mod choose;
-#[doc(hidden)]
-pub mod cone;
+mod cone;
 mod domain;
-#[doc(hidden)]
-pub mod instance;
-#[doc(hidden)]
-pub mod moments;
-#[doc(hidden)]
-pub mod point;
+mod emission;
+mod halves;
+mod instance;
+#[cfg(test)]
+mod kit;
+mod moments;
+mod point;
+mod prefetch;
 mod random;
-#[doc(hidden)]
-pub mod summary;
-#[doc(hidden)]
-pub mod trail;
-#[doc(hidden)]
-pub mod traverse;
+mod summary;
+mod trail;
+mod traverse;
 mod unroll;
-#[doc(hidden)]
-pub mod vector;
+mod vector;
 mod weight;
+mod widest;
 
 #[cfg(feature = "alloc")]
-#[doc(hidden)]
-pub mod levels;
+mod levels;
 #[cfg(feature = "alloc")]
 mod lights;
 #[cfg(feature = "alloc")]
 mod sweep;
 #[cfg(feature = "alloc")]
-#[doc(hidden)]
-pub mod transform;
-#[doc(hidden)]
-pub mod widest;
-
-mod emission;
-mod halves;
-#[cfg(test)]
-mod kit;
-mod prefetch;
+mod transform;
 
 #[cfg(feature = "std")]
 pub use bvh::Rebuilder;

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use std::marker::PhantomData;
 
 use arbitrary::{Result, Unstructured};
-use lightbvh::trail::max_levels;
+use lightbvh::device::trail::max_levels;
 use lightbvh::{
     CompactNode, Eq4, INVALID, ImportanceModel, Instance, LightNode, LightTree, MomentNode, Moments,
     SampledLight, ShadingPoint, TreeWords, refit,

@@ -217,7 +217,7 @@ mod tests {
         let list = [77, 1, 5, 2, 0, u32::MAX, 4, 3];
         let mut children = vec![[[0; WIDTH]; PLAIN_ROWS]; 3];
         let id = |i: u32| UVec3::new(i, 0, 0);
-        let mut found = vec![BlasRoot::new(0, &lightbvh::moments::LightMoments::EMPTY)];
+        let mut found = vec![BlasRoot::new(0, &lightbvh::device::moments::LightMoments::EMPTY)];
         for (first, count, is_top) in [(1, 3, false), (4, 1, false), (5, 2, true), (7, 1, true)] {
             if first == 5 {
                 let push = RefitPush {

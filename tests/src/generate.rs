@@ -1,6 +1,6 @@
 //! Lights and points to test with: seeded, and with the degenerate cases in.
 
-use lightbvh::cone::{Cone, normalized};
+use lightbvh::device::cone::{Cone, normalized};
 use lightbvh::{BuildParams, EmissiveTriangle, Heuristic, LightBounds, Lights, ShadingPoint, exact};
 pub use lightbvh_host::stability::random::Random;
 

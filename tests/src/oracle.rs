@@ -2,9 +2,9 @@
 //! shared with `lightbvh stability`.
 
 use glam::DVec3;
-use lightbvh::cone::Cone;
+use lightbvh::device::cone::Cone;
+use lightbvh::device::trail::leaf_parts;
 use lightbvh::node::kind;
-use lightbvh::trail::leaf_parts;
 use lightbvh::{BuildParams, Bvh, ImportanceModel, LightBounds, LightNode, LightTree, Lights, ShadingPoint};
 pub use lightbvh_fuzz::input::{pmf_of, sum_is_one};
 pub use lightbvh_host::stability::geometry::{Triangle, vector};

@@ -1,8 +1,8 @@
 //! Light bounds against f64: of triangles, of merges, of cones. What they must contain they contain.
 
 use glam::Vec3;
-use lightbvh::bounds::{MAX_PHI, MIN_PHI};
-use lightbvh::cone::Cone;
+use lightbvh::device::bounds::{MAX_PHI, MIN_PHI};
+use lightbvh::device::cone::Cone;
 use lightbvh::{EmissiveTriangle, LightBounds};
 use lightbvh_tests::generate::{Random, any_bounds, extreme_triangle};
 use lightbvh_tests::oracle::{Triangle, assert_cone_contains, box_contains, half_angle};
@@ -110,7 +110,7 @@ fn unions_over_a_grid() {
             let other = if apart == PI {
                 -x
             } else {
-                lightbvh::cone::normalized(other.as_vec3())
+                lightbvh::device::cone::normalized(other.as_vec3())
             };
             for &theta_a in &angles {
                 for &theta_b in &angles {

@@ -1,6 +1,6 @@
 //! Trees as deep as trails are long. Probabilities in them are rows of `lightbvh stability`.
 
-use lightbvh::trail::max_levels;
+use lightbvh::device::trail::max_levels;
 use lightbvh::{
     BuildParams, Bvh, CompactNode, EmissiveTriangle, Eq4, Heuristic, ImportanceModel, LightNode, Lights,
     ShadingPoint, Transform, exact,

@@ -4,10 +4,10 @@
 use std::fmt::Debug;
 
 use bytemuck::{Pod, bytes_of};
+use lightbvh::device::point::Receiver;
 use lightbvh::importance::{DefaultImportance, ImportanceModel, LinkedPoint};
 use lightbvh::light::Light;
 use lightbvh::node::Node;
-use lightbvh::point::Receiver;
 use lightbvh::refit::world_light;
 use lightbvh::{
     BuildParams, Bvh, Edit, Eq4, Heuristic, INVALID, LightNode, LightPoint, Lights, Random64, SampledLight,

@@ -2,8 +2,8 @@
 //! lost, the fuzz targets `trees` and `edits` find.
 
 use glam::Vec3;
-use lightbvh::bounds::MIN_PHI;
-use lightbvh::cone::{Cone, normalized};
+use lightbvh::device::bounds::MIN_PHI;
+use lightbvh::device::cone::{Cone, normalized};
 use lightbvh::node::kind;
 use lightbvh::{BoundsNode, CompactNode, LightBounds, exact};
 use lightbvh_tests::generate::{Random, any_bounds};

@@ -3,6 +3,7 @@
 #![cfg(target_arch = "x86_64")]
 
 use bytemuck::{Pod, cast_slice};
+use lightbvh::device::point::Receiver;
 use lightbvh::importance::{
     DefaultImportance, Flux, Glossy, ImportanceModel, Leveled, Linked, LinkedPoint, RaySegment, Subtended,
     Transmissive, TransmissivePoint,
@@ -12,7 +13,6 @@ use lightbvh::node::{
     CompactNode, LinkedMomentNode, LinkedSpotMomentNode, Lit, MomentLayout, MomentNode, Node, SpotMomentNode,
     TwoSidedMomentNode,
 };
-use lightbvh::point::Receiver;
 use lightbvh::refit::{self, LIMITED_ROWS, PLAIN_ROWS, assembled, bottom_child, top_child};
 use lightbvh::{Bvh, Defensive, Eq4, FluxOverDistance, GlossyPoint, Moments, Random64, ShadingPoint, exact};
 use lightbvh_peers::{Falcor, Pbrt};

@@ -2,9 +2,9 @@
 
 use std::error::Error;
 
+use lightbvh::device::point::MAX_REACH;
 use lightbvh::error::{EditError, EditReason};
 use lightbvh::light::{MAX_RADIANCE, TWO_SIDED};
-use lightbvh::point::MAX_REACH;
 use lightbvh::{
     Bvh, CompactNode, Edit, EmissiveTriangle, Lights, LightsError, RebuildError, ShadingPoint, Transform,
 };

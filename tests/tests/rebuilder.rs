@@ -6,10 +6,10 @@ use std::thread;
 use std::time::Duration;
 
 use bytemuck::{Pod, Zeroable};
-use lightbvh::bounds::LightBounds;
 use lightbvh::bvh::Swap;
+use lightbvh::device::bounds::LightBounds;
+use lightbvh::device::summary::Lanes;
 use lightbvh::node::Holds;
-use lightbvh::summary::Lanes;
 use lightbvh::{
     Bvh, CompactNode, Edit, EmissiveTriangle, MeshId, Node, RebuildError, Rebuilder, RebuilderParams,
 };

@@ -3,11 +3,11 @@
 
 use crate::kit::Random;
 use glam::Vec3;
+use lightbvh::device::trail::leaf_parts;
 use lightbvh::exact::hash;
 use lightbvh::light::{AnyLight, Light, SpotLight};
 use lightbvh::node::{Lit, MomentNode, Node, SpotMomentNode, kind};
 use lightbvh::refit::world_light;
-use lightbvh::trail::leaf_parts;
 use lightbvh::{BuildParams, Bvh, ImportanceModel, Lights, Moments, ShadingPoint, Transform};
 
 type Tree = Bvh<Lit<SpotMomentNode<8>, AnyLight>, Moments, 8>;

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use lightbvh::bvh::RefitPlan;
-use lightbvh::levels::Levels;
+use lightbvh::device::levels::Levels;
 use lightbvh::node::Node;
 use lightbvh::refit::child_rows;
 

@@ -1,9 +1,9 @@
 //! Next-event estimation: what one chosen emissive triangle contributes to a point, by one random point on it.
 
 use glam::Vec3;
+use lightbvh::device::vector::{cross, dot, length_squared};
 use lightbvh::exact::{abs, flush, max, min, pow2, rsqrt};
 use lightbvh::light::uniform_point;
-use lightbvh::vector::{cross, dot, length_squared};
 use lightbvh::{EmissiveTriangle, ShadingPoint};
 
 use super::grid::{STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, div, flush_vector};

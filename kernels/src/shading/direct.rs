@@ -4,9 +4,9 @@
 //! resampling", 2020, section 3).
 
 use glam::Vec3;
+use lightbvh::device::vector::length_squared;
 use lightbvh::exact::{flush, hash, min, pow2};
 use lightbvh::reservoir::{LightSample, Resampling, target};
-use lightbvh::vector::length_squared;
 
 use super::area::{Connection, luminance};
 use super::emitter::Emitter;

@@ -2,9 +2,9 @@
 //! triangles pays for no other.
 
 use glam::Vec3;
+use lightbvh::device::vector::{dot, length_squared};
 use lightbvh::exact::{abs, flush, max, min, rsqrt};
 use lightbvh::light::{AnyLight, Light};
-use lightbvh::vector::{dot, length_squared};
 use lightbvh::{EmissiveTriangle, LightPoint, ShadingPoint};
 
 use super::area::{

@@ -4,8 +4,8 @@
 //! of two that is a root of a root, and the density a product of squares. `k = 2` is the cosine-weighted hemisphere.
 
 use glam::Vec3;
+use lightbvh::device::vector::{cross, dot, length_squared};
 use lightbvh::exact::{floor_u32, flush, min};
-use lightbvh::vector::{cross, dot, length_squared};
 
 use super::grid::{STEP, div, flush_vector, sqrt};
 

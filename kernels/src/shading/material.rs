@@ -2,8 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
+use lightbvh::device::vector::dot;
 use lightbvh::exact::{clamp, floor_u32, flush, max, pow2};
-use lightbvh::vector::dot;
 
 use super::grid::{STEP, TINY, div, flush_vector};
 use super::lobe::{about, circle, cosine_power, power_cosine};

@@ -2,8 +2,8 @@
 //! (pbrt-v4, sections 13.2 to 13.4; weights by [`mis`](super::mis)).
 
 use glam::Vec3;
+use lightbvh::device::vector::{dot, length_squared};
 use lightbvh::exact::{floor_u32, flush, hash, max, min, unit_f32};
-use lightbvh::vector::{dot, length_squared};
 use lightbvh::{Random64, ShadingPoint};
 
 use super::area::Connection;

@@ -1,7 +1,7 @@
 //! What a ray sees of a scene.
 
 use glam::Vec3;
-use lightbvh::vector::{cross, dot, length_squared};
+use lightbvh::device::vector::{cross, dot, length_squared};
 use lightbvh::{EmissiveTriangle, Instance, ShadingPoint};
 
 use super::area::{Connection, offset_distance};

@@ -1,8 +1,8 @@
 //! A ray against a triangle.
 
 use glam::Vec3;
+use lightbvh::device::vector::{cross, dot};
 use lightbvh::exact::{abs, pow2, recip};
-use lightbvh::vector::{cross, dot};
 
 use super::grid::{STEP, TINY_AREA, div, flush_vector, snap_point};
 

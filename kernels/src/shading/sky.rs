@@ -1,9 +1,9 @@
 //! Light from without end: an environment map and suns, beside the light BVH. A type, so that scenes without pay for nothing.
 
 use glam::Vec3;
+use lightbvh::device::vector::dot;
 use lightbvh::exact::{hash, max, unit_f32};
 use lightbvh::light::infinite::{DistantLight, EnvironmentMap, Split};
-use lightbvh::vector::dot;
 use lightbvh::{Random64, ShadingPoint};
 
 use super::area::{Connection, luminance, reflected};

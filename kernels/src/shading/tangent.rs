@@ -1,8 +1,8 @@
 //! Normals that a texture bends.
 
 use glam::Vec3;
+use lightbvh::device::vector::{cross, dot, length_squared};
 use lightbvh::exact::{abs, pow2, rsqrt};
-use lightbvh::vector::{cross, dot, length_squared};
 
 use super::grid::{STEP, TINY_AREA, div, flush_vector, sqrt};
 

@@ -2,8 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
+use lightbvh::device::widest::widest;
 use lightbvh::exact::{max, min, pow2};
-use lightbvh::widest::widest;
 
 use super::ray::{FAR, MISS, Meeting, Ray};
 use super::skin::{FIND, NoSkin, SEE, SHADOW, Skin, Through};

@@ -63,7 +63,7 @@ fn what_devices_may_do_otherwise_is_refused() {
                 let pair = b.constant_composite(vector, [t.two, t.three]);
                 b.dot(t.float, None, pair, pair).unwrap();
             },
-            &["OpDot", "lightbvh::vector"],
+            &["OpDot", "lightbvh::device::vector"],
         ),
         (
             |b, t| {

@@ -58,7 +58,10 @@ pub(super) fn operation(op: Op) -> Result<(), Refusal> {
         | Op::MatrixTimesMatrix
         | Op::OuterProduct
         | Op::Transpose
-        | Op::TypeMatrix => refuse("the order of its operations is left open", "use lightbvh::vector"),
+        | Op::TypeMatrix => refuse(
+            "the order of its operations is left open",
+            "use lightbvh::device::vector",
+        ),
         Op::ConvertUToF => refuse(
             "one driver rounds u32 to f32 wrongly above 2^31 (SwiftShader)",
             "convert through i32: `n as i32 as f32`, n below 2^31",

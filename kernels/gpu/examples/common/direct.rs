@@ -3,8 +3,8 @@
 //! It divides by `exact::div` and compares by `exact::max`, because a device's own division and `max` may give other words.
 //! The builder says so where one is used.
 
+use lightbvh::device::vector::{cross, dot, length_squared};
 use lightbvh::exact::{div, hash, max};
-use lightbvh::vector::{cross, dot, length_squared};
 use lightbvh::{DefaultTree, EmissiveTriangle, Random64, ShadingPoint};
 
 /// The mean of `samples` light samples at `point`. `triangles` are `Bvh::triangles`; `seed` tells points apart.

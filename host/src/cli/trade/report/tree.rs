@@ -1,9 +1,9 @@
 //! The light BVH over an image of its scene: the moments of its nodes as ellipses, and how deep lights lie.
 
 use glam::{DMat2, DMat3, DVec2, DVec3, Vec3};
+use lightbvh::device::trail::leaf_parts;
 use lightbvh::node::kind;
 use lightbvh::refit::Instance;
-use lightbvh::trail::leaf_parts;
 use lightbvh::{LightMoments, LightNode, LightTree};
 use lightbvh_kernels::shading::camera::Camera;
 use serde::Serialize;

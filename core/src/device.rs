@@ -1,0 +1,40 @@
+//! What the kernels, the host and the tests of this workspace share with the tree. **Unstable**: any of it may change in any
+//! version, without an entry in the changelog.
+
+/// Bounds of lights: boxes, cones and flux.
+pub mod bounds {
+    pub use crate::bounds::*;
+}
+/// Cones of directions.
+pub mod cone {
+    pub use crate::cone::*;
+}
+/// The levels of a tree, in the order of a refit.
+#[cfg(feature = "alloc")]
+pub mod levels {
+    pub use crate::levels::*;
+}
+/// Moments of lights: flux, mean, deviations and mean normal.
+pub mod moments {
+    pub use crate::moments::*;
+}
+/// Receivers.
+pub mod point {
+    pub use crate::point::*;
+}
+/// What nodes summarise.
+pub mod summary {
+    pub use crate::summary::*;
+}
+/// Trails: the path to a light as bits.
+pub mod trail {
+    pub use crate::trail::*;
+}
+/// Products of vectors in a fixed order.
+pub mod vector {
+    pub use crate::vector::*;
+}
+/// Functions compiled for the widest vectors of the processor.
+pub mod widest {
+    pub use crate::widest::*;
+}
