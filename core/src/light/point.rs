@@ -3,11 +3,10 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::triangle::flux;
-use super::{EmissiveTriangle, MIN_OFFSET};
+use super::{MIN_OFFSET, TWO_SIDED};
 use crate::exact;
 use crate::point::ShadingPoint;
-use crate::vector::{abs3, dot, flush3, greatest_exponent, length_squared, max3, vector};
+use crate::vector::{dot, flush3, greatest_exponent, length_squared, vector};
 
 /// A point on a light, and the density with which it was chosen. Plain words, the same on devices.
 #[repr(C)]
@@ -24,7 +23,7 @@ pub struct LightPoint {
     pub density: f32,
     /// Unit normal of the front side; zero where the light has no area.
     pub normal: [f32; 3],
-    /// [`EmissiveTriangle::flags`], [`IS_POINT`](Self::IS_POINT) or [`IS_VOLUME`](Self::IS_VOLUME).
+    /// [`EmissiveTriangle::flags`](super::EmissiveTriangle::flags), [`IS_POINT`](Self::IS_POINT) or [`IS_VOLUME`](Self::IS_VOLUME).
     pub flags: u32,
     /// Radiance, W/(m² sr), where `flags` do not say otherwise.
     pub radiance: [f32; 3],
@@ -60,7 +59,7 @@ impl LightPoint {
         let incident = if in_volume { 1.0 } else { exact::max(incident, 0.0) };
         let own = vector(&self.normal);
         let emitted = -(dot(d, own) * per_distance);
-        let emitted = if self.flags & EmissiveTriangle::TWO_SIDED != 0 {
+        let emitted = if self.flags & TWO_SIDED != 0 {
             exact::abs(emitted)
         } else {
             exact::max(emitted, 0.0)
@@ -95,38 +94,6 @@ impl LightPoint {
             sent(self.radiance[1]),
             sent(self.radiance[2]),
         ]
-    }
-}
-
-impl EmissiveTriangle {
-    /// A point that is uniformly distributed over the triangle, where the numbers of `uv` are over [0, 1).
-    #[inline]
-    #[must_use]
-    pub fn point(&self, uv: [f32; 2]) -> LightPoint {
-        let p0 = self.vertex(0);
-        let (e1, e2) = (self.vertex(1) - p0, self.vertex(2) - p0);
-        // Edges of about 1, so that no product leaves the range.
-        let e = greatest_exponent(max3(abs3(e1), abs3(e2)), -127);
-        let to_one = exact::pow2(-e);
-        let emission = flux(e1 * to_one, e2 * to_one, e, self);
-        let has_area = emission.exponent >= -100;
-        let per_length = exact::div(1.0, exact::sqrt(emission.squared));
-        // Twice the area is √squared · 2^exponent.
-        let exponent = emission.exponent + e + e;
-        let density = (per_length + per_length) * exact::pow2(-exponent);
-        let p = uniform_point(p0, e1, e2, uv[0], uv[1]);
-        let n = emission.normal * per_length;
-        LightPoint {
-            p: [p.x, p.y, p.z],
-            density: if has_area {
-                exact::min(density, MAX_DENSITY)
-            } else {
-                0.0
-            },
-            normal: if has_area { [n.x, n.y, n.z] } else { [0.0; 3] },
-            flags: self.flags,
-            radiance: self.radiance,
-        }
     }
 }
 

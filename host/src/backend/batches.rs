@@ -132,6 +132,18 @@ mod tests {
     const PATHS: Integrator = Integrator::Path { bounces: 1 };
 
     #[test]
+    fn long_paths_go_alone() {
+        let paths = [0, 1, 5, 7, 15, 64, u32::MAX].map(|bounces| Integrator::Path { bounces });
+        assert_eq!(
+            paths.map(|paths| paths.samples_per_invocation(1)),
+            [16, 8, 2, 2, 1, 1, 1]
+        );
+        let direct =
+            [0, 1, 2, 8, 9, 256].map(|candidates| Integrator::Direct.samples_per_invocation(candidates));
+        assert_eq!(direct, [8, 8, 8, 8, 7, 1]);
+    }
+
+    #[test]
     fn all_samples_are_taken_and_count_alike() {
         for (samples, integrator) in [1, 8, 9, 16, 17, 1000, 4099]
             .into_iter()

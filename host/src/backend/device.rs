@@ -13,8 +13,8 @@ use lightbvh_kernels::shading::direct::MAX_CANDIDATES;
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::batches::in_batches;
-use super::device_arrays::{HeldScene, choosing, device_time};
-use super::follow::DeviceTree;
+use super::device_arrays::{HeldScene, choosing};
+use super::follow::{DeviceTree, device_time};
 use super::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, node_record};
 use crate::scene::SceneLight;
 use crate::vulkan::{Device, Pass};

@@ -1,7 +1,6 @@
 //! A frame of a scene on a device.
 
 use std::collections::BTreeMap;
-use std::time::Duration;
 
 use bytemuck::{Pod, cast_slice};
 use lightbvh_kernels::shading::pick::by;
@@ -9,7 +8,7 @@ use lightbvh_kernels::shading::pick::by;
 use super::follow::DeviceTree;
 use super::{Sampler, SceneArrays};
 use crate::scene::SceneLight;
-use crate::vulkan::{Binding, Device, Timings, VulkanError};
+use crate::vulkan::{Binding, Device, VulkanError};
 
 /// The arrays of the scene that was rendered last, by name: their bytes, and where they are on the device.
 #[derive(Default)]
@@ -85,9 +84,4 @@ pub(super) fn choosing(sampler: Sampler) -> u32 {
         Sampler::Power => by::POWER,
         Sampler::SingleLevel | Sampler::TwoLevel => by::TREE,
     }
-}
-
-/// The kernels' own time by the device's clock, or else by ours.
-pub(super) fn device_time(timings: &Timings) -> Duration {
-    timings.kernels.unwrap_or(timings.wall)
 }

@@ -9,8 +9,7 @@ use lightbvh::refit::BlasRoot;
 use lightbvh::{Instance, TreeWords};
 use lightbvh_gpu::{Buffer as Array, Frame, Mirror, Pass as RefitPass, Refit};
 
-use super::device_arrays::device_time;
-use crate::vulkan::{Binding, Buffer, Device, Pass, VulkanError};
+use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
 
 /// The arrays of a light BVH on a device, which follow its edits.
 pub(super) struct DeviceTree<N, L> {
@@ -166,4 +165,9 @@ fn renew<T: Pod, N: Node<W>, I, const W: usize>(
         *buffer = new;
     }
     buffer.write(&parts)
+}
+
+/// The kernels' own time by the device's clock, or else by ours.
+pub(super) fn device_time(timings: &Timings) -> Duration {
+    timings.kernels.unwrap_or(timings.wall)
 }

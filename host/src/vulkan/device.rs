@@ -2,6 +2,7 @@
 
 use super::error::{CallContext, VulkanError};
 use super::instance::Instance;
+use super::options::Options;
 use super::probe::{Candidate, Probe};
 use super::shared::Shared;
 use ash::vk;
@@ -25,15 +26,6 @@ pub struct DeviceList {
     pub devices: Vec<DeviceInfo>,
     /// One sentence for each thing that is missing: no loader, no driver, a device that cannot be used and why.
     pub notes: Vec<String>,
-}
-
-/// How to open a device.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Options {
-    /// Run under `VK_LAYER_KHRONOS_validation`: any message of it becomes an error of the call that drew it.
-    pub validation: bool,
-    /// Copy through staging buffers even where host and device share memory; for tests of that path.
-    pub force_staging: bool,
 }
 
 /// An open device. Buffers and kernels are made from it; it closes when the last of them is dropped.

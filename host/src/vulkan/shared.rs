@@ -1,10 +1,10 @@
 //! What a device, its buffers and its kernels hold in common, destroyed when the last of them goes.
 
-use super::device::Options;
 use super::error::VulkanError;
 use super::fault::Faults;
 use super::instance::Instance;
 use super::kernel::Kernels;
+use super::options::Options;
 use super::probe::{Candidate, Probe};
 use super::queue::Queue;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};

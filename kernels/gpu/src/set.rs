@@ -117,7 +117,7 @@ impl KernelSet {
     /// The kernels of a model, which its layout, width and share of uniform choice say.
     ///
     /// # Errors
-    /// [`NotCompiled`] for any but the default's; devices take light BVHs with trails, so a model without them has none either.
+    /// [`NotCompiled`] for any but the default's.
     pub fn of(model: &Model) -> Result<&'static Self, NotCompiled> {
         let default = Model::DEFAULT;
         let is_compiled = model.layout == Layout::Moments

@@ -168,24 +168,35 @@ fn lights_of_other_kinds_have_their_words() {
     assert!(left.next().is_none());
 }
 
-/// Each buffer of the page has the readers and writers that kernels are.
+/// Each buffer of the page has the strides, readers and writers that kernels say.
 #[test]
-fn buffers_have_their_readers_and_writers() {
+fn buffers_have_their_strides_readers_and_writers() {
     let rows = table("\n## Buffers\n");
     for buffer in Buffer::ALL {
         assert!(rows.iter().any(|row| code(row[0]) == buffer.name()), "{buffer:?}");
     }
     for kernel in KERNELS {
-        let name = ["_eq4", "_any", "_linked"]
+        let (name, layout) = ["_eq4", "_any", "_linked"]
             .into_iter()
-            .find_map(|suffix| kernel.name.strip_suffix(suffix))
-            .unwrap_or(kernel.name);
+            .find_map(|suffix| Some((kernel.name.strip_suffix(suffix)?, suffix)))
+            .unwrap_or((kernel.name, ""));
         for binding in kernel.bindings {
             let names = |row: &&Vec<&str>| row[0].split(", ").any(|name| code(name) == binding.name);
             let Some(row) = rows.iter().find(names) else {
                 continue;
             };
-            let cell = row[if binding.access == Access::Read { 2 } else { 1 }];
+            // By layout, by kernel, or alike for all.
+            let strides: Vec<&str> = row[1].split([',', ';']).map(str::trim).collect();
+            let of = |what: &str| {
+                strides
+                    .iter()
+                    .find_map(|own| own.strip_prefix(&*format!("`{what}` ")))
+            };
+            let stride = of(layout).or_else(|| of(name)).unwrap_or(strides[0]);
+            if !["samples", "numbers"].contains(&binding.name) {
+                assert_eq!(stride.parse(), Ok(binding.stride), "{name}: {binding:?}");
+            }
+            let cell = row[if binding.access == Access::Read { 3 } else { 2 }];
             let mut names = cell.split([';', ',']).map(|name| code(name.trim()));
             let is_named = names.any(|own| {
                 own == name

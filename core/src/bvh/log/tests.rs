@@ -43,6 +43,18 @@ fn copy<A: Copy>(to: &mut [A], first: usize, from: &[A], size: usize, ranges: &[
     }
 }
 
+/// Computes the nodes of a list, which count from `first`. Those of one pass read only what passes before it wrote: their order does not
+/// show.
+fn passes<N: Copy>(nodes: &mut [N], first: u32, list: &Levels, body: impl Fn(&[N], u32) -> N) {
+    for range in list.ranges() {
+        let own = list.nodes()[range].iter().map(|node| first + node);
+        let found: Vec<_> = own.map(|node| (node, body(nodes, node))).collect();
+        for (node, own) in found {
+            nodes[node as usize] = own;
+        }
+    }
+}
+
 impl<N: Node<W>, const W: usize> Mirror<N, W> {
     fn new() -> Self {
         Self {
@@ -102,16 +114,13 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         copy(&mut self.trails, ABOVE, links.above, 1, &plan.written_above);
         copy(&mut self.trails, PLACES, links.places, 1, &plan.written_places);
         copy(&mut self.trails, PARTS, links.parts, 1, &plan.written_parts);
-        for &node in plan.bottom.nodes() {
-            self.nodes[node as usize] = refit::bottom(&self.nodes, &self.triangles, node);
-        }
+        let bottom = |nodes: &[N], node| refit::bottom(nodes, &self.triangles, node);
+        passes(&mut self.nodes, 0, &plan.bottom, bottom);
         for &mesh in &plan.roots {
             self.roots[mesh as usize] = refit::root(&self.nodes, bvh.roots()[mesh as usize].node);
         }
-        for node in plan.top.nodes().iter().map(|node| TOP as u32 + node) {
-            let own = refit::top(&self.nodes, TOP as u32, &self.instances, &self.roots, node);
-            self.nodes[node as usize] = own;
-        }
+        let top = |nodes: &[N], node| refit::top(nodes, TOP as u32, &self.instances, &self.roots, node);
+        passes(&mut self.nodes, TOP as u32, &plan.top, top);
     }
 
     /// Compares all words in use; trails and links by samples and pmfs.

@@ -1,5 +1,6 @@
 //! Emissive triangles.
 
+mod point;
 mod slots;
 mod summaries;
 
@@ -7,7 +8,6 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use self::slots::Triangles;
-pub(super) use self::summaries::flux;
 use self::summaries::has_flux;
 use super::record::{Light, shining, wrong_flags};
 use super::{INVALID, LightPoint, TWO_SIDED};

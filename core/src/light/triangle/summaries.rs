@@ -31,7 +31,7 @@ pub(super) fn has_flux(triangle: &EmissiveTriangle) -> bool {
 /// The emission of `triangle`, whose edges are `a` and `b` by 2^`edge_exponent`: together of about 1. Without a branch, for
 /// processors that compute several at a time.
 #[inline(always)]
-pub(in crate::light) fn flux(a: Vec3, b: Vec3, edge_exponent: i32, triangle: &EmissiveTriangle) -> Emission {
+pub(super) fn flux(a: Vec3, b: Vec3, edge_exponent: i32, triangle: &EmissiveTriangle) -> Emission {
     let per_product = if triangle.is_two_sided() {
         core::f32::consts::PI
     } else {
