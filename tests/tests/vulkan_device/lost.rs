@@ -67,7 +67,8 @@ fn where_a_device_is_lost_another_takes_over() {
         force_staging: true,
         ..Options::default()
     };
-    for info in &devices().devices {
+    // What is lost is the host's: one device tells.
+    for info in &devices().devices[..1] {
         let mut found_in = std::collections::BTreeSet::new();
         // In each call that may find it, one after the other, until a frame has no more of them.
         for calls in 0.. {
