@@ -60,17 +60,16 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             lights: 0,
             depth: 0,
         };
-        let (mut used_nodes, mut used_triangles, mut used_lights) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut used_nodes, mut used_lights) = (Vec::new(), Vec::new());
+        let mut again = alloc::vec![N::EMPTY; self.nodes.len()];
         for (index, mesh) in (0u32..).zip(&self.meshes).filter(|(_, mesh)| mesh.live) {
-            let found = self.check_mesh(index, &mut seen)?;
+            let found = self.check_mesh(index, &mut seen, &mut again)?;
             stats.blases += 1;
             stats.nodes += found.levels.len() as u32;
             stats.depth = stats.depth.max(found.depth);
             used_nodes.push(mesh.nodes.start..mesh.room);
-            used_triangles.push(mesh.triangles.clone());
         }
         disjoint(used_nodes)?;
-        disjoint(used_triangles)?;
         for (index, placed) in (0u32..).zip(&self.placed) {
             if placed.live {
                 stats.instances += 1;
@@ -99,8 +98,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(stats)
     }
 
-    /// The tree of a mesh, its trails, and every word of its nodes.
-    fn check_mesh(&self, index: u32, seen: &mut [bool]) -> Result<Found, Violation> {
+    /// The tree of a mesh, its trails, and every word of its nodes. Each of its triangles is in one leaf, and of this mesh: no two meshes
+    /// have one.
+    fn check_mesh(&self, index: u32, seen: &mut [bool], again: &mut [N]) -> Result<Found, Violation> {
         let mesh = &self.meshes[index as usize];
         let root = self.roots[index as usize].node;
         equal(root, INVALID, "root", mesh.nodes.start, root)?;
@@ -130,9 +130,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             equal(INVALID, triangle, "triangle's leaves", 1, count)?;
         }
         equal(INVALID, index, "flux power", self.power_of(index), mesh.power)?;
-        let mut again = bare(&self.nodes, &found);
+        bare(again, &self.nodes, &found);
         for node in found.upward() {
-            again[node as usize] = refit::bottom(&again, &self.triangles, node);
+            again[node as usize] = refit::bottom(again, &self.triangles, node);
             same_words(node, INVALID, &again[node as usize], &self.nodes[node as usize])?;
         }
         let expected = refit::root(&self.nodes, root);
@@ -205,7 +205,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             let place = top.places[instance as usize];
             equal(INVALID, instance, "parts", OPENED | own.first, place)?;
         }
-        let mut again = bare(&top.nodes, &found);
+        let mut again = alloc::vec![N::EMPTY; top.nodes.len()];
+        bare(&mut again, &top.nodes, &found);
         for node in found.upward() {
             again[node as usize] = self.top_node_again(&again, node);
             same_words(node, INVALID, &again[node as usize], &top.nodes[node as usize])?;
@@ -276,16 +277,14 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 }
 
-/// The nodes found, with kinds and links alone.
-fn bare<N: Node<W>, const W: usize>(nodes: &[N], found: &Found) -> Vec<N> {
-    let mut again = alloc::vec![N::EMPTY; nodes.len()];
+/// Puts the nodes found into `again`, with kinds and links alone.
+fn bare<N: Node<W>, const W: usize>(again: &mut [N], nodes: &[N], found: &Found) {
     for &(_, node) in &found.levels {
         let own = &nodes[node as usize];
         for slot in 0..W {
             again[node as usize].set_child(slot, own.kind(slot), own.link(slot));
         }
     }
-    again
 }
 
 fn disjoint(mut ranges: Vec<Range<u32>>) -> Result<(), Violation> {

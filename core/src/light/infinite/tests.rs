@@ -44,6 +44,19 @@ fn densities_are_those_over_solid_angle() {
     assert!((all / (4.0 * core::f64::consts::PI) - 1.0).abs() < 1e-4, "{all}");
 }
 
+/// A receiver in a volume has no cosine.
+#[test]
+fn suns_light_volumes_fully() {
+    let sun = DistantLight {
+        direction: [0.0, 1.0, 0.0],
+        irradiance: [2.0, 3.0, 4.0],
+    };
+    let at = |n| sun.irradiance_at(&crate::ShadingPoint { p: [0.0; 3], n });
+    assert_eq!(at([0.0; 3]), sun.irradiance);
+    assert_eq!(at([0.0, -1.0, 0.0]), [0.0; 3]);
+    assert_eq!(at([0.6, 0.8, 0.0]), [2.0, 3.0, 4.0].map(|x: f32| x * 0.8));
+}
+
 /// The mean, and the probability of a cap, are those of integrals over the sphere, which know nothing of octahedra.
 #[test]
 fn weights_are_integrals_over_the_sphere() {
@@ -61,6 +74,9 @@ fn weights_are_integrals_over_the_sphere() {
             // Sixteen places in each texel.
             let place = [k % n, k / n].map(|x| (x as f32 + 0.5) * 2.0 / n as f32 - 1.0);
             let d = direction_at(place);
+            // Alike all around.
+            let of_all = f64::from(map.density(d)) * 4.0 * core::f64::consts::PI;
+            assert!((of_all - 1.0).abs() < 0.02, "{of_all} at {d:?}");
             if d[axis] > 0.9 {
                 share += f64::from(map.pmf(map.texel_of(d))) / 16.0;
             }

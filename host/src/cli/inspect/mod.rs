@@ -180,9 +180,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         None => "committed\n".to_owned(),
         Some(command) => format!("not committed; they are compiled by\n  {command}\n"),
     };
+    let of = kinds.map_or("", |_| " of its triangles alone");
     let model = &checked.model;
     table::print_text(&format!(
-        "\nmodel, {how}: {model}\nkernels for devices: {kernels}"
+        "\nmodel{of}, {how}: {model}\nkernels for devices: {kernels}"
     ))?;
     Ok(Outcome::good_if(checked.holds()))
 }
@@ -353,7 +354,10 @@ fn facts(found: &Requirements, surfaces: &Surfaces) -> Vec<Fact> {
     };
     let is = |is| if is { "yes" } else { "no" };
     let orientation = if one_sided > 0 { "present" } else { "absent" };
-    let sides = format!("of {triangles} triangles {one_sided} shine from one side, the others from both");
+    let sides = format!(
+        "of {triangles} triangles {one_sided} shine from one side, {} from both",
+        triangles - one_sided
+    );
     let meshes = format!(
         "meshes: {}, instances: {}, at most {} of a mesh",
         found.meshes, found.instances, found.most_instances
