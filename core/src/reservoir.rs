@@ -5,7 +5,7 @@
 //! A sample is a light and two random numbers that choose the point on it, so all densities here are over the lights
 //! times the unit square. That square moves with its light.
 //!
-//! Targets, pmfs, sums and contribution weights are brought into the ranges that the constants below state. A target may be any
+//! Targets, pmfs, sums and contribution weights are brought into ranges. A target may be any
 //! function that is positive where the integrand is (ReSTIR section 2.3), so limiting it costs variance only. The other limits are
 //! met where an estimate is beyond 2^±60 of all others.
 
@@ -15,17 +15,17 @@ use crate::exact::{clamp, div, flush, max, min, pow2, unit_f32};
 use crate::tree::INVALID;
 
 /// Targets that are not zero count as at least this.
-pub const MIN_TARGET: f32 = pow2(-40);
+const MIN_TARGET: f32 = pow2(-40);
 /// Targets count as at most this.
-pub const MAX_TARGET: f32 = pow2(40);
+const MAX_TARGET: f32 = pow2(40);
 /// Probabilities of candidates count as at least this.
-pub const MIN_PMF: f32 = pow2(-40);
+const MIN_PMF: f32 = pow2(-40);
 /// Sums of resampling weights count as at most this.
-pub const MAX_WEIGHT_SUM: f32 = pow2(80);
+const MAX_WEIGHT_SUM: f32 = pow2(80);
 /// Smallest contribution weight that is not zero.
-pub const MIN_WEIGHT: f32 = pow2(-60);
+const MIN_WEIGHT: f32 = pow2(-60);
 /// Contribution weights count as at most this.
-pub const MAX_WEIGHT: f32 = pow2(60);
+const MAX_WEIGHT: f32 = pow2(60);
 
 /// A point on a light; 16 bytes.
 #[repr(C)]
@@ -54,11 +54,11 @@ pub struct Reservoir {
     /// y, the chosen sample; [`LightSample::NONE`] if every candidate had target zero.
     pub sample: LightSample,
     /// W, the contribution weight: the integrand at y times W estimates the integral (an unbiased estimate of 1 / p(y)).
-    /// Zero or in [`MIN_WEIGHT`]`..=`[`MAX_WEIGHT`].
+    /// Zero or from 2^-60 to 2^60.
     pub weight: f32,
 }
 
-/// The domain of targets: zero, or from [`MIN_TARGET`] to [`MAX_TARGET`]. `luminance` is that of the unshadowed
+/// The domain of targets: zero, or from 2^-40 to 2^40. `luminance` is that of the unshadowed
 /// contribution, zero or a normal number: over the lights times the unit square, so what a point of a light's area contributes is divided
 /// by [`LightPoint::density`](crate::light::LightPoint::density).
 #[inline]

@@ -36,7 +36,7 @@ pub(crate) struct Topology<N> {
 pub struct BuildParams {
     /// How a tree is built.
     pub heuristic: Heuristic,
-    /// Buckets per axis, 2..=[`MAX_BUCKETS`]; others are brought into that range. More find better splits and take longer.
+    /// Buckets per axis, 2 to 32; others are brought into that range. More find better splits and take longer.
     /// [`Heuristic::Ward`] takes half as many for ranges of fewer than 256 lights.
     pub buckets: u32,
     /// Whether the top level may hold the subtrees of a large mesh in place of the whole: less variance where meshes lie within
@@ -45,7 +45,7 @@ pub struct BuildParams {
 }
 
 /// Most buckets per axis.
-pub const MAX_BUCKETS: u32 = 32;
+pub(crate) const MAX_BUCKETS: u32 = 32;
 
 impl BuildParams {
     /// Ward's criterion, 16 buckets: the default.

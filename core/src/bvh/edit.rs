@@ -128,7 +128,7 @@ pub enum Edit<L = EmissiveTriangle> {
 }
 
 /// Least and greatest factor on radiance that is not zero: 2^-60 and 2^60.
-pub const RADIANCE_FACTORS: [f32; 2] = [crate::exact::pow2(-60), crate::exact::pow2(60)];
+pub(crate) const RADIANCE_FACTORS: [f32; 2] = [crate::exact::pow2(-60), crate::exact::pow2(60)];
 
 /// Why a batch of edits is refused; none of it has been done then.
 #[derive(Clone, Debug, PartialEq)]
@@ -158,7 +158,7 @@ pub enum EditReason {
     },
     /// A transform is outside the domain.
     Transform(DomainError),
-    /// A factor on radiance is outside [`RADIANCE_FACTORS`].
+    /// A factor on radiance is neither 0 nor from 2^-60 to 2^60.
     Radiance {
         /// What was found.
         value: f32,

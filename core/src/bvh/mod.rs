@@ -49,7 +49,9 @@ use core::marker::PhantomData;
 use core::ops::Range;
 
 pub use apply::Added;
-pub use edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
+#[cfg(test)]
+pub(crate) use edit::RADIANCE_FACTORS;
+pub use edit::{Edit, EditError, EditReason, InstanceId, MeshId};
 pub use follow::FollowError;
 pub use log::{Cursor, RefitPlan};
 #[cfg(feature = "std")]

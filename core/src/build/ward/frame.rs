@@ -79,7 +79,7 @@ pub(in crate::build) struct Frame {
 }
 
 impl Frame {
-    /// The frame of a range within `extent`, with that many bins along each axis, at most [`MAX_BUCKETS`]; none if all its
+    /// The frame of a range within `extent`, with that many bins along each axis, at most `MAX_BUCKETS`; none if all its
     /// primitives are at one point, or so near to it that no plane can part them.
     pub fn of(extent: &Extent, bins: usize) -> Option<Self> {
         let longest = extent.side(extent.longest());
