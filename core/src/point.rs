@@ -41,7 +41,7 @@ impl ShadingPoint {
     /// Components smaller than [`MIN_COORDINATE`] become zero (with the sign of zero dropped); nothing else changes.
     ///
     /// # Errors
-    /// [`DomainError`] for a coordinate that is not finite or beyond [`MAX_COORDINATE`], and for a normal that is neither of
+    /// [`DomainError`] for a coordinate that is not finite or beyond [`MAX_COORDINATE`](crate::error::MAX_COORDINATE), and for a normal that is neither of
     /// length 1 (up to [`NORMAL_TOLERANCE`]) nor zero.
     pub fn checked(mut self) -> Result<Self, DomainError> {
         self.p = checked_place("shading point", self.p)?;

@@ -5,6 +5,7 @@ use lightbvh::node::kind;
 use lightbvh::{
     BuildParams, EmissiveTriangle, ImportanceModel, LightNode, Lights, ShadingPoint, Summary, exact,
 };
+use lightbvh_peers::{Falcor, Pbrt};
 use lightbvh_tests::each_layout;
 use lightbvh_tests::generate::{self, Random, extreme_triangle, log_uniform};
 use lightbvh_tests::oracle::{Triangle, all_pmfs, built};
@@ -108,6 +109,8 @@ fn positive_wherever_there_is_flux() {
                 point.p = [0; 3].map(|_| [0.0, far, -far, exact::pow2(-100)][random.below(4) as usize]);
             }
             each_layout!(weights_are_sound(&lights, &point));
+            weights_are_sound::<CompactNode<4>, Falcor, 4>(&lights, &point);
+            weights_are_sound::<CompactNode<4>, Pbrt, 4>(&lights, &point);
             let lights: Vec<_> =
                 generate::small_triangles(4, 4, 4.0, 1.0, random.below(2) == 0, random.bits())
                     .into_iter()
@@ -118,6 +121,8 @@ fn positive_wherever_there_is_flux() {
                     .collect();
             let point = adversarial_point(random, &lights[0]);
             each_layout!(weights_are_sound(&lights, &point));
+            weights_are_sound::<CompactNode<4>, Falcor, 4>(&lights, &point);
+            weights_are_sound::<CompactNode<4>, Pbrt, 4>(&lights, &point);
         }
     });
 }

@@ -8,7 +8,7 @@
 //! 2. [`refit`](Bvh::refit), which computes just the nodes that this touches (paper section 3.4) and inserts instances that were
 //!    added or moved far where they cost least; a device computes the same nodes by the lists of [`plan`](Bvh::plan).
 //!
-//! A [`Rebuilder`](crate::Rebuilder) (feature `std`) builds whole trees in the background (paper section 3.5).
+//! A [`Rebuilder`] (feature `std`) builds whole trees in the background (paper section 3.5).
 //!
 //! | change | costs |
 //! |---|---|

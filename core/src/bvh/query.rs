@@ -12,7 +12,7 @@ macro_rules! samples {
     ($owner:ident) => {
         impl<N: Node<W>, I, const W: usize> $owner<N, I, W> {
             /// Chooses a light for a receiver, a [`ShadingPoint`](crate::ShadingPoint) within the domain of
-            /// [`checked`](crate::ShadingPoint::checked) or one of which the importance knows more; see [`LightTree::sample`]. Without
+            /// [`checked`](crate::ShadingPoint::checked) or one of which the importance knows more; see [`LightTree::sample`](crate::LightTree::sample). Without
             /// lights none is chosen.
             #[must_use]
             pub fn sample<P: Receiver>(&self, point: &P, random: impl Into<Random64>) -> SampledLight
@@ -23,7 +23,7 @@ macro_rules! samples {
                 self.tree().sample(point, random)
             }
 
-            /// Chooses a light for each of `points`, points as for [`sample`](Self::sample); see [`LightTree::sample_batch`].
+            /// Chooses a light for each of `points`, points as for [`sample`](Self::sample); see [`LightTree::sample_batch`](crate::LightTree::sample_batch).
             pub fn sample_batch<P: Receiver>(
                 &self,
                 points: &[P],
@@ -35,7 +35,7 @@ macro_rules! samples {
                 self.tree().sample_batch(points, randoms, sampled);
             }
 
-            /// Chooses `COUNT` lights for `point` by numbers at equal distances; see [`LightTree::sample_many`].
+            /// Chooses `COUNT` lights for `point` by numbers at equal distances; see [`LightTree::sample_many`](crate::LightTree::sample_many).
             #[must_use]
             pub fn sample_many<P: Receiver, const COUNT: usize>(
                 &self,

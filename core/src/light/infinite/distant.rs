@@ -23,7 +23,7 @@ impl DistantLight {
     /// [`NORMAL_TOLERANCE`](crate::error::NORMAL_TOLERANCE), an irradiance that is not finite, negative or out of range.
     ///
     /// # Errors
-    /// [`DomainError::Axis`] or [`DomainError::Emission`].
+    /// [`DomainError`] of the direction or the irradiance.
     pub fn checked(mut self) -> Result<Self, DomainError> {
         self.direction = checked_axis(self.direction)?;
         self.irradiance = checked_emission("distant light", self.irradiance)?;
