@@ -3,7 +3,8 @@
 use glam::Vec3;
 use lightbvh::node::kind;
 use lightbvh::{
-    BuildParams, EmissiveTriangle, ImportanceModel, LightNode, Lights, ShadingPoint, Summary, exact,
+    BuildParams, CompactNode, EmissiveTriangle, ImportanceModel, LightNode, Lights, ShadingPoint, Summary,
+    exact,
 };
 use lightbvh_peers::{Falcor, Pbrt};
 use lightbvh_tests::each_layout;
