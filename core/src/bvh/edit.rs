@@ -31,8 +31,7 @@ macro_rules! id {
                 [self.tree, self.index, self.generation]
             }
 
-            /// The id that [`to_bits`](Self::to_bits) made words of. Any words give an id; one that no light BVH has given is
-            /// refused wherever it is used, as the id of what was removed is.
+            /// The inverse of [`to_bits`](Self::to_bits). Any words give an id; edits refuse an unknown or removed id.
             #[must_use]
             pub const fn from_bits([tree, index, generation]: [u32; 3]) -> Self {
                 Self {
@@ -54,8 +53,8 @@ id!(
     /// A mesh's place in the world; stays the same as long as the instance is in the scene, and never means another one.
     InstanceId,
     /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its triangles belong
-    /// to. Free for another one as soon as the instance is removed: over frames lights are told apart by ids, as this one, or
-    /// by their numbers (see [`Bvh::removed_lights`](super::Bvh::removed_lights)).
+    /// to. The index is reused as soon as the instance is removed. Identify lights over frames by ids, or by their numbers
+    /// (see [`Bvh::removed_lights`](super::Bvh::removed_lights)).
 );
 
 impl MeshId {

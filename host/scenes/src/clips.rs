@@ -154,7 +154,7 @@ mod tests {
         assert_eq!((shown(&data), data.warnings.len()), (vec![0, 2, 3, 4], 1));
         let said = "animations 1 \"walk\", 5 \"bob\" move what others do";
         assert!(data.warnings[0].starts_with(said), "{:?}", data.warnings);
-        // By names, the first of one name, then by places; what is named moves alone; named again it is the same.
+        // A name selects its first animation, a number its place. Only selected animations move. A repeated name changes nothing.
         for (words, places, warnings) in [
             ("walk", vec![1], 0),
             ("bob walk idle", vec![3, 1], 1),

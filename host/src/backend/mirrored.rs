@@ -55,8 +55,8 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
         Ok(self.tree.roots.read()?)
     }
 
-    /// The results of a kernel over `count` invocations. It takes the arrays of the tree and, by the names of its bindings,
-    /// `others`; what is named nowhere are its results.
+    /// The results of a kernel over `count` invocations. Bindings are matched by name with the tree's arrays and `others`;
+    /// the remaining binding holds the results.
     pub fn ask<T: Pod>(
         &self,
         kernel: &lightbvh_gpu::kernel::Kernel,

@@ -20,24 +20,6 @@ pub struct FloatControls {
     pub rounding_mode_rte_32: bool,
 }
 
-/// `NoContraction`.
-const NO_CONTRACTION: u32 = 42;
-
-/// The module without any decoration `NoContraction`, for measurements of what exactness costs: the driver may fuse and rearrange
-/// sums and products, so bits may differ from the CPU's. Everything else keeps its words and its order.
-///
-/// # Errors
-/// [`ModuleError`] if the words do not parse.
-pub fn contractible(words: &[u32]) -> Result<Vec<u32>, ModuleError> {
-    let mut patched = words.get(..HEADER).unwrap_or_default().to_vec();
-    for instruction in instructions(words)? {
-        if instruction.opcode != op::DECORATE || instruction.operands.get(1) != Some(&NO_CONTRACTION) {
-            patched.extend_from_slice(&words[instruction.range()]);
-        }
-    }
-    Ok(patched)
-}
-
 /// Capability and execution mode `SignedZeroInfNanPreserve`.
 const SIGNED_ZERO_INF_NAN_PRESERVE: [u32; 2] = [4466, 4461];
 /// Capability and execution mode `RoundingModeRTE`.
@@ -129,17 +111,6 @@ mod tests {
         expected.extend([head(4, 16), 4, 4461, 32, head(4, 16), 4, 4462, 32]);
         expected.extend(&words[14..]);
         assert_eq!(with_float_modes(&words, both).unwrap(), expected);
-    }
-
-    #[test]
-    fn contractible_drops_decorations_alone() {
-        let words = plain();
-        let mut decorated = words.clone();
-        decorated.extend([head(3, 71), 7, 42, head(4, 71), 8, 33, 0]);
-        let mut expected = words.clone();
-        expected.extend([head(4, 71), 8, 33, 0]);
-        assert_eq!(contractible(&decorated).unwrap(), expected);
-        assert!(contractible(&words[..4]).is_err());
     }
 
     #[test]

@@ -41,7 +41,7 @@ pub use table::{KERNELS, LIGHT_POINTS};
 #[doc(hidden)]
 pub use device::{REQUIRED_FEATURES, STORAGE_BUFFERS, without_vulkan_memory_model};
 #[doc(hidden)]
-pub use float_modes::{FloatControls, FloatEnvironment, contractible, with_float_modes};
+pub use float_modes::{FloatControls, FloatEnvironment, with_float_modes};
 #[doc(hidden)]
 pub use frame::Region;
 #[doc(hidden)]
