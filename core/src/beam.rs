@@ -130,13 +130,7 @@ impl Beam {
         if self.is_narrow() & instance.is_even() {
             let c = instance.vertex([self.c.x, self.c.y, self.c.z]);
             let c = vector(&c);
-            let off = rounding_at(instance.origin()) * BROUGHT_BACK;
-            let off = if off > rounding_at(c) * TWICE_BROUGHT_BACK {
-                off
-            } else {
-                0.0
-            };
-            let radius = self.radius * (instance.scale() * LONGER) + off;
+            let radius = self.radius * (instance.scale() * LONGER) + brought_back(instance, c);
             Self {
                 axis: instance.direction_to_world(self.axis),
                 cos_theta_e: self.cos_theta_e,
@@ -191,13 +185,26 @@ impl Union {
     }
 }
 
-/// What limits the light of a set besides its moments or bounds: which receivers take it, and where it goes.
+/// How far the rounding of a map may move a place that it brings back from far away to `c`, metres.
+#[inline(always)]
+fn brought_back(instance: &Instance, c: Vec3) -> f32 {
+    let off = rounding_at(instance.origin()) * BROUGHT_BACK;
+    if off > rounding_at(c) * TWICE_BROUGHT_BACK {
+        off
+    } else {
+        0.0
+    }
+}
+
+/// What limits the light of a set besides its moments or bounds: which receivers take it, where it goes, and how far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// The union of the masks of its lights that have flux.
     pub mask: u32,
     /// Where their light goes.
     pub beam: Beam,
+    /// Distance from the set's box from which on nothing arrives, metres; [`ENDLESS`](Self::ENDLESS) if there is none.
+    pub end: f32,
 }
 
 impl Limits {
@@ -205,6 +212,45 @@ impl Limits {
     pub const NONE: Self = Self {
         mask: 0,
         beam: Beam::ANYWHERE,
+        end: Self::ENDLESS,
+    };
+
+    /// The end of light that arrives anywhere, metres: beyond all lengths of this crate.
+    pub const ENDLESS: f32 = pow2(63);
+
+    /// The limits in the world of a set about `c` that `instance` puts there. Where its map is no similarity only masks are left.
+    #[inline(always)]
+    pub(crate) fn to_world(self, instance: &Instance, c: Vec3) -> Self {
+        // Ranges do not grow with a map.
+        let has_end = (self.end < Self::ENDLESS) & instance.is_even();
+        Self {
+            mask: self.mask,
+            beam: self.beam.to_world(instance),
+            end: if has_end {
+                self.end + brought_back(instance, c)
+            } else {
+                Self::ENDLESS
+            },
+        }
+    }
+}
+
+/// What is told of the space that a node lies in: the world, or that of an instance's mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Space {
+    /// How far a light may be, by the rounding of its place in the world, from where its place in this space says, in metres of this
+    /// space: 2^-21 of the instance's greatest coordinate. −1 where the map is no similarity within 2^-14: beams do not count there,
+    /// for angles differ.
+    pub slack: f32,
+    /// How many metres of this space a metre of the world is, rounded up: ranges are lengths of the world.
+    pub per_metre: f32,
+}
+
+impl Space {
+    /// The world itself.
+    pub const WORLD: Self = Self {
+        slack: 0.0,
+        per_metre: 1.0,
     };
 }
 
@@ -235,18 +281,19 @@ impl Instance {
         self.even_square().0 > 0.0
     }
 
-    /// How far a light may be, by the rounding of its place in the world, from where its place in the mesh's space says, in metres of that
-    /// space: 2^-21 of the origin's greatest coordinate. −1 where the map is no similarity within 2^-14, so that angles differ. What
-    /// [`ImportanceModel::weights_in`](crate::ImportanceModel::weights_in) is told.
+    /// What [`ImportanceModel::weights_in`](crate::ImportanceModel::weights_in) is told of the space of its mesh.
     #[inline(always)]
     #[must_use]
-    pub fn slack(&self) -> f32 {
+    pub fn space(&self) -> Space {
         let (squared, e) = self.even_square();
         let is_even = squared > 0.0;
         let length = exact::sqrt(if is_even { squared } else { 1.0 });
         let away = exact::div(rounding_at(self.origin()), length);
         let slack = exact::flush(away * pow2(-e), pow2(-100));
-        if is_even { slack } else { -1.0 }
+        Space {
+            slack: if is_even { slack } else { -1.0 },
+            per_metre: exact::div(LONGER, length) * pow2(-e),
+        }
     }
 }
 

@@ -59,7 +59,7 @@ impl ShadingPoint {
     }
 
     /// Whether sampling means anything here. Wider than [`checked`](Self::checked), up to [`MAX_REACH`].
-    fn is_within_reach(&self) -> bool {
+    pub(crate) fn is_within_reach(&self) -> bool {
         let mut within = self.has_sound_normal();
         for axis in 0..3 {
             within &= (-MAX_REACH..=MAX_REACH).contains(&self.p[axis]);
@@ -134,6 +134,12 @@ pub trait Receiver: Copy {
     /// Asserts in debug builds that sampling means anything here.
     #[doc(hidden)]
     fn assert_within_reach(&self) {}
+}
+
+impl AsRef<Self> for ShadingPoint {
+    fn as_ref(&self) -> &Self {
+        self
+    }
 }
 
 impl Receiver for ShadingPoint {

@@ -36,7 +36,8 @@ pub fn bottom<N: Node<W>, const W: usize>(nodes: &[N], triangles: &[N::Light], i
     let mut room = Room::<N::Light, W>::new();
     below(nodes, 0, triangles, &node, &mut room);
     node.set_lanes(&room.children);
-    node.set_limits(&limits_below(nodes, 0, triangles, &node, &room.children));
+    let limits = limits_below(nodes, 0, triangles, &node, &room.children);
+    node.set_limits(&limits, &room.children);
     node
 }
 
@@ -123,7 +124,7 @@ pub fn top<N: Node<W>, const W: usize>(
         limits[slot] = child.limits;
     }
     node.set_lanes(&children);
-    node.set_limits(&limits);
+    node.set_limits(&limits, &children);
     node
 }
 

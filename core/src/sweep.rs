@@ -64,7 +64,7 @@ fn one_by_one<N: Node<W>, const W: usize>(nodes: &mut [N], count: usize, first: 
                 refit::below(nodes, first, triangles, &nodes[index], &mut room);
                 let limits = refit::limits_below(nodes, first, triangles, &nodes[index], &room.children);
                 nodes[index].set_lanes(&room.children);
-                nodes[index].set_limits(&limits);
+                nodes[index].set_limits(&limits, &room.children);
             }
         },
     );

@@ -6,6 +6,7 @@ use std::marker::PhantomData;
 
 use arbitrary::{Result, Unstructured};
 use lightbvh::device::trail::max_levels;
+use lightbvh::importance::Space;
 use lightbvh::{
     CompactNode, Eq4, INVALID, ImportanceModel, Instance, LightNode, LightTree, MomentNode, Moments,
     SampledLight, ShadingPoint, TreeWords, refit,
@@ -23,7 +24,7 @@ struct Counting<I>(PhantomData<I>);
 impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W> for Counting<I> {
     const UNIFORM_HALVINGS: u32 = 2;
 
-    fn weights_in(node: &N, point: &ShadingPoint, _: f32) -> [f32; W] {
+    fn weights_in(node: &N, point: &ShadingPoint, _: Space) -> [f32; W] {
         NODES.set(NODES.get() + 1);
         I::weights(node, point)
     }

@@ -112,7 +112,7 @@ fn maps_that_are_uneven_are_known() {
             assert!(even.is_even(), "{scale}");
             // 2^-21 of the origin's greatest coordinate, in the mesh's lengths.
             let expected = 8.0 * 2.0_f64.powi(-21) / scale;
-            let found = f64::from(even.slack());
+            let found = f64::from(even.space().slack);
             assert!(
                 (found / expected - 1.0).abs() < 1e-4,
                 "{scale}: {found}, expected {expected}"
@@ -126,7 +126,7 @@ fn maps_that_are_uneven_are_known() {
                 for (lengths, by) in [(lengths, [0.0; 3]), ([1.0; 3], by)] {
                     let uneven = map(&mut random, scale, lengths, by).instance(1.0);
                     assert!(!uneven.is_even(), "{scale}: {lengths:?} {by:?}");
-                    assert_eq!(uneven.slack(), -1.0);
+                    assert_eq!(uneven.space().slack, -1.0);
                 }
             }
             // The third is as long as the first, the second is not, and both of the others are as the second.

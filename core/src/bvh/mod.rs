@@ -35,6 +35,7 @@ mod ranges;
 mod rebuilder;
 mod records;
 mod refit;
+mod sampled;
 mod serial;
 mod static_bvh;
 #[cfg(test)]
@@ -56,6 +57,7 @@ pub use follow::FollowError;
 pub use log::{Cursor, RefitPlan};
 #[cfg(feature = "std")]
 pub use rebuilder::{FrameStart, RebuildError, Rebuilder, RebuilderParams, Swap};
+pub use sampled::{Sampled, mis_weight};
 pub use serial::{FORMAT, ReadError};
 pub use static_bvh::StaticBvh;
 pub use validate::{Stats, Violation};

@@ -260,7 +260,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             limits[slot] = child.limits;
         }
         own.set_lanes(&lanes);
-        own.set_limits(&limits);
+        own.set_limits(&limits, &lanes);
         own
     }
 

@@ -1,7 +1,7 @@
 //! The paper's importance, Eq. 4.
 
 use super::sight::{LEAST_ALONG, MIN_DISTANCE_SQUARED, offset};
-use super::{ImportanceModel, Scaled, on_one_scale};
+use super::{ImportanceModel, Scaled, Space, on_one_scale};
 use crate::exact::{self, exponent, pow2, recip_rough, rsqrt_rough, significand};
 use crate::node::{BoundsNode, Cluster};
 use crate::point::ShadingPoint;
@@ -36,7 +36,7 @@ pub struct Eq4;
 
 impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W> for Eq4 {
     #[inline(always)]
-    fn weights_in(node: &N, point: &ShadingPoint, _: f32) -> [f32; W] {
+    fn weights_in(node: &N, point: &ShadingPoint, _: Space) -> [f32; W] {
         let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let cluster = node.cluster(slot);

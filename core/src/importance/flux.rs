@@ -1,7 +1,7 @@
 //! Flux over squared distance, and flux alone: without cosines.
 
 use super::sight::{MIN_DISTANCE_SQUARED, offset};
-use super::{ImportanceModel, Scaled, on_one_scale};
+use super::{ImportanceModel, Scaled, Space, on_one_scale};
 use crate::exact::{self, exponent, recip_rough, significand};
 use crate::node::Node;
 use crate::point::ShadingPoint;
@@ -15,7 +15,7 @@ pub struct FluxOverDistance;
 
 impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for FluxOverDistance {
     #[inline(always)]
-    fn weights_in(node: &N, point: &ShadingPoint, _: f32) -> [f32; W] {
+    fn weights_in(node: &N, point: &ShadingPoint, _: Space) -> [f32; W] {
         let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let summary = node.summary(slot);
@@ -37,7 +37,7 @@ pub struct Flux;
 
 impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for Flux {
     #[inline(always)]
-    fn weights_in(node: &N, _: &ShadingPoint, _: f32) -> [f32; W] {
+    fn weights_in(node: &N, _: &ShadingPoint, _: Space) -> [f32; W] {
         let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let phi = node.summary(slot).phi();

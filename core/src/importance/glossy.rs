@@ -4,8 +4,8 @@ use core::marker::PhantomData;
 
 use glam::Vec3;
 
-use super::ImportanceModel;
 use super::sight::{MIN_DISTANCE_SQUARED, offset};
+use super::{ImportanceModel, Space};
 use crate::exact::{self, pow2, recip, rsqrt};
 use crate::node::Node;
 use crate::point::GlossyPoint;
@@ -32,8 +32,8 @@ impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W,
     const IS_PARTIAL: bool = I::IS_PARTIAL;
 
     #[inline(always)]
-    fn weights_in(node: &N, receiver: &GlossyPoint, slack: f32) -> [f32; W] {
-        let mut weights = I::weights_in(node, &receiver.point, slack);
+    fn weights_in(node: &N, receiver: &GlossyPoint, space: Space) -> [f32; W] {
+        let mut weights = I::weights_in(node, &receiver.point, space);
         for slot in 0..W {
             let summary = node.summary(slot);
             let reflected = reflectance(summary.center(), summary.spread(), receiver);

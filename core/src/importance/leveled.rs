@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::ImportanceModel;
+use super::{ImportanceModel, Space};
 use crate::exact::{self, pow2};
 
 /// The importance `I`, with a least share: at each node every child that `I` gives weight has at least about 2^-`HALVINGS` of the weight of all.
@@ -24,8 +24,8 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
     const IS_PARTIAL: bool = I::IS_PARTIAL;
 
     #[inline(always)]
-    fn weights_in(node: &N, point: &P, slack: f32) -> [f32; W] {
-        let mut weights = I::weights_in(node, point, slack);
+    fn weights_in(node: &N, point: &P, space: Space) -> [f32; W] {
+        let mut weights = I::weights_in(node, point, space);
         let mut sum = 0.0;
         for slot in 0..W {
             sum += weights[slot];

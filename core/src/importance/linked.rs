@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::ImportanceModel;
+use super::{ImportanceModel, Space};
 use crate::exact::{self, exponent, pow2};
 use crate::node::Node;
 use crate::point::LinkedPoint;
@@ -75,8 +75,8 @@ impl<N: Node<W>, I: ImportanceModel<N, W, P>, P, const W: usize> ImportanceModel
     const IS_PARTIAL: bool = true;
 
     #[inline(always)]
-    fn weights_in(node: &N, receiver: &LinkedPoint<P>, slack: f32) -> [f32; W] {
-        let mut weights = I::weights_in(node, &receiver.point, slack);
+    fn weights_in(node: &N, receiver: &LinkedPoint<P>, space: Space) -> [f32; W] {
+        let mut weights = I::weights_in(node, &receiver.point, space);
         let mut greatest = 0.0;
         for slot in 0..W {
             let is_common = exact::mask_of(node.mask(slot) & receiver.mask != 0);

@@ -24,6 +24,7 @@ pub use moments::Moments;
 pub use subtended::Subtended;
 pub use transmissive::Transmissive;
 
+pub use crate::beam::Space;
 use crate::exact;
 #[doc(hidden)]
 pub use crate::node::Cluster;
@@ -50,15 +51,14 @@ pub trait ImportanceModel<N, const W: usize, P = ShadingPoint> {
     /// The weights of the children of `node` at `point`, a point in the node's space: each zero where the child has no flux,
     /// else positive and at most 2^120. Hostile words may give anything.
     ///
-    /// `slack` is [`Instance::slack`](crate::Instance::slack) of that space: how far, in its metres, the instance's own place may have moved
-    /// points and lights by rounding, which the beams of a [`SpotMomentNode`](crate::node::SpotMomentNode) allow for; below zero where its map is
-    /// no similarity, for angles differ from the world's there and beams do not count. 0 in the world. An importance made of others hands it on.
-    fn weights_in(node: &N, point: &P, slack: f32) -> [f32; W];
+    /// `space` is what the beams of a [`SpotMomentNode`](crate::node::SpotMomentNode) need to know of that space. An importance made of others
+    /// hands it on.
+    fn weights_in(node: &N, point: &P, space: Space) -> [f32; W];
 
     /// [`weights_in`](Self::weights_in) the world.
     #[inline(always)]
     fn weights(node: &N, point: &P) -> [f32; W] {
-        Self::weights_in(node, point, 0.0)
+        Self::weights_in(node, point, Space::WORLD)
     }
 
     /// The quotient that shares of uniform choice are computed by: correctly rounded, unless the importance takes the processor's own
@@ -96,8 +96,8 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
     };
 
     #[inline(always)]
-    fn weights_in(node: &N, point: &P, slack: f32) -> [f32; W] {
-        I::weights_in(node, point, slack)
+    fn weights_in(node: &N, point: &P, space: Space) -> [f32; W] {
+        I::weights_in(node, point, space)
     }
 
     #[inline(always)]

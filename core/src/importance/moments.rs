@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::{ExactMath, ImportanceModel, Math};
+use super::{ExactMath, ImportanceModel, Math, Space};
 use crate::node::MomentLayout;
 use crate::point::ShadingPoint;
 
@@ -17,8 +17,8 @@ pub struct Moments<M = ExactMath>(PhantomData<M>);
 
 impl<M: Math, N: MomentLayout<W>, const W: usize> ImportanceModel<N, W> for Moments<M> {
     #[inline(always)]
-    fn weights_in(node: &N, point: &ShadingPoint, slack: f32) -> [f32; W] {
-        node.moment_weights::<M>(point.position(), point.normal(), slack)
+    fn weights_in(node: &N, point: &ShadingPoint, space: Space) -> [f32; W] {
+        node.moment_weights::<M>(point.position(), point.normal(), space)
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@ mod line;
 
 use core::marker::PhantomData;
 
-use super::{Eq4, ExactMath, ImportanceModel, Math, Moments, Scaled, on_one_scale};
+use super::{Eq4, ExactMath, ImportanceModel, Math, Moments, Scaled, Space, on_one_scale};
 use crate::exact::{self, pow2, significand};
 use crate::moments::LEAST_LENGTH;
 use crate::node::{BoundsNode, MomentLayout};
@@ -47,7 +47,7 @@ impl<M: Math, N: MomentLayout<W>, const W: usize> ImportanceModel<N, W, RaySegme
     for Subtended<Moments<M>>
 {
     #[inline(always)]
-    fn weights_in(node: &N, segment: &RaySegment, _: f32) -> [f32; W] {
+    fn weights_in(node: &N, segment: &RaySegment, _: Space) -> [f32; W] {
         let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let set = node.summary(slot);
@@ -83,7 +83,7 @@ impl<M: Math, N: MomentLayout<W>, const W: usize> ImportanceModel<N, W, RaySegme
 
 impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W, RaySegment> for Subtended<Eq4> {
     #[inline(always)]
-    fn weights_in(node: &N, segment: &RaySegment, _: f32) -> [f32; W] {
+    fn weights_in(node: &N, segment: &RaySegment, _: Space) -> [f32; W] {
         let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
             let cluster = node.cluster(slot);

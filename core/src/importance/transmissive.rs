@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::ImportanceModel;
+use super::{ImportanceModel, Space};
 use crate::exact;
 use crate::point::TransmissivePoint;
 
@@ -23,9 +23,9 @@ impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W, Transmis
     const IS_PARTIAL: bool = I::IS_PARTIAL;
 
     #[inline(always)]
-    fn weights_in(node: &N, receiver: &TransmissivePoint, slack: f32) -> [f32; W] {
-        let front = I::weights_in(node, &receiver.point, slack);
-        let back = I::weights_in(node, &receiver.turned(), slack);
+    fn weights_in(node: &N, receiver: &TransmissivePoint, space: Space) -> [f32; W] {
+        let front = I::weights_in(node, &receiver.point, space);
+        let back = I::weights_in(node, &receiver.turned(), space);
         // The greater part counts as 1, so that no weight falls below the lesser of the two.
         let greater = exact::max(receiver.front, receiver.back);
         let receives = greater > 0.0;

@@ -41,7 +41,7 @@ impl Lamp for AnyLight {
             axis: narrow(normalize(wide(axis.into()))).to_array(),
             cos_inner: 0.9,
             cos_outer: 0.8,
-            range: 0.0,
+            range: 25.0,
             mesh: 0,
         }
         .into()

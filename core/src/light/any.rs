@@ -8,7 +8,7 @@ use super::{
     BoxLight, DiscLight, EmissiveTriangle, INVALID, LightPoint, PointLight, ProfileLight, RectangleLight,
     SphereLight, SpotLight, TWO_SIDED,
 };
-use crate::beam::Beam;
+use crate::beam::{Beam, Limits};
 use crate::bounds::{LightBounds, LightMoments};
 use crate::domain::DomainError;
 use crate::instance::Instance;
@@ -352,6 +352,17 @@ impl Light for AnyLight {
     }
 
     #[inline(always)]
+    fn end(&self) -> f32 {
+        if self.kind() == Self::POINT {
+            self.point().end()
+        } else if self.kind() == Self::SPOT {
+            self.spot().end()
+        } else {
+            Limits::ENDLESS
+        }
+    }
+
+    #[inline(always)]
     fn beam(&self) -> Beam {
         if self.kind() == Self::SPOT {
             self.spot().beam()
@@ -380,5 +391,9 @@ impl Light for AnyLight {
     #[inline(always)]
     fn point_for(&self, from: Vec3, uv: [f32; 2]) -> LightPoint {
         point_on(*self, from, uv)
+    }
+
+    fn point_at(&self, from: Vec3, p: Vec3) -> LightPoint {
+        by_kind!(self, own => own.point_at(from, p), PointLight::DARK.point_at(from, p))
     }
 }

@@ -79,6 +79,11 @@ macro_rules! linked {
             }
 
             #[inline(always)]
+            fn end(&self) -> f32 {
+                self.light.end()
+            }
+
+            #[inline(always)]
             fn beam(&self) -> Beam {
                 self.light.beam()
             }
@@ -101,6 +106,11 @@ macro_rules! linked {
             #[inline(always)]
             fn point_for(&self, from: Vec3, uv: [f32; 2]) -> LightPoint {
                 self.light.point_for(from, uv)
+            }
+
+            #[inline(always)]
+            fn point_at(&self, from: Vec3, p: Vec3) -> LightPoint {
+                self.light.point_at(from, p)
             }
         }
     };

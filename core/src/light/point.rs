@@ -48,27 +48,17 @@ impl LightPoint {
     #[inline(always)]
     #[must_use]
     pub fn irradiance(&self, receiver: &ShadingPoint) -> [f32; 3] {
-        let away = vector(&self.p) - receiver.position();
-        let e = greatest_exponent(away, -50);
-        let d = flush3(away * exact::pow2(-e), exact::pow2(-60));
-        let squared = exact::max(length_squared(d), exact::pow2(-60));
-        let per_distance = exact::rsqrt(squared);
+        let Seen {
+            d,
+            exponent: e,
+            squared,
+            per_distance,
+        } = self.seen_from(receiver.position());
         let n = receiver.normal();
         let in_volume = (n.x == 0.0) & (n.y == 0.0) & (n.z == 0.0);
         let incident = dot(d, n) * per_distance;
         let incident = if in_volume { 1.0 } else { exact::max(incident, 0.0) };
-        let own = vector(&self.normal);
-        let emitted = -(dot(d, own) * per_distance);
-        let emitted = if self.flags & TWO_SIDED != 0 {
-            exact::abs(emitted)
-        } else {
-            exact::max(emitted, 0.0)
-        };
-        let emitted = if self.flags & (Self::IS_POINT | Self::IS_VOLUME) != 0 {
-            1.0
-        } else {
-            emitted
-        };
+        let emitted = self.emitted(d, per_distance);
         let cosines = exact::flush(incident * emitted, exact::pow2(-40));
         let is_near = (squared < 0.25) | (self.density <= 0.0);
         let per_area = exact::div(
@@ -94,6 +84,79 @@ impl LightPoint {
             sent(self.radiance[1]),
             sent(self.radiance[2]),
         ]
+    }
+}
+
+/// What lies between a receiver and a point on a light.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seen {
+    /// From the receiver to the point, in units of 2^`exponent` metres, its squared length, and the inverse of its length.
+    pub d: Vec3,
+    pub exponent: i32,
+    pub squared: f32,
+    pub per_distance: f32,
+}
+
+impl LightPoint {
+    #[inline(always)]
+    pub(crate) fn seen_from(&self, from: Vec3) -> Seen {
+        let away = vector(&self.p) - from;
+        let exponent = greatest_exponent(away, -50);
+        let d = flush3(away * exact::pow2(-exponent), exact::pow2(-60));
+        let squared = exact::max(length_squared(d), exact::pow2(-60));
+        Seen {
+            d,
+            exponent,
+            squared,
+            per_distance: exact::rsqrt(squared),
+        }
+    }
+
+    /// The cosine at the light, or 1 where it has none.
+    #[inline(always)]
+    fn emitted(&self, d: Vec3, per_distance: f32) -> f32 {
+        let emitted = -(dot(d, vector(&self.normal)) * per_distance);
+        let emitted = if self.flags & TWO_SIDED != 0 {
+            exact::abs(emitted)
+        } else {
+            exact::max(emitted, 0.0)
+        };
+        if self.flags & (Self::IS_POINT | Self::IS_VOLUME) != 0 {
+            1.0
+        } else {
+            emitted
+        }
+    }
+
+    /// Density over solid angle, 1/sr, with which a receiver at `from` finds the point where its light is chosen with probability `pmf`: `pmf · density ·
+    /// d² / c` (pbrt-v4, section 6.5.4), at most 2^120. Zero where the light does not emit to there, and of lights that no ray meets: points, spots,
+    /// profiles and boxes.
+    #[inline(always)]
+    #[must_use]
+    pub fn density_seen(&self, from: Vec3, pmf: f32) -> f32 {
+        let seen = self.seen_from(from);
+        let cosine = exact::flush(self.emitted(seen.d, seen.per_distance), exact::pow2(-40));
+        let has_area = self.flags & (Self::IS_POINT | Self::IS_VOLUME) == 0;
+        let counts = has_area & (cosine > 0.0) & (self.density > 0.0) & (seen.squared >= 0.25);
+        let density = exact::max(self.density, exact::pow2(-120));
+        let value = exact::div(
+            seen.squared * exact::significand(density),
+            if counts { cosine } else { 1.0 },
+        );
+        let e = seen.exponent + seen.exponent + exact::exponent(density);
+        let e = if e > 75 {
+            75
+        } else if e < -75 {
+            -75
+        } else {
+            e
+        };
+        let found = exact::min(value * exact::pow2(e), MAX_DENSITY) * pmf;
+        if counts {
+            exact::flush(found, LEAST_SENT)
+        } else {
+            0.0
+        }
     }
 }
 

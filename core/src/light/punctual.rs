@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::record::{Each, Light, bounds, checked_axis, of_mesh_at_place, shining, towards};
 use super::{INVALID, LightPoint, MAX_COORDINATE, MIN_RADIANCE};
-use crate::beam::Beam;
+use crate::beam::{Beam, Limits};
 use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::Cone;
 use crate::domain::{DomainError, checked_emission, checked_place};
@@ -23,7 +23,7 @@ pub struct PointLight {
     /// Radiant intensity, W/sr, linear RGB; zero or from 2^-100 to 2^100.
     pub intensity: [f32; 3],
     /// Metres from which on nothing arrives, 2^-20 to 2^40: on the way intensity falls by 1 − (d / range)⁴ (glTF 2.0, `KHR_lights_punctual`, "Range Property"). 0 for a
-    /// light that arrives everywhere. Trees do not know it: a light out of range is chosen as if it were in it, for nothing.
+    /// light that arrives everywhere. Nodes with beams know it ([`SpotMomentNode`](crate::node::SpotMomentNode)).
     pub range: f32,
     /// Index of the mesh light that owns it.
     pub mesh: u32,
@@ -119,6 +119,12 @@ fn window(p: &[f32; 3], range: f32, from: Vec3) -> f32 {
     if has_range { left } else { 1.0 }
 }
 
+/// The [`Light::end`] of a light with this range.
+#[inline(always)]
+fn end(range: f32) -> f32 {
+    if range > 0.0 { range } else { Limits::ENDLESS }
+}
+
 /// A range that is one, 0 among them.
 fn checked_range(range: f32) -> Result<f32, DomainError> {
     // NaN is in no range.
@@ -169,6 +175,11 @@ impl Light for PointLight {
     #[inline(always)]
     fn has_flux(&self) -> bool {
         luminance_of(&self.intensity) > 0.0
+    }
+
+    #[inline(always)]
+    fn end(&self) -> f32 {
+        end(self.range)
     }
 
     #[inline(always)]
@@ -274,6 +285,11 @@ impl Light for SpotLight {
     #[inline(always)]
     fn has_flux(&self) -> bool {
         luminance_of(&self.intensity) > 0.0
+    }
+
+    #[inline(always)]
+    fn end(&self) -> f32 {
+        end(self.range)
     }
 
     #[inline(always)]

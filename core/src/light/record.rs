@@ -6,7 +6,7 @@ use bytemuck::Pod;
 use glam::Vec3;
 
 use super::{INVALID, LightPoint, MAX_RADIANCE, MIN_RADIANCE};
-use crate::beam::Beam;
+use crate::beam::{Beam, Limits};
 use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::Cone;
 use crate::domain::{DomainError, NORMAL_TOLERANCE};
@@ -61,6 +61,12 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     fn mask(&self) -> u32 {
         u32::MAX
     }
+    /// Distance from its box from which on nothing of it arrives, metres: [`Limits::ENDLESS`], unless it has a range. Read where nodes store
+    /// beams, by nothing else.
+    #[inline(always)]
+    fn end(&self) -> f32 {
+        Limits::ENDLESS
+    }
     /// Where its light goes: anywhere, unless it is a spot. Read where nodes store beams, by nothing else.
     #[inline(always)]
     fn beam(&self) -> Beam {
@@ -76,6 +82,14 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     /// A point on the light, from two numbers in [0, 1), for a receiver at `from`: none that cannot send light there, as far as the
     /// kind knows.
     fn point_for(&self, from: Vec3, uv: [f32; 2]) -> LightPoint;
+    /// The place `p` on the light, where a ray has met it, as [`point_for`](Self::point_for) finds places for a receiver at `from`.
+    #[inline(always)]
+    fn point_at(&self, from: Vec3, p: Vec3) -> LightPoint {
+        LightPoint {
+            p: [p.x, p.y, p.z],
+            ..self.point_for(from, [0.5; 2])
+        }
+    }
 }
 
 /// The lights of up to `W` slots.

@@ -156,6 +156,19 @@ impl Light for SphereLight {
             radiance: self.radiance,
         }
     }
+
+    #[inline(always)]
+    fn point_at(&self, from: Vec3, p: Vec3) -> LightPoint {
+        let away = p - vector(&self.p);
+        let e = greatest_exponent(away, exponent(self.radius));
+        let d = flush3(away * pow2(-e), pow2(-60));
+        let n = d * exact::rsqrt(exact::max(length_squared(d), pow2(-60)));
+        LightPoint {
+            p: [p.x, p.y, p.z],
+            normal: [n.x, n.y, n.z],
+            ..self.point_for(from, [0.5; 2])
+        }
+    }
 }
 
 /// Two unit vectors across a unit vector (T. Duff et al., "Building an orthonormal basis, revisited", JCGT 6(1), 2017).

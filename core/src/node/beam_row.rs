@@ -1,4 +1,6 @@
-//! The word that a node of moments stores of each child's [`Beam`], and what it makes of a weight.
+//! The two words that a node of moments stores of each child's limits, and what they make of a weight.
+//!
+//! One is its [end](Limits::end), metres beyond the box of its lights, as an `f32`; zero if there is none. The other is its [`Beam`].
 //!
 //! The directions of a beam are those within θ of the mean normal m as it is stored. The places of its lights lie within r of the
 //! centre c. So all light stays in the cone of the angle θ whose apex lies r / sin θ behind the centre.
@@ -11,13 +13,15 @@
 
 use glam::Vec3;
 
-use crate::beam::Beam;
+use super::codes::{EXTENT_RANGE, SQRT_2};
+use crate::beam::{Beam, Limits, Space, rounding_at};
 use crate::exact::{self, pow2};
 use crate::moments::LightMoments;
-use crate::vector::{flush3, length_squared};
+use crate::vector::{abs3, flush3, length_squared, max3};
 use crate::weight::{Lobe, Math, dot_by};
 
-/// A weight outside of the cone is this part of what it is without one: positive, for whatever the rounding of coordinates may put there.
+/// A weight outside of the cone, or beyond the end, is this part of what it is without: positive, for whatever the rounding of coordinates may put
+/// there.
 const OUTSIDE: f32 = pow2(-16);
 /// The exponent of the first code of a length, as a shifted code takes it.
 const LENGTH_BIAS: u32 = 101;
@@ -32,6 +36,15 @@ const GAIN_UNIT: f32 = 0.25;
 /// A slack that takes all points in, and the least that counts.
 const ALL_OF_SPACE: f32 = 256.0;
 const LEAST_SLACK: f32 = pow2(-60);
+/// A longer reach counts as this one, metres: all of space, at any scale.
+const MOST_REACH: f32 = pow2(80);
+/// What an end is rounded up by: more than the errors of what it is compared with.
+const LONGER: f32 = 1.001;
+/// A unit of the code of an extent, in breadths, and some of the code of a centre, in units of the frame.
+const EXTENT_CODE: f32 = EXTENT_RANGE * pow2(-6);
+const CENTER_CODES: f32 = pow2(-12);
+/// Lengths along an axis count as zero below this, in units of the scale: their squares are then normal numbers.
+const LEAST_AWAY: f32 = pow2(-30);
 /// What absorbs the rounding of a squared length, as `LEAST_DISTANCE` of the weights.
 const LEAST_SQUARED: f32 = pow2(-50);
 
@@ -92,16 +105,78 @@ pub(super) fn beam_of(word: u32, stored: &LightMoments, unit: f32) -> Beam {
     }
 }
 
-/// What the test of a cone allows for where rounding may have moved a point by `moved`, in units of the scale: with v from the apex, v·m − cos θ m |v|
-/// changes by twice as much at most.
+/// The word of light that ends `end` metres of the world beyond the box of `set`, of a child whose moments are stored as `stored` in a frame of
+/// which one unit is `unit` metres. Lengths of the two are not of one space, so a box that as stored does not hold all lights has no end.
 #[inline(always)]
-pub(super) fn cone_slack(moved: f32) -> f32 {
-    // Lengths are at most about 60, and what a device flushes is cut here.
-    exact::flush(exact::min(moved + moved, ALL_OF_SPACE), LEAST_SLACK)
+pub(super) fn end_word(end: f32, set: &LightMoments, stored: &LightMoments, unit: f32) -> u32 {
+    let needed = abs3(set.c - stored.c) + set.h;
+    let has = stored.h + widened(stored.across * SQRT_2, unit);
+    let is_in = (needed.x <= has.x) & (needed.y <= has.y) & (needed.z <= has.z);
+    let longer = end * LONGER;
+    if is_in & (longer < Limits::ENDLESS) {
+        longer.to_bits()
+    } else {
+        0
+    }
+}
+
+/// What the half extents of a stored box are widened by to hold what was stored: more than two units of the code of a centre, and one of that of
+/// an extent, for a child of this breadth in a frame of this unit.
+#[inline(always)]
+fn widened(breadth: f32, unit: f32) -> Vec3 {
+    let by = breadth * EXTENT_CODE + unit * CENTER_CODES;
+    Vec3::new(by, by, by)
+}
+
+/// What the tests of all children of a node allow a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Near {
+    /// Where rounding may have moved it by s, in units of the scale: 2 s. With v from the apex, v·m − cos θ m |v| changes by as much at most.
+    pub slack: f32,
+    /// A metre of the world in metres of the space, and one of these in units of the scale.
+    per_world: f32,
+    per_metre: f32,
+}
+
+impl Near {
+    /// Of a point at `p` where a metre is `per_metre` units of the scale.
+    #[inline(always)]
+    pub fn new(p: Vec3, space: &Space, per_metre: f32) -> Self {
+        let moved = (space.slack + rounding_at(p)) * per_metre;
+        // Lengths are at most about 60, and what a device flushes is cut here.
+        Self {
+            slack: exact::flush(exact::min(moved + moved, ALL_OF_SPACE), LEAST_SLACK),
+            per_world: space.per_metre,
+            per_metre,
+        }
+    }
+
+    /// The part of its light that a child with this end sends to the point: `h` are the half extents of its box in breadths, and a unit of the
+    /// frame is `unit` of the scale. Of the windows 1 − (d / end)⁴ of the nearest and the farthest of the box and of its centre, the square of the mean:
+    /// most ends are nearer than the farthest, which is known. `docs/walk.md` has what was measured.
+    #[inline(always)]
+    pub fn within<M: Math>(&self, end: u32, lobe: &Lobe, h: Vec3, unit: f32) -> f32 {
+        let (x, h) = (abs3(lobe.x), h * lobe.breadth + widened(lobe.breadth, unit));
+        let nearest = length_squared(flush3(max3(x - h, Vec3::new(0.0, 0.0, 0.0)), LEAST_AWAY));
+        let reached = exact::min(f32::from_bits(end) * self.per_world, MOST_REACH) * self.per_metre;
+        let most = exact::min(reached + self.slack, ALL_OF_SPACE);
+        let per_square = M::recip(most * most + LEAST_SQUARED);
+        let window = |squared: f32| {
+            let q = exact::min(squared * per_square, 1.0);
+            1.0 - q * q
+        };
+        let ends = window(nearest) + window(length_squared(x + h));
+        let mean = 0.25 * ends + 0.5 * window(length_squared(x));
+        if end == 0 {
+            1.0
+        } else {
+            exact::max(mean * mean, OUTSIDE)
+        }
+    }
 }
 
 /// The factor on the weight of a child with this word and these moments, its mean normal in units of which one is `m_unit`; lengths are in
-/// units of the scale, of which one of the frame has `unit`; a point counts as in the cone by [`cone_slack`] `slack`.
+/// units of the scale, of which one of the frame has `unit`; a point counts as in the cone by [`Near::slack`] `slack`.
 #[inline(always)]
 pub(super) fn beam_factor<M: Math>(word: u32, lobe: &Lobe, m_unit: f32, unit: f32, slack: f32) -> f32 {
     let (x, m) = (lobe.x, lobe.m);

@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::{BoundsNode, Cluster, Holds, MomentLayout, Node};
-use crate::beam::{Beam, Limits};
+use crate::beam::{Beam, Limits, Space};
 use crate::light::Light;
 use crate::summary::Lanes;
 use crate::weight::Math;
@@ -76,8 +76,13 @@ impl<N: Node<W>, L: Light, const W: usize> Node<W> for Lit<N, L> {
     }
 
     #[inline(always)]
-    fn set_limits(&mut self, limits: &[Limits; W]) {
-        self.node.set_limits(limits);
+    fn end(&self, slot: usize) -> f32 {
+        self.node.end(slot)
+    }
+
+    #[inline(always)]
+    fn set_limits(&mut self, limits: &[Limits; W], summaries: &Lanes<W>) {
+        self.node.set_limits(limits, summaries);
     }
 
     #[inline(always)]
@@ -93,8 +98,8 @@ impl<N: Node<W>, L: Light, const W: usize> Node<W> for Lit<N, L> {
 
 impl<N: MomentLayout<W>, L: Light, const W: usize> MomentLayout<W> for Lit<N, L> {
     #[inline(always)]
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, slack: f32) -> [f32; W] {
-        self.node.moment_weights::<M>(p, n, slack)
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, space: Space) -> [f32; W] {
+        self.node.moment_weights::<M>(p, n, space)
     }
 }
 

@@ -18,6 +18,7 @@ pub use moment::{
 use bytemuck::Pod;
 use glam::Vec3;
 
+use crate::beam::Space;
 #[doc(hidden)]
 pub use crate::beam::{Beam, Limits};
 pub use crate::bounds::LightBounds;
@@ -32,7 +33,7 @@ use crate::weight::Math;
 pub type DefaultNode = MomentNode<8>;
 
 /// Version of the node layouts' words; raised whenever a layout changes.
-pub const NODE_FORMAT: u32 = 2;
+pub const NODE_FORMAT: u32 = 3;
 
 /// What a child's link leads to.
 pub mod kind {
@@ -93,10 +94,10 @@ pub trait Node<const W: usize>: Holds {
         Beam::ANYWHERE
     }
 
-    /// Sets masks and beams of all children, after their summaries: a child without flux has none. Does nothing where the layout stores
-    /// neither.
+    /// Sets the limits of all children, after their summaries, which are `summaries`: a child without flux has none. Does nothing where the
+    /// layout stores none.
     #[inline(always)]
-    fn set_limits(&mut self, _limits: &[Limits; W]) {}
+    fn set_limits(&mut self, _limits: &[Limits; W], _summaries: &Lanes<W>) {}
 
     /// The union of the masks of all children.
     #[inline(always)]
@@ -108,7 +109,14 @@ pub trait Node<const W: usize>: Holds {
         all
     }
 
-    /// The masks and beams of all children together; `whole` is what is [`merged`](Self::merged) of them.
+    /// Distance from the child's box, as it is stored, from which on nothing of its light arrives, metres; [`Limits::ENDLESS`] where there is
+    /// none, or the layout stores no beams.
+    #[inline(always)]
+    fn end(&self, _slot: usize) -> f32 {
+        Limits::ENDLESS
+    }
+
+    /// The limits of all children together; `whole` is what is [`merged`](Self::merged) of them.
     #[inline(always)]
     fn merged_limits(&self, _whole: &Self::Summary) -> Limits {
         Limits::NONE
@@ -169,6 +177,6 @@ pub trait BoundsNode<const W: usize>: Node<W, Summary = LightBounds> {
 #[doc(hidden)]
 pub trait MomentLayout<const W: usize>: Node<W, Summary = LightMoments> {
     /// The weights of the children at the point `p` with the normal `n`, in the node's space, by the operations `M`; see
-    /// [`ImportanceModel::weights`](crate::ImportanceModel::weights). `slack` is [`Instance::slack`](crate::Instance::slack).
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, slack: f32) -> [f32; W];
+    /// [`ImportanceModel::weights`](crate::ImportanceModel::weights). `space` is [`Instance::space`](crate::Instance::space).
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, space: Space) -> [f32; W];
 }

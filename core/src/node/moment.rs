@@ -1,17 +1,17 @@
-//! The default layout: quantised moments, 24 bytes per child; the same for lights that shine from both sides, 20 bytes; with masks, or with
-//! beams, 28 bytes; with both, 32 bytes.
+//! The default layout: quantised moments, 24 bytes per child; the same for lights that shine from both sides, 20 bytes; with masks, 28 bytes; with
+//! beams, 32 bytes; with both, 36 bytes.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::beam_row::{beam_factor, beam_of, beam_word, cone_slack};
+use super::beam_row::{Near, beam_factor, beam_of, beam_word, end_word};
 use super::codes::{
     BREADTH_MASK, BREADTH_SHIFT, EXTENT_RANGE, PER_EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_2,
     SQRT_HALF, WORD_UNIT, breadth_bias, breadth_code, breadth_value, field, fraction, frame_of, phi_code,
     phi_value, spread_code,
 };
 use super::{Holds, MomentLayout, Node};
-use crate::beam::{Beam, Limits, Union, rounding_at};
+use crate::beam::{Beam, Limits, Space, Union};
 use crate::exact::{self, pow2};
 use crate::light::EmissiveTriangle;
 use crate::moments::{Frame, Framed, LEAST_LENGTH, LightMoments, row};
@@ -21,17 +21,17 @@ use crate::vector::{abs3, flush3};
 use crate::weight::{Lobe, Math, dot_by, frame, side, weight};
 
 /// Words of a node: row 0 is the header (origin x, y, z, exponents), the others hold a word of each child. After the first ones come its
-/// box and its link; a row of normals stands before them, a row of beams and one of masks after them, where there is one.
+/// box and its link; a row of normals stands before them, two rows of beams and one of masks after them, where there are any.
 const WORD_0: usize = 1;
 const WORD_1: usize = 2;
 const WORD_2: usize = 3;
-/// Rows with normals, without, and with normals and masks; a row of beams comes on top of them.
+/// Rows with normals, without, and with normals and masks; two rows of beams come on top of them.
 const ORIENTED: usize = 6;
 const TWO_SIDED: usize = 5;
 const LINKED: usize = 7;
 /// Rows with normals and beams, and with normals, beams, and masks.
-const SPOT: usize = ORIENTED + 1;
-const LINKED_SPOT: usize = LINKED + 1;
+const SPOT: usize = ORIENTED + 2;
+const LINKED_SPOT: usize = LINKED + 2;
 /// What the row of normals holds for a mean normal of zero: all fields at their nearest, the spread at its greatest.
 const NO_NORMAL: u32 = !0;
 
@@ -56,21 +56,21 @@ pub type TwoSidedMomentNode<const W: usize> = PackedMomentNode<W, TWO_SIDED>;
 /// `Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Moments>, 8>` is a tree over [`LinkedTriangle`](crate::light::LinkedTriangle)s.
 pub type LinkedMomentNode<const W: usize> = PackedMomentNode<W, LINKED>;
 
-/// A node of 28 bytes per child for scenes with spots: the words of [`MomentNode`], and a cone that holds all light of the child
-/// ([`Light::beam`](crate::light::Light::beam)). A child whose cone a point lies outside of counts for 2^-16 of what it would; one whose cone it
-/// lies in for as much more as its light is gathered. Of lights that are no spots, nor sets of spots that point about the same way, nothing is
-/// stored, and weights are those of [`MomentNode`], to the bit.
+/// A node of 32 bytes per child for scenes with spots and ranges: the words of [`MomentNode`], a cone that holds all light of the child
+/// ([`Light::beam`](crate::light::Light::beam)), and how far from its box it ends ([`Light::end`](crate::light::Light::end)). A child whose cone or end a point lies outside of counts for 2^-16 of what it would; one
+/// whose cone it lies in for as much more as its light is gathered. Of lights without a range that are no spots, nor sets of spots that point about
+/// the same way, nothing is stored, and weights are those of [`MomentNode`], to the bit.
 ///
 /// `Bvh<Lit<SpotMomentNode<8>, SpotLight>, DefaultImportance, 8>` is a tree over [`SpotLight`](crate::light::SpotLight)s.
 ///
-/// Cones count in instances whose maps are similarities alone, for others change angles.
+/// They count in instances whose maps are similarities alone, for others change angles.
 pub type SpotMomentNode<const W: usize> = PackedMomentNode<W, SPOT, true>;
 
-/// [`SpotMomentNode`] with the masks of [`LinkedMomentNode`], 32 bytes per child.
+/// [`SpotMomentNode`] with the masks of [`LinkedMomentNode`], 36 bytes per child.
 pub type LinkedSpotMomentNode<const W: usize> = PackedMomentNode<W, LINKED_SPOT, true>;
 
 /// What [`MomentNode`] (`ROWS` is 6), [`TwoSidedMomentNode`] (5, without word 2), [`LinkedMomentNode`] (7, with masks) are; with
-/// `BEAMS` [`SpotMomentNode`] (7) and [`LinkedSpotMomentNode`] (8). `W` is at least 4.
+/// `BEAMS` [`SpotMomentNode`] (8) and [`LinkedSpotMomentNode`] (9). `W` is at least 4.
 ///
 /// | word | content |
 /// |---|---|
@@ -81,7 +81,8 @@ pub type LinkedSpotMomentNode<const W: usize> = PackedMomentNode<W, LINKED_SPOT,
 /// | 3 | half extents 3 × 8, breadth (√2 times the deviation across) 8 |
 /// | 4 | link |
 /// | 5 | beam: squared cosine 16, place of the apex 8, gain 8 |
-/// | 6 | mask |
+/// | 6 | end, metres, f32; 0 without one |
+/// | 7 | mask |
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 pub struct PackedMomentNode<const W: usize, const ROWS: usize, const BEAMS: bool = false>([[u32; W]; ROWS]);
@@ -96,8 +97,9 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> PackedMomentNode<W, R
     };
     /// The last row, which is that of masks where there is one.
     const MASK: usize = ROWS - 1;
-    /// The row of beams, where there is one.
-    const BEAM: usize = if ROWS == LINKED_SPOT { ROWS - 2 } else { ROWS - 1 };
+    /// The rows of beams, where there are any.
+    const BEAM: usize = if BEAMS { Self::LINK + 1 } else { Self::LINK };
+    const END: usize = if BEAMS { Self::LINK + 2 } else { Self::LINK };
 
     /// Word 2 of a child with flux; where no normals are stored, that of none.
     #[inline(always)]
@@ -226,7 +228,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
             } else {
                 ROWS == ORIENTED || ROWS == TWO_SIDED || ROWS == LINKED
             },
-            "a packed node of moments has six rows, five without normals, or seven with masks; with beams seven, or eight with masks"
+            "a packed node of moments has six rows, five without normals, or seven with masks; with beams eight, or nine with masks"
         );
         Self([[0; W]; ROWS])
     };
@@ -300,7 +302,16 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
     }
 
     #[inline(always)]
-    fn set_limits(&mut self, limits: &[Limits; W]) {
+    fn end(&self, slot: usize) -> f32 {
+        if BEAMS && self.0[Self::END][slot] != 0 {
+            f32::from_bits(self.0[Self::END][slot])
+        } else {
+            Limits::ENDLESS
+        }
+    }
+
+    #[inline(always)]
+    fn set_limits(&mut self, limits: &[Limits; W], summaries: &Lanes<W>) {
         if Self::HAS_MASK_ROW {
             each!(slot, W, {
                 let shines = exact::mask(self.0[WORD_1][slot] & PHI_MASK);
@@ -308,15 +319,20 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
             });
         }
         if BEAMS {
-            let per_unit = pow2(-self.unit_exponent());
+            let (unit, per_unit) = (pow2(self.unit_exponent()), pow2(-self.unit_exponent()));
             // Beams are long: a loop, also in kernels.
             for slot in 0..W {
-                let mut word = 0;
+                let (mut cone, mut end) = (0, 0);
+                let (beam, shines) = (&limits[slot].beam, self.0[WORD_1][slot] & PHI_MASK != 0);
                 // Most lights are no spots, and most nodes above are of spots that point anywhere.
-                if limits[slot].beam.is_narrow() && self.0[WORD_1][slot] & PHI_MASK != 0 {
-                    word = beam_word(&limits[slot].beam, &self.summary(slot), per_unit);
+                if beam.is_narrow() && shines {
+                    cone = beam_word(beam, &self.summary(slot), per_unit);
                 }
-                self.0[Self::BEAM][slot] = word;
+                if limits[slot].end < Limits::ENDLESS && shines {
+                    end = end_word(limits[slot].end, &summaries.get(slot), &self.summary(slot), unit);
+                }
+                self.0[Self::BEAM][slot] = cone;
+                self.0[Self::END][slot] = end;
             }
         }
     }
@@ -329,10 +345,12 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
         }
         if BEAMS {
             let shines = |slot: usize| self.0[WORD_1][slot] & PHI_MASK != 0;
-            let mut are_narrow = true;
+            let (mut are_narrow, mut end) = (true, 0.0);
             each!(slot, W, {
                 are_narrow &= !shines(slot) | (self.0[Self::BEAM][slot] != 0);
+                end = exact::max(end, if shines(slot) { self.end(slot) } else { 0.0 });
             });
+            all.end = if end > 0.0 { end } else { Limits::ENDLESS };
             if are_narrow {
                 let mut merged = Union::about(whole.m, whole.c, self.unit_exponent());
                 for slot in 0..W {
@@ -373,7 +391,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> MomentLayout<W>
     for PackedMomentNode<W, ROWS, BEAMS>
 {
     #[inline(always)]
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, slack: f32) -> [f32; W] {
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, space: Space) -> [f32; W] {
         let frame = frame(self.origin(), self.unit_exponent(), p);
         let side = side(n, WORD_UNIT);
         let word_unit = frame.unit * WORD_UNIT;
@@ -381,11 +399,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> MomentLayout<W>
         let up = abs3(n) * (2.0 * EXTENT_RANGE);
         let up_sum = (up.x + up.y) + up.z;
         let up = up * WORD_UNIT;
-        let cone_slack = if BEAMS {
-            cone_slack((slack + rounding_at(p)) * frame.per_metre)
-        } else {
-            0.0
-        };
+        let near = Near::new(p, &space, frame.per_metre);
         let mut weights = [0.0; W];
         for i in 0..W {
             let (w0, w1, w2, w3) = (
@@ -410,9 +424,12 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> MomentLayout<W>
             };
             weights[i] = weight::<M>(&lobe, &side);
             if BEAMS {
-                let factor =
-                    beam_factor::<M>(self.0[Self::BEAM][i], &lobe, WORD_UNIT, frame.unit, cone_slack);
-                weights[i] *= if slack >= 0.0 { factor } else { 1.0 };
+                let mut factor =
+                    beam_factor::<M>(self.0[Self::BEAM][i], &lobe, WORD_UNIT, frame.unit, near.slack);
+                let h = Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16)) * WORD_UNIT
+                    + Vec3::new(1.0, 1.0, 1.0);
+                factor *= near.within::<M>(self.0[Self::END][i], &lobe, h * EXTENT_RANGE, frame.unit);
+                weights[i] *= if space.slack >= 0.0 { factor } else { 1.0 };
             }
         }
         weights

@@ -65,6 +65,12 @@ impl GlossyPoint {
     }
 }
 
+impl AsRef<ShadingPoint> for GlossyPoint {
+    fn as_ref(&self) -> &ShadingPoint {
+        &self.point
+    }
+}
+
 impl Receiver for GlossyPoint {
     /// The mirror direction as a difference of points: under a map that bends angles the lobe is another, which costs variance.
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! A receiver that some lights light alone.
 
-use super::Receiver;
+use super::{Receiver, ShadingPoint};
 use crate::instance::Instance;
 
 /// A receiver with a mask, for [`Linked`](crate::importance::Linked): lit by the lights of which the mask has a bit
@@ -11,6 +11,12 @@ pub struct LinkedPoint<P> {
     pub point: P,
     /// Its bits. With 0 no light lights it.
     pub mask: u32,
+}
+
+impl<P: AsRef<ShadingPoint>> AsRef<ShadingPoint> for LinkedPoint<P> {
+    fn as_ref(&self) -> &ShadingPoint {
+        self.point.as_ref()
+    }
 }
 
 impl<P: Receiver> Receiver for LinkedPoint<P> {

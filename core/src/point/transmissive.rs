@@ -56,6 +56,12 @@ impl TransmissivePoint {
 /// Least part that is not zero.
 const LEAST_PART: f32 = exact::pow2(-20);
 
+impl AsRef<ShadingPoint> for TransmissivePoint {
+    fn as_ref(&self) -> &ShadingPoint {
+        &self.point
+    }
+}
+
 impl Receiver for TransmissivePoint {
     /// A map keeps what is in front in front, one that mirrors too.
     #[inline(always)]

@@ -16,8 +16,8 @@ use crate::unroll::each;
 
 /// Rows of [`Children`] of layouts without limits: those of a summary in full.
 pub const PLAIN_ROWS: usize = SUMMARY_WORDS;
-/// Rows of [`Children`] of layouts with masks or beams: those of a summary, the mask, the beam (axis, cos θ_e, centre, radius).
-pub const LIMITED_ROWS: usize = SUMMARY_WORDS + 9;
+/// Rows of [`Children`] of layouts with masks or beams: those of a summary, the mask, the beam (axis, cos θ_e, centre, radius), the end.
+pub const LIMITED_ROWS: usize = SUMMARY_WORDS + 10;
 
 /// The children of one node, a row for each word and in it one for each child, so that neighbours write side by side. `ROWS` is
 /// [`child_rows`] of the layout.
@@ -40,6 +40,7 @@ const AXIS: usize = MASK + 1;
 const COS_THETA_E: usize = AXIS + 3;
 const C: usize = COS_THETA_E + 1;
 const RADIUS: usize = C + 3;
+const END: usize = RADIUS + 1;
 
 /// What a refit computes of one child.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +83,7 @@ impl<S: Summary> Child<S> {
                 children[place][(C + 1) % ROWS][slot] = beam.c.y.to_bits();
                 children[place][(C + 2) % ROWS][slot] = beam.c.z.to_bits();
                 children[place][RADIUS % ROWS][slot] = beam.radius.to_bits();
+                children[place][END % ROWS][slot] = self.limits.end.to_bits();
             }
         }
     }
@@ -151,7 +153,7 @@ pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
             }
             child.summary = local.summary::<N::Summary>().to_world::<N::Light>(instance);
             if has_limits::<N, W>() {
-                child.limits = limits_of_instance(nodes, &local, instance);
+                child.limits = limits_of_instance(nodes, &local, instance, &child.summary);
             }
         }
     }
@@ -194,7 +196,7 @@ pub fn assembled<N: Node<W>, const W: usize, const ROWS: usize>(
             each!(slot, W, {
                 limits[slot] = limits_at(words, slot);
             });
-            node.set_limits(&limits);
+            node.set_limits(&limits, &lanes);
         }
     }
     node
@@ -210,6 +212,7 @@ fn limits_at<const W: usize, const ROWS: usize>(words: &Children<W, ROWS>, slot:
             c: vector_at(words, C, slot),
             radius: f32::from_bits(words[RADIUS % ROWS][slot]),
         },
+        end: f32::from_bits(words[END % ROWS][slot]),
     }
 }
 

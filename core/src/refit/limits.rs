@@ -8,7 +8,7 @@ use crate::beam::{Beam, Limits};
 use crate::instance::Instance;
 use crate::light::Light;
 use crate::node::{Node, kind};
-use crate::summary::Lanes;
+use crate::summary::{Lanes, Summary};
 
 /// Whether layout `N` stores any.
 #[inline(always)]
@@ -51,26 +51,29 @@ pub(super) fn limits_of_light<N: Node<W>, const W: usize>(light: &N::Light) -> L
         } else {
             Beam::ANYWHERE
         },
+        end: if N::HAS_BEAMS {
+            light.end()
+        } else {
+            Limits::ENDLESS
+        },
     }
 }
 
-/// The limits of a bottom level that `instance` puts into the world. They stand in the node of the root alone, so that the records of roots are
+/// The limits of a bottom level that `instance` puts into the world, where it is `world`. They stand in the node of the root alone, so that the records of roots are
 /// the same without limits.
 #[inline(always)]
 pub(crate) fn limits_of_instance<N: Node<W>, const W: usize>(
     nodes: &[N],
     root: &BlasRoot,
     instance: &Instance,
+    world: &N::Summary,
 ) -> Limits {
     if root.node < nodes.len() as u32 {
         let own = nodes[root.node as usize].merged_limits(&root.summary());
-        Limits {
-            beam: if N::HAS_BEAMS {
-                own.beam.to_world(instance)
-            } else {
-                own.beam
-            },
-            ..own
+        if N::HAS_BEAMS {
+            own.to_world(instance, world.center())
+        } else {
+            own
         }
     } else {
         Limits::NONE

@@ -135,7 +135,7 @@ fn in_rows<
         for group in &groups[..open] {
             let walk = &group.started.walk;
             let node = walk.node(tree);
-            let shares = Shares::<ROWS>::of(&I::weights_in(node, &walk.point, walk.slack), walk.range);
+            let shares = Shares::<ROWS>::of(&I::weights_in(node, &walk.point, walk.space), walk.range);
             let end = group.first + group.count;
             let mut k = group.first;
             let of = |number| shares.of_child::<W>(leading(number), walk.follow, walk.wanted::<W>());

@@ -6,7 +6,7 @@ use core::cell::Cell;
 use core::marker::PhantomData;
 
 use super::*;
-use crate::importance::{Defensive, ImportanceModel};
+use crate::importance::{Defensive, ImportanceModel, Space};
 use crate::instance::Instance;
 use crate::node::{MomentNode, kind};
 use crate::point::ShadingPoint;
@@ -29,7 +29,7 @@ std::thread_local! {
 struct Flux;
 
 impl ImportanceModel<Node, 4> for Flux {
-    fn weights_in(node: &Node, _: &ShadingPoint, _: f32) -> [f32; 4] {
+    fn weights_in(node: &Node, _: &ShadingPoint, _: Space) -> [f32; 4] {
         let calls = NODES.get() + 1;
         NODES.set(calls);
         assert!(calls < 1000, "the walk does not end");

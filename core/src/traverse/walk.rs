@@ -1,5 +1,6 @@
 //! One walk from the root to a light, chosen by a number or along a known path.
 
+use crate::beam::Space;
 use crate::choose::{FULL, FULL_BITS, Share, choose};
 use crate::exact;
 use crate::importance::ImportanceModel;
@@ -38,8 +39,8 @@ pub(super) struct Walk<P = ShadingPoint> {
     halvings: u32,
     /// The point in the space of the node.
     pub point: P,
-    /// What the layout is told where it asks: [`Instance::slack`].
-    pub slack: f32,
+    /// What the layout is told of the space of the node.
+    pub space: Space,
     steps: u32,
 }
 
@@ -66,7 +67,7 @@ impl<P: Receiver> Walk<P> {
             range: FULL,
             halvings: 0,
             point: *point,
-            slack: 0.0,
+            space: Space::WORLD,
             steps: tree.depth,
         };
         walk.narrow(taken, FULL - taken);
@@ -81,7 +82,7 @@ impl<P: Receiver> Walk<P> {
         world: &P,
     ) {
         let node = self.node(tree);
-        let weights = I::weights_in(node, &self.point, self.slack);
+        let weights = I::weights_in(node, &self.point, self.space);
         let share = choose(
             &weights,
             self.range,
@@ -164,7 +165,7 @@ impl<P: Receiver> Walk<P> {
             }
             self.point = world.to_local(instance);
             if N::HAS_BEAMS {
-                self.slack = instance.slack();
+                self.space = instance.space();
             }
         } else {
             let below = link.wrapping_add(if is_above { tree.first } else { 0 });

@@ -12,6 +12,7 @@ mod linked;
 #[path = "../../src/kit/numbers.rs"]
 #[allow(dead_code, reason = "shared with the tests of core")]
 mod numbers;
+mod one_call;
 mod receivers;
 mod smaller;
 mod spots;

@@ -4,7 +4,7 @@
 use glam::Vec3;
 use lightbvh::exact::{self, hash, pow2};
 use lightbvh::importance::{
-    Flux, Glossy, ImportanceModel, RaySegment, Receiver, Subtended, Transmissive, TransmissivePoint,
+    Flux, Glossy, ImportanceModel, RaySegment, Receiver, Space, Subtended, Transmissive, TransmissivePoint,
 };
 use lightbvh::node::kind;
 use lightbvh::{
@@ -116,7 +116,7 @@ fn glossy_factors_are_their_formula() {
 struct Extremes;
 
 impl<N> ImportanceModel<N, 4> for Extremes {
-    fn weights_in(_: &N, _: &ShadingPoint, _: f32) -> [f32; 4] {
+    fn weights_in(_: &N, _: &ShadingPoint, _: Space) -> [f32; 4] {
         [exact::pow2(120), exact::pow2(-120), f32::MIN_POSITIVE, 0.0]
     }
 }

@@ -4,7 +4,7 @@ use core::array;
 
 use lightbvh::ShadingPoint;
 use lightbvh::exact;
-use lightbvh::importance::{ImportanceModel, on_one_scale};
+use lightbvh::importance::{ImportanceModel, Space, on_one_scale};
 use lightbvh::node::BoundsNode;
 
 use crate::sight::{FLOOR, Sight, dot, in_volume, over_distance, root};
@@ -28,7 +28,7 @@ pub struct Pbrt;
 
 impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W> for Pbrt {
     #[inline(always)]
-    fn weights_in(node: &N, point: &ShadingPoint, _: f32) -> [f32; W] {
+    fn weights_in(node: &N, point: &ShadingPoint, _: Space) -> [f32; W] {
         let n = point.normal();
         on_one_scale(&array::from_fn(|slot| {
             let cluster = node.cluster(slot);

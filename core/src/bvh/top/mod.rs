@@ -316,7 +316,7 @@ impl<N> Top<N> {
         }
         let own = &mut self.nodes[node as usize];
         own.set_lanes(&lanes);
-        own.set_limits(&limits);
+        own.set_limits(&limits, &lanes);
         let merged = own.merged();
         let cluster = Cluster::new(&merged);
         let words = merged.to_words();

@@ -1,10 +1,11 @@
 //! Weights of which masks leave some.
 
-use crate::beam::{Beam, Limits};
+use crate::beam::Limits;
 use crate::choose::{FULL, choose};
-use crate::importance::{ImportanceModel, Linked};
+use crate::importance::{ImportanceModel, Linked, Space};
 use crate::node::{LinkedMomentNode, Node};
 use crate::point::{LinkedPoint, ShadingPoint};
+use crate::summary::Lanes;
 use crate::{LightMoments, exact};
 
 /// The least and the greatest that an importance may give.
@@ -13,7 +14,7 @@ struct Extremes;
 const WEIGHTS: [f32; 4] = [exact::pow2(120), exact::pow2(-120), f32::MIN_POSITIVE, 0.0];
 
 impl<N> ImportanceModel<N, 4> for Extremes {
-    fn weights_in(_: &N, _: &ShadingPoint, _: f32) -> [f32; 4] {
+    fn weights_in(_: &N, _: &ShadingPoint, _: Space) -> [f32; 4] {
         WEIGHTS
     }
 }
@@ -24,10 +25,8 @@ fn node(masks: [u32; 4]) -> LinkedMomentNode<4> {
         ..LightMoments::EMPTY
     };
     let mut node: LinkedMomentNode<4> = crate::kit::node(&[light; 4]);
-    node.set_limits(&masks.map(|mask| Limits {
-        mask,
-        beam: Beam::ANYWHERE,
-    }));
+    let limits = masks.map(|mask| Limits { mask, ..Limits::NONE });
+    node.set_limits(&limits, &Lanes::all(&light));
     node
 }
 

@@ -113,14 +113,17 @@ fn limits_go_by_way_of_children_too() {
     check::<Lit<LinkedSpotMomentNode<8>, LinkedAny>, 8, LIMITED_ROWS>();
     // They are there to be lost.
     let bvh = scene::<Lit<LinkedSpotMomentNode<8>, LinkedAny>, 8>(&mut Random(5));
-    let of = |node: &Lit<LinkedSpotMomentNode<8>, LinkedAny>, slot| (node.mask(slot), node.beam(slot));
+    let of = |node: &Lit<LinkedSpotMomentNode<8>, LinkedAny>, slot| {
+        (node.mask(slot), node.beam(slot), node.end(slot))
+    };
     let (nodes, _) = flat(&bvh);
     let all = || {
         nodes
             .iter()
             .flat_map(|node| (0..8).map(move |slot| of(node, slot)))
     };
-    assert!(all().any(|(mask, _)| mask.count_ones() > 1) && all().any(|(_, beam)| beam.is_narrow()));
+    assert!(all().any(|(mask, ..)| mask.count_ones() > 1));
+    assert!(all().any(|(_, beam, _)| beam.is_narrow()) && all().any(|(.., end)| end < 100.0));
 }
 
 /// Links to what is just beyond the end, and to what is of the other level.

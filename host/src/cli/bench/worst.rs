@@ -6,6 +6,7 @@ use std::cell::Cell;
 use std::hint::black_box;
 use std::time::Instant;
 
+use lightbvh::importance::Space;
 use lightbvh::{BuildParams, INVALID, ImportanceModel, LightNode, LightTree, Random64, ShadingPoint};
 use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice};
 use serde::Serialize;
@@ -32,7 +33,7 @@ struct Counting<I>(std::marker::PhantomData<I>);
 impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W> for Counting<I> {
     const UNIFORM_HALVINGS: u32 = I::UNIFORM_HALVINGS;
 
-    fn weights_in(node: &N, point: &ShadingPoint, _: f32) -> [f32; W] {
+    fn weights_in(node: &N, point: &ShadingPoint, _: Space) -> [f32; W] {
         EVALUATED.with(|count| count.set(count.get() + 1));
         I::weights(node, point)
     }

@@ -1,0 +1,155 @@
+//! Samples with all that shading needs, and densities where rays meet lights.
+
+use crate::kit::{Random, Wide, dot, length, minus, wide};
+use lightbvh::bvh::mis_weight;
+use lightbvh::light::{AnyLight, Light, LightPoint, SphereLight};
+use lightbvh::node::{Lit, SpotMomentNode};
+use lightbvh::{BuildParams, Bvh, Defensive, LightBvh, Lights, Moments, ShadingPoint};
+
+type Tree = Bvh<Lit<SpotMomentNode<8>, AnyLight>, Defensive<Moments, 6>, 8>;
+
+/// Four meshes of lights of every kind, each twice under maps that keep angles.
+fn scene(random: &mut Random) -> Tree {
+    let mut bvh = Tree::default();
+    for _ in 0..4 {
+        let own = (0..16).map(|k| random.light(k % 8)).collect();
+        let mesh = bvh.add_mesh(own).expect("in the domain");
+        for _ in 0..2 {
+            let place = random.similarity(5.0, 1.0);
+            bvh.add_instance(mesh, place).expect("in the domain");
+        }
+    }
+    bvh.refit();
+    bvh
+}
+
+/// pmf · density · d² / c in `f64`, as pbrt-v4 has it; zero where no ray meets the light, or it does not emit to there.
+fn density(on: &LightPoint, normal: Wide, from: [f32; 3], pmf: f32) -> f64 {
+    let d = minus(wide(on.p), wide(from));
+    let cosine = -dot(d, normal) / length(d);
+    let cosine = if on.flags & 1 != 0 { cosine.abs() } else { cosine };
+    let has_area = on.flags & (LightPoint::IS_POINT | LightPoint::IS_VOLUME) == 0;
+    if has_area && cosine > 1.0e-6 {
+        f64::from(pmf) * f64::from(on.density) * dot(d, d) / cosine
+    } else {
+        0.0
+    }
+}
+
+fn is_near(found: f32, expected: f64, part: f64) -> bool {
+    (f64::from(found) - expected).abs() <= part * expected.abs() + 1.0e-12
+}
+
+/// All numbers of a sample are those of its light, and the density of a ray that meets its point is that of the sample.
+#[test]
+fn a_sample_and_a_hit_agree_with_their_light() {
+    let random = &mut Random(97);
+    let bvh = scene(random);
+    let (mut met, mut spheres) = (0, 0);
+    for _ in 0..20_000 {
+        let point = random.point(8.0);
+        let uv = [random.unit(), random.unit()];
+        let number = random.below(u32::MAX);
+        let plain = bvh.sample(&point, number);
+        let sampled = bvh.sample_light(&point, number, uv).expect("a light");
+        let start = bvh.lights_of(sampled.instance).expect("an instance").start;
+        assert_eq!(plain.light, start + sampled.part);
+        assert_eq!(
+            (plain.instance, plain.pmf),
+            (sampled.instance.index(), sampled.pmf)
+        );
+        let light = bvh.triangle(plain.light, plain.instance).expect("a light");
+        assert_eq!(sampled.light, light);
+        let on = light.point_for(point.p.into(), uv);
+        assert_eq!((sampled.point, sampled.irradiance), (on, on.irradiance(&point)));
+        let d = minus(wide(on.p), wide(point.p));
+        assert!(is_near(sampled.distance, length(d), 1.0e-5));
+        for k in 0..3 {
+            assert!((f64::from(sampled.direction[k]) - d[k] / length(d)).abs() < 1.0e-5);
+        }
+        let expected = density(&on, wide(on.normal), point.p, sampled.pmf);
+        assert!(
+            is_near(sampled.pdf, expected, 2.0e-3),
+            "{} {expected}",
+            sampled.pdf
+        );
+        let hit = bvh
+            .pdf_of_hit(&point, sampled.instance, sampled.part, on.p)
+            .expect("a light");
+        // A sphere's normal is that of the place, whose digits are fewer than the radius's.
+        let sphere = SphereLight::try_from(light);
+        let normal = sphere.map_or(wide(on.normal), |own| {
+            let n = minus(wide(on.p), wide(own.p));
+            n.map(|x| x / length(n))
+        });
+        let expected = density(&on, normal, point.p, sampled.pmf);
+        assert!(is_near(hit, expected, 2.0e-3), "{hit} {expected} {light:?}");
+        met += u32::from(hit > 0.0);
+        spheres += u32::from(sphere.is_ok() && hit > 0.0);
+    }
+    assert!(met > 3_000 && spheres > 500, "{met} {spheres}");
+}
+
+/// Single levels, scenes without light, unknown ids and receivers that are none.
+#[test]
+fn what_is_no_sample_is_none() {
+    let random = &mut Random(3);
+    let own: Vec<_> = (0..9).map(|k| random.light(k % 8)).collect();
+    let bvh = Tree::single_level(&Lights::new(own).expect("in the domain"), &BuildParams::default());
+    let point = ShadingPoint {
+        p: [0.0; 3],
+        n: [0.0, 1.0, 0.0],
+    };
+    let sampled = bvh.sample_light(&point, 5_u32, [0.5; 2]).expect("a light");
+    let hit = |point: &ShadingPoint, part| bvh.pdf_of_hit(point, sampled.instance, part, sampled.point.p);
+    assert!(hit(&point, sampled.part).is_some());
+    assert_eq!(hit(&point, 9), None);
+    assert_eq!(hit(&point, u32::MAX), None);
+    let none = LightBvh::default();
+    assert!(none.sample_light(&point, 5_u32, [0.5; 2]).is_none());
+    assert!(none.pdf_of_hit(&point, sampled.instance, 0, [0.0; 3]).is_none());
+    for wrong in [
+        ShadingPoint {
+            n: [f32::NAN; 3],
+            ..point
+        },
+        ShadingPoint {
+            n: [0.0, 1.1, 0.0],
+            ..point
+        },
+        ShadingPoint {
+            p: [f32::NAN, 0.0, 0.0],
+            ..point
+        },
+        ShadingPoint {
+            p: [f32::INFINITY, 0.0, 0.0],
+            ..point
+        },
+    ] {
+        assert!(bvh.sample_light(&wrong, 5_u32, [0.5; 2]).is_none());
+        assert_eq!(hit(&wrong, sampled.part), None);
+    }
+    for position in [[f32::NAN; 3], [f32::MAX; 3], point.p] {
+        let found = bvh.pdf_of_hit(&point, sampled.instance, sampled.part, position);
+        assert!(
+            found.is_some_and(|pdf| (0.0..=f32::MAX).contains(&pdf)),
+            "{found:?}"
+        );
+    }
+}
+
+/// The weights of both ways to a light sum to one, at any densities; a light that no ray meets has all.
+#[test]
+fn weights_of_both_ways_sum_to_one() {
+    let densities = [1.0e-38_f32, 1.0e-20, 0.3, 1.0, 2.0, 1.0e20, 3.0e38];
+    for a in densities {
+        for b in densities {
+            let sum = mis_weight(a, b) + mis_weight(b, a);
+            assert!((sum - 1.0).abs() < 1.0e-6, "{a} {b}: {sum}");
+            let expected = f64::from(a).powi(2) / (f64::from(a).powi(2) + f64::from(b).powi(2));
+            assert!((f64::from(mis_weight(a, b)) - expected).abs() < 1.0e-6, "{a} {b}");
+        }
+        assert_eq!(mis_weight(0.0, a), 1.0);
+        assert_eq!(mis_weight(a, 0.0), 1.0);
+    }
+}
