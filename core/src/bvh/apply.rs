@@ -82,6 +82,35 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(updated)
     }
 
+    /// Applies the edits of a batch that can be done, each for itself and in their order; returns what was made, and why the others were
+    /// left. For a frame that must go on; [`apply`](Self::apply) is all or none, and builds several meshes at a time. A
+    /// [`MeshId::added`] of a mesh that was refused is unknown, and does not change the places of those after it.
+    pub fn apply_each(&mut self, edits: Vec<Edit<N::Light>>) -> (Added, Vec<EditError>) {
+        let (mut updated, mut refused) = (Added::default(), Vec::new());
+        // By place in the batch.
+        let mut meshes: Vec<Option<MeshId>> = Vec::new();
+        for (index, mut edit) in edits.into_iter().enumerate() {
+            if let Edit::AddInstance { mesh, .. } = &mut edit {
+                let place = mesh.place_in_batch();
+                let known = place.and_then(|place| meshes.get(place).copied().flatten());
+                *mesh = known.unwrap_or(*mesh);
+            }
+            let adds_mesh = matches!(edit, Edit::AddMesh { .. });
+            let done = self.apply(alloc::vec![edit]);
+            if adds_mesh {
+                meshes.push(done.as_ref().ok().map(|added| added.meshes[0]));
+            }
+            match done {
+                Ok(mut added) => {
+                    updated.meshes.append(&mut added.meshes);
+                    updated.instances.append(&mut added.instances);
+                }
+                Err(error) => refused.push(EditError { edit: index, ..error }),
+            }
+        }
+        (updated, refused)
+    }
+
     fn set_place(&mut self, index: u32, transform: Transform) {
         let own = &mut self.placed[index as usize].transform;
         let bits = |column: &[f32; 3]| column.map(f32::to_bits);

@@ -1,6 +1,8 @@
 //! Lights without size: points, and spots with a cone.
 
 use bytemuck::{Pod, Zeroable};
+#[cfg(feature = "alloc")]
+use glam::Vec2;
 use glam::Vec3;
 
 use super::record::{Each, Light, bounds, checked_axis, of_mesh_at_place, shining, towards};
@@ -211,6 +213,22 @@ impl Light for PointLight {
 }
 
 impl SpotLight {
+    /// The same with all its intensity up to `inner` from its axis, and none from `outer` on: angles in radians, brought to 0 ≤ `inner` ≤
+    /// `outer` ≤ π.
+    #[cfg(feature = "alloc")]
+    #[must_use]
+    pub fn with_cone(self, inner: f32, outer: f32) -> Self {
+        let within = |angle: f32, most: f32| exact::clamp(angle, 0.0, most);
+        let outer = within(outer, core::f32::consts::PI);
+        let cosine = |angle: f32| Vec2::from_angle(angle).x;
+        let cos_outer = exact::min(cosine(outer), 1.0 - LEAST_FALL);
+        Self {
+            cos_inner: exact::max(cosine(within(inner, outer)), cos_outer),
+            cos_outer,
+            ..self
+        }
+    }
+
     /// Intensity in a direction, of length 1 up to 2^-16, over that along the axis.
     #[inline(always)]
     #[must_use]

@@ -216,3 +216,53 @@ fn reaches() {
     }
     assert_eq!(reach_of::<EmissiveTriangle>(&[]), 0.0);
 }
+
+/// Every way to write a map down gives the same one.
+#[test]
+fn maps_are_made_of_what_engines_have() {
+    let made = random(5);
+    let [a, b, c] = made.columns;
+    let t = made.translation;
+    assert_eq!(Transform::from_cols([a, b, c, t]), made);
+    let row = |k: usize| [a[k], b[k], c[k], t[k]];
+    assert_eq!(Transform::from_rows([row(0), row(1), row(2)]), made);
+    let columns = [a, b, c].map(Vec3::from);
+    let glam = Affine3A::from_mat3_translation(
+        glam::Mat3::from_cols(columns[0], columns[1], columns[2]),
+        t.into(),
+    );
+    assert_eq!(Transform::from(glam), made);
+    // A quarter of a turn about z, after the scale and before the way.
+    let turn = [
+        0.0,
+        0.0,
+        core::f32::consts::FRAC_1_SQRT_2,
+        core::f32::consts::FRAC_1_SQRT_2,
+    ];
+    let made = Transform::from_trs([1.0, 2.0, 3.0], turn, [2.0, 3.0, 4.0]);
+    let expected = [[0.0, 2.0, 0.0], [-3.0, 0.0, 0.0], [0.0, 0.0, 4.0]];
+    for (found, expected) in made.columns.iter().flatten().zip(expected.iter().flatten()) {
+        assert!(exact::abs(found - expected) < 1e-6, "{made:?}");
+    }
+    assert_eq!(made.translation, [1.0, 2.0, 3.0]);
+}
+
+/// −Z goes to the direction, +Y towards up, and the map is a rotation, also where there is no up.
+#[test]
+fn maps_look_along_their_direction() {
+    let ups = [[0.0, 1.0, 0.0], [0.3, -2.0, 0.1], [0.0; 3], [0.0, 0.0, -5.0]];
+    for direction in [[0.0, 0.0, -5.0], [0.0, -1.0, 0.0], [3.0, 4.0, -1.0], [0.0; 3]] {
+        for up in ups {
+            let made = Transform::look_along([7.0, 8.0, 9.0], direction, up);
+            let [x, y, z] = made.columns.map(Vec3::from);
+            for unit in [x, y, z] {
+                assert!(exact::abs(unit.length() - 1.0) < 1e-5, "{made:?}");
+            }
+            assert!((x.cross(y) - z).length() < 1e-5, "{made:?}");
+            assert!(y.dot(up.into()) > -1e-5, "{made:?}");
+            let to = Vec3::from(direction).normalize_or(-z);
+            assert!((to + z).length() < 1e-5, "{made:?}");
+            assert_eq!(made.translation, [7.0, 8.0, 9.0]);
+        }
+    }
+}

@@ -146,3 +146,40 @@ fn factors_on_radiance() {
         factor(bad).expect_err("beyond it");
     }
 }
+
+/// What can be done of a batch is done, and what is refused is named, with its place in the batch.
+#[test]
+fn edits_are_applied_each_for_itself() {
+    let (mut scene, mesh, instance) = scene(2);
+    let triangles = triangles(3, 1.0);
+    let edits = vec![
+        Edit::AddMesh { triangles: vec![] },
+        Edit::AddMesh { triangles },
+        add(MeshId::added(0)),
+        add(MeshId::added(1)),
+        Edit::SetRadiance {
+            instance,
+            radiance: -1.0,
+        },
+        moved(instance, [3.0, 0.0, 0.0]),
+        Edit::RemoveInstance(instance),
+        moved(instance, [4.0, 0.0, 0.0]),
+        add(mesh),
+    ];
+    let (added, refused) = scene.apply_each(edits);
+    let refused: Vec<_> = refused
+        .into_iter()
+        .map(|error| (error.edit, error.reason))
+        .collect();
+    let expected = [
+        (0, EditReason::EmptyMesh),
+        (2, EditReason::UnknownMesh(MeshId::added(0))),
+        (4, EditReason::Radiance { value: -1.0 }),
+        (7, EditReason::UnknownInstance(instance)),
+    ];
+    assert_eq!(refused, expected);
+    assert_eq!((added.meshes.len(), added.instances.len()), (1, 2));
+    assert_eq!(scene.mesh_of(added.instances[0]), Some(added.meshes[0]));
+    assert_eq!(scene.mesh_of(added.instances[1]), Some(mesh));
+    assert_eq!(scene.light_count(), 5);
+}

@@ -207,3 +207,17 @@ fn profiles_of_all_directions_have_no_hole_behind_them() {
         );
     }
 }
+
+/// Angles give cones of the domain, whatever they are.
+#[test]
+fn cones_are_made_of_angles() {
+    let made = spot(0.9, 0.5).with_cone(0.3, 1.1);
+    close("inner", f64::from(made.cos_inner), 0.3_f64.cos(), 1e-6);
+    close("outer", f64::from(made.cos_outer), 1.1_f64.cos(), 1e-6);
+    for inner in [-1.0, 0.0, 1.0e-9, 0.7, 4.0, f32::INFINITY, f32::NAN] {
+        for outer in [-1.0, 0.0, 1.0e-9, 0.5, 3.0, 4.0, f32::INFINITY, f32::NAN] {
+            let made = spot(0.9, 0.5).with_cone(inner, outer);
+            assert!(made.checked().is_ok(), "{inner} {outer}: {made:?}");
+        }
+    }
+}
