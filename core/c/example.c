@@ -63,6 +63,7 @@ int main(void)
     lightbvh_range removed[4];
     size_t count;
     unsigned trees = 0;
+    static const float white[3] = {1, 1, 1}, warm[3] = {0.5f, 0.25f, 0.125f}, dim[3] = {0.25f, 0.25f, 0.25f};
     int k, frame;
 
     if (bvh == NULL || rebuilder == NULL) {
@@ -73,15 +74,15 @@ int main(void)
     for (k = 0; k < LAMPS - 1; k++) {
         places[k] = at((float)k, 0, 0);
     }
-    must(lightbvh_add_instances(bvh, mesh, places, 1, LAMPS - 1, lamps));
+    must(lightbvh_add_instances(bvh, mesh, places, white, LAMPS - 1, lamps));
     place = at((float)k, 0, 0);
-    must(lightbvh_add_instances(bvh, mesh, &place, 1, 1, &lamps[k]));
+    must(lightbvh_add_instances(bvh, mesh, &place, white, 1, &lamps[k]));
     must(lightbvh_refit(bvh));
 
-    /* A frame later: one lamp rises, one is dimmed, one goes, and all of them grow. */
+    /* A frame later: one lamp rises, one gets dimmer and warmer, one goes, and all of them grow. */
     place = at(40, 2, 0);
     must(lightbvh_set_transform(bvh, lamps[40], &place));
-    must(lightbvh_set_radiance(bvh, lamps[41], 0.5f));
+    must(lightbvh_set_radiance(bvh, lamps[41], warm));
     gone = lamps[42];
     must(lightbvh_remove_instance(bvh, gone));
     larger.p[1][0] = 0.0625f;
@@ -101,7 +102,7 @@ int main(void)
     arrange(panel, &lamp, 1);
     must(lightbvh_add_mesh(bvh, panel, PANEL, &mesh));
     place = at(0, 1, 4);
-    must(lightbvh_add_instances(bvh, mesh, &place, 0.25f, 1, &lamps[42]));
+    must(lightbvh_add_instances(bvh, mesh, &place, dim, 1, &lamps[42]));
     for (frame = 1; frame <= 30; frame++) {
         must(lightbvh_begin_frame(rebuilder, bvh, &start));
         trees += start.swapped + start.meshes;
@@ -142,7 +143,7 @@ int main(void)
     }
 
     /* What is wrong is refused, with a sentence. */
-    if (lightbvh_set_radiance(bvh, gone, 1) != LIGHTBVH_REFUSED ||
+    if (lightbvh_set_radiance(bvh, gone, white) != LIGHTBVH_REFUSED ||
         lightbvh_remove_mesh(bvh, mesh) != LIGHTBVH_REFUSED) {
         fprintf(stderr, "a wrong edit was done\n");
         return 1;

@@ -35,7 +35,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         edits.push(Edit::AddInstance {
             mesh,
             transform: at(frame),
-            radiance: 1.0,
+            radiance: [1.0; 3],
+            mask: u32::MAX,
         });
         if lamps.len() > 20 {
             edits.push(Edit::RemoveInstance(lamps.remove(0)));

@@ -20,7 +20,7 @@ const THIRD: f32 = 1.0 / 3.0;
 /// Greatest magnitude of a coordinate in a mesh's space, 2^60.
 pub(crate) const FAR: f32 = pow2(60);
 
-/// A placed mesh: its map into the world, and the numbers of its lights. 124 bytes.
+/// A placed mesh: its map into the world, and the numbers of its lights. 136 bytes.
 ///
 /// Plain words, as the device reads them; `Transform` (feature `alloc`) derives them on the CPU.
 #[repr(C)]
@@ -46,17 +46,20 @@ pub struct Instance {
     pub inverse: [[f32; 3]; 3],
     /// √3 over the Frobenius norm of A⁻¹: makes A⁻ᵀ a map of normals of about unit length.
     pub per_inverse: f32,
-    /// Mean factor from the flux of a light of the mesh to that in the world: `radiance`, times what A makes of the measure over which the
+    /// Mean factor from the flux of a light of the mesh to that in the world: the luminance of `radiance`, times what A makes of the measure over which the
     /// mesh emits ([`Light::FLUX_POWER`](crate::light::Light::FLUX_POWER)). Of surfaces that is the Frobenius norm of A's cofactors over √3, of volumes the magnitude of A's
     /// determinant, of lights without size 1. Zero, or 2^-100 to 2^100.
     pub flux: f32,
-    /// Factor on the mesh's radiance; 0 turns it off.
-    pub radiance: f32,
+    /// Factor on the mesh's radiance, linear RGB; zeros turn it off.
+    pub radiance: [f32; 3],
+    /// Which receivers it lights, as bits: those whose mask has one of them ([`LinkedPoint`](crate::importance::LinkedPoint)). Read where nodes
+    /// store masks, by nothing else.
+    pub mask: u32,
     /// [`MIRRORS`](Self::MIRRORS) where the map mirrors, and [`IS_NOT_BY_AREA`](Self::IS_NOT_BY_AREA).
     pub mirrored: u32,
 }
 
-const _: () = assert!(size_of::<Instance>() == 124);
+const _: () = assert!(size_of::<Instance>() == 136);
 
 impl Instance {
     /// A bottom level in world space.
@@ -72,7 +75,8 @@ impl Instance {
         inverse: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         per_inverse: 1.0,
         flux: 1.0,
-        radiance: 1.0,
+        radiance: [1.0; 3],
+        mask: u32::MAX,
         mirrored: 0,
     };
 

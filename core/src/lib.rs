@@ -15,7 +15,7 @@
 //!
 //! | | |
 //! |---|---|
-//! | [`LightBvh`], [`Bvh`] | the light BVH that owns its arrays: edits, refit of what changed, samples and their probabilities |
+//! | [`LightBvh`], [`AnyLights`], [`MaskedLights`] | light BVHs over triangles, over lights of every kind, and with masks: each a [`Bvh`], which owns its arrays: edits, refit of what changed, samples and their probabilities |
 //! | [`EmissiveTriangle`], [`Lights`], [`Transform`] | lights, and where their meshes stand |
 //! | [`ShadingPoint`], [`Random64`], [`SampledLight`], [`LightPoint`] | what is lit, the number that chooses, the light chosen, a point on it |
 //! | [`Rebuilder`] | builds whole trees on a thread in the background, or within the frame if there are no threads |
@@ -102,7 +102,7 @@ mod transform;
 pub use bvh::Rebuilder;
 #[cfg(feature = "alloc")]
 #[doc(inline)]
-pub use bvh::{Bvh, Edit, LightBvh};
+pub use bvh::{AnyLights, Bvh, Edit, LightBvh, MaskedLights};
 #[cfg(feature = "alloc")]
 pub use lights::Lights;
 

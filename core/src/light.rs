@@ -12,7 +12,6 @@
 //! | [`ProfileLight`] | from a place without size, in each direction what a table says: IES profiles |
 //! | [`BoxLight`] | from every place within it in every direction |
 //! | [`AnyLight`] | as the one of these that it is, for trees over several kinds |
-//! | [`LinkedTriangle`], [`LinkedAny`] | as that, to the receivers that its mask allows: [`Linked`](crate::importance::Linked) |
 //!
 //! [`Light::point_for`] gives a [`LightPoint`] on each of them, [`LightPoint::irradiance`] what that sends. Builders, refits, samples, pmfs,
 //! instances, edits, rebuilds and files are the same for all; so are mirrors on devices:
@@ -27,7 +26,6 @@
 mod any;
 mod flat;
 pub mod infinite;
-mod linked;
 mod point;
 mod profile;
 mod punctual;
@@ -41,7 +39,6 @@ mod volume;
 
 pub use any::AnyLight;
 pub use flat::{DiscLight, RectangleLight};
-pub use linked::{LinkedAny, LinkedTriangle};
 pub use point::{LightPoint, uniform_point};
 pub use profile::ProfileLight;
 pub use punctual::{PointLight, SpotLight};

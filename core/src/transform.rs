@@ -3,6 +3,7 @@
 use glam::{Affine3A, Quat, Vec3};
 
 use crate::domain::DomainError;
+use crate::emission::luminance_of;
 use crate::exact;
 use crate::instance::Instance;
 use crate::light::{Light, MAX_COORDINATE, MIN_COORDINATE};
@@ -108,7 +109,7 @@ impl Transform {
     /// instances makes of it, to the bit, but for the instance's factor on radiance.
     #[must_use]
     pub fn place<L: Light>(&self, light: &L, mesh: u32) -> L {
-        light.in_world(&self.instance_by(1.0, light.flux_power()), mesh)
+        light.in_world(&self.instance_by([1.0; 3], light.flux_power()), mesh)
     }
 
     /// Whether every entry is a number within the domain, and a mesh of which no coordinate is beyond `reach` stays within it.
@@ -163,11 +164,11 @@ impl Transform {
     /// `f32` products allow: weights then mean little, and stay positive.
     #[cfg(test)]
     pub(crate) fn instance(&self, radiance: f32) -> Instance {
-        self.instance_by(radiance, 2)
+        self.instance_by([radiance; 3], 2)
     }
 
     /// The same of a mesh whose flux grows as lengths to `power`: [`Light::FLUX_POWER`](crate::light::Light::FLUX_POWER).
-    pub(crate) fn instance_by(&self, radiance: f32, power: u32) -> Instance {
+    pub(crate) fn instance_by(&self, radiance: [f32; 3], power: u32) -> Instance {
         let columns = [self.column(0), self.column(1), self.column(2)];
         // Entries of about 1, so that products of three stay in range.
         let entry = columns
@@ -202,7 +203,8 @@ impl Transform {
             3 => magnitude(determinant) * (entry * entry * entry),
             _ => area,
         };
-        let flux = (measure * f64::from(radiance)) as f32;
+        let luminance = luminance_of(&radiance);
+        let flux = (measure * f64::from(luminance)) as f32;
         Instance {
             columns: self
                 .columns
@@ -210,7 +212,7 @@ impl Transform {
             translation: self.origin(),
             inverse,
             per_inverse: per_inverse as f32,
-            flux: if radiance > 0.0 {
+            flux: if luminance > 0.0 {
                 exact::clamp(flux, FLUX[0], FLUX[1])
             } else {
                 0.0

@@ -157,7 +157,7 @@ fn sampled<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     for instance in &model.instances {
         for (light, local) in instance.lights.clone().zip(model.triangles(instance.mesh)) {
             let pmf = scene.by::<I>().pmf(&point, light, instance.id.index());
-            let shines = instance.radiance > 0.0 && input::shines::<N, W>(local);
+            let shines = instance.radiance.iter().any(|&x| x > 0.0) && input::shines::<N, W>(local);
             assert_eq!(pmf > 0.0, shines, "light {light} at {point:?}");
             any |= shines;
             pmfs[light as usize] = pmf;

@@ -136,30 +136,23 @@ pub fn light_point<L: Light>(
     world_light(triangles, instances, sample.light, sample.instance).point_for(Vec3::ZERO, uv)
 }
 
-/// The pass over points on one type of light.
-macro_rules! points_pass {
-    ($light:ty, $pass:ident = $name:tt) => {
-        /// Turns each of `samples`, as pass `sample` writes them, into a point on its light in the world, by the two numbers of `numbers`
-        /// in [0, 1). It reads the lights through their instances: when an instance moves, its record is all that changes.
-        #[spirv(compute(threads(64), entry_point_name = $name))]
-        pub fn $pass(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &PointsPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] triangles: &[$light],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] samples: &[SampledLight],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] numbers: &[[f32; 2]],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [LightPoint],
-        ) {
-            let i = invocation(id);
-            if i < push.count && i < samples.len() as u32 && i < numbers.len() as u32 {
-                let sample = samples[i as usize];
-                results[i as usize] = light_point(triangles, instances, &sample, numbers[i as usize]);
-            }
-        }
-    };
+/// Turns each of `samples`, as pass `sample` writes them, into a point on its light in the world, by the two numbers of `numbers`
+/// in [0, 1). It reads the lights through their instances: when an instance moves, its record is all that changes.
+#[spirv(compute(threads(64), entry_point_name = "light_points"))]
+pub fn light_points(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &PointsPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] samples: &[SampledLight],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] numbers: &[[f32; 2]],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [LightPoint],
+) {
+    let i = invocation(id);
+    if i < push.count && i < samples.len() as u32 && i < numbers.len() as u32 {
+        let sample = samples[i as usize];
+        results[i as usize] = light_point(triangles, instances, &sample, numbers[i as usize]);
+    }
 }
 
-points_pass!(EmissiveTriangle, light_points = "light_points");
-
-pub(crate) use {points_pass, query_passes};
+pub(crate) use query_passes;

@@ -1,22 +1,23 @@
-//! Passes for receivers with a mask of lights, over lights with masks: nodes, and so refits, of their own.
+//! Passes for receivers with masks, over lights of any kind in instances with masks: nodes, and so refits, of their own.
 
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
 use lightbvh::importance::{Leveled, Linked, LinkedPoint};
-use lightbvh::light::LinkedTriangle;
-use lightbvh::node::{LinkedMomentNode, Lit};
+use lightbvh::light::AnyLight;
+use lightbvh::node::{LinkedSpotMomentNode, Lit};
 use lightbvh::refit::{self, BlasRoot, Children, LIMITED_ROWS};
 use lightbvh::{Instance, LightPoint, LightTree, Moments, Random64, SampledLight, ShadingPoint};
 use spirv_std::spirv;
 
 use crate::bvh::WIDTH;
 use crate::invocation;
-use crate::query::{PointsPush, QueryPush, light_point, points_pass, query_passes};
+use crate::kinds::{light_point_for, points_for_pass};
+use crate::query::{PointsPush, QueryPush, query_passes};
 use crate::refit::{RefitPush, refit_passes};
 
-/// Node over triangles with masks.
-pub type LinkedNode = Lit<LinkedMomentNode<8>, LinkedTriangle>;
-/// What lights with masks are chosen by.
+/// Node of `MaskedLights`.
+pub type LinkedNode = Lit<LinkedSpotMomentNode<8>, AnyLight>;
+/// What they are chosen by.
 pub type LinkedImportance = Linked<Leveled<Moments, 9>>;
 
 /// A point with a mask, and what is asked: 36 bytes.
@@ -52,31 +53,14 @@ query_passes!(
     sample_linked = "sample_linked",
     pmf_linked = "pmf_linked"
 );
-points_pass!(LinkedTriangle, light_points_linked = "light_points_linked");
+points_for_pass!(LinkedQuery, light_points_linked = "light_points_linked");
 refit_passes!(
     LinkedNode,
     WIDTH,
     LIMITED_ROWS,
-    LinkedTriangle,
+    AnyLight,
     refit_bottom_linked = "refit_bottom_linked",
     refit_top_linked = "refit_top_linked",
-    refit_nodes_linked = "refit_nodes_linked"
+    refit_nodes_linked = "refit_nodes_linked",
+    refit_roots_linked = "refit_roots_linked"
 );
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::bvh::AnyNode;
-
-    /// Both layouts have the words that a root is made of in the same places, so `refit_roots_any` serves both.
-    #[test]
-    fn roots_of_linked_nodes_are_those_of_nodes_over_any_light() {
-        let words: Vec<u32> = (0..64 * 56).map(lightbvh::exact::hash).collect();
-        let linked: &[LinkedNode] = bytemuck::cast_slice(&words);
-        let any: &[AnyNode] = bytemuck::cast_slice(&words);
-        for node in 0..64 {
-            let roots = [refit::root(linked, node), refit::root(any, node)];
-            assert_eq!(bytemuck::bytes_of(&roots[0]), bytemuck::bytes_of(&roots[1]));
-        }
-    }
-}

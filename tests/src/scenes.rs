@@ -2,8 +2,7 @@
 //! stretch them.
 
 use lightbvh::light::{
-    AnyLight, BoxLight, DiscLight, LinkedAny, LinkedTriangle, PointLight, ProfileLight, RectangleLight,
-    SphereLight, SpotLight,
+    AnyLight, BoxLight, DiscLight, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
 };
 use lightbvh::node::Node;
 use lightbvh::{Bvh, EmissiveTriangle, ShadingPoint, Transform, exact};
@@ -132,25 +131,6 @@ impl Any for AnyLight {
         extreme_triangle(random).into()
     }
 }
-
-macro_rules! linked {
-    ($linked:ident, $light:ty) => {
-        impl Any for $linked {
-            fn any(random: &mut Random, p: [f32; 3], size: f32, shine: [f32; 3]) -> Self {
-                let (light, mask) = (<$light>::any(random, p, size, shine), 1 << random.below(4));
-                Self { light, mask }
-            }
-
-            fn extreme(random: &mut Random) -> Self {
-                let (light, mask) = (<$light>::extreme(random), 1 << random.below(4));
-                Self { light, mask }
-            }
-        }
-    };
-}
-
-linked!(LinkedTriangle, EmissiveTriangle);
-linked!(LinkedAny, AnyLight);
 
 /// 2^-99 to 2^37: any, about 1, the least, or such that a square is about the least normal number.
 fn size(random: &mut Random) -> f32 {

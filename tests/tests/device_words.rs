@@ -223,7 +223,8 @@ where
     let add = |random: &mut Random, k: usize| Edit::AddInstance {
         mesh: meshes[k % 3],
         transform: place(random, k),
-        radiance: 1.0,
+        radiance: [1.0; 3],
+        mask: u32::MAX,
     };
     let all = (0..60).map(|k| add(random, k)).collect();
     let mut ids = bvh.apply(all).expect("instances").instances;

@@ -8,7 +8,7 @@ use lightbvh::importance::{
     DefaultImportance, Flux, Glossy, ImportanceModel, Leveled, Linked, LinkedPoint, RaySegment, Subtended,
     Transmissive, TransmissivePoint,
 };
-use lightbvh::light::{AnyLight, Light, LinkedAny, LinkedTriangle};
+use lightbvh::light::{AnyLight, Light};
 use lightbvh::node::{
     CompactNode, LinkedMomentNode, LinkedSpotMomentNode, Lit, MomentLayout, MomentNode, Node, SpotMomentNode,
     TwoSidedMomentNode,
@@ -230,6 +230,6 @@ fn ask_masked<N: MomentLayout<8>>(bvh: &Bvh<N, (), 8>, random: &mut Random, size
 
 #[test]
 fn lights_with_masks() {
-    check::<Lit<LinkedMomentNode<8>, LinkedTriangle>, 8, LIMITED_ROWS>(ask_masked);
-    check::<Lit<LinkedSpotMomentNode<8>, LinkedAny>, 8, LIMITED_ROWS>(ask_masked);
+    check::<LinkedMomentNode<8>, 8, LIMITED_ROWS>(ask_masked);
+    check::<Lit<LinkedSpotMomentNode<8>, AnyLight>, 8, LIMITED_ROWS>(ask_masked);
 }

@@ -51,10 +51,11 @@ fn world() -> (LightBvh, Vec<InstanceId>) {
                 translation: [3.0 * (k % 4) as f32 - 4.5, 2.5, -2.0 * (k / 4) as f32],
             },
             radiance: match k {
-                3 => 0.25,
-                7 => 0.0,
-                _ => 1.0,
+                3 => [0.25, 0.5, 0.25],
+                7 => [0.0; 3],
+                _ => [1.0; 3],
             },
+            mask: u32::MAX,
         }
     });
     let ids = bvh.apply(add.collect()).expect("affine maps").instances;

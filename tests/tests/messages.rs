@@ -82,7 +82,8 @@ fn edits() {
     let add = |transform, radiance| Edit::AddInstance {
         mesh,
         transform,
-        radiance,
+        radiance: [radiance; 3],
+        mask: u32::MAX,
     };
     let here = Transform::IDENTITY;
     let instance = scene.apply(vec![add(here, 1.0)]).expect("an instance").instances[0];

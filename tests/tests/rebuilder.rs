@@ -85,7 +85,8 @@ fn town(seed: u32) -> (Tree, MeshId) {
     let add = (0..30).map(|_| Edit::AddInstance {
         mesh,
         transform: placing::transform(random, Kind::Similar, REACH),
-        radiance: 1.0,
+        radiance: [1.0; 3],
+        mask: u32::MAX,
     });
     scene.apply(add.collect()).expect("instances");
     scene.refit();

@@ -21,7 +21,8 @@ fn motion_costs_two_paths_at_most_and_no_bottom_level() {
     let add = |random: &mut Random| Edit::AddInstance {
         mesh,
         transform: placing::transform(random, Kind::Similar, 50.0),
-        radiance: 1.0,
+        radiance: [1.0; 3],
+        mask: u32::MAX,
     };
     let batch = (0..1000).map(|_| add(random)).collect();
     let ids = scene.apply(batch).expect("instances").instances;

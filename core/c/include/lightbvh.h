@@ -119,13 +119,13 @@ void lightbvh_free(lightbvh *bvh);
 
 /* A new mesh of `count` triangles, at least one and at most 2^30, in the mesh's own space. It is not in the world yet. */
 lightbvh_status lightbvh_add_mesh(lightbvh *bvh, const lightbvh_triangle *triangles, size_t count, lightbvh_mesh *mesh);
-/* Puts a mesh into the world at `count` places, all or none of them. `radiance` is a factor on that of the mesh: 0, or from 2^-60
- * to 2^60. Many together take less time than one at a time. */
+/* Puts a mesh into the world at `count` places, all or none of them. `radiance` is a factor on that of the mesh, linear RGB: each
+ * 0, or from 2^-60 to 2^60. Many together take less time than one at a time. */
 lightbvh_status lightbvh_add_instances(lightbvh *bvh, lightbvh_mesh mesh, const lightbvh_transform *transforms,
-                                       float radiance, size_t count, lightbvh_instance *instances);
+                                       const float radiance[3], size_t count, lightbvh_instance *instances);
 lightbvh_status lightbvh_set_transform(lightbvh *bvh, lightbvh_instance instance, const lightbvh_transform *transform);
-/* As the factor of lightbvh_add_instances; 0 turns the instance off. */
-lightbvh_status lightbvh_set_radiance(lightbvh *bvh, lightbvh_instance instance, float radiance);
+/* As the factor of lightbvh_add_instances; zeros turn the instance off. */
+lightbvh_status lightbvh_set_radiance(lightbvh *bvh, lightbvh_instance instance, const float radiance[3]);
 /* New vertices or radiance of `count` triangles from index `first` of a mesh on, in all its instances: lightbvh_refit then
  * computes what leads to them alone. */
 lightbvh_status lightbvh_set_triangle_range(lightbvh *bvh, lightbvh_mesh mesh, uint32_t first,

@@ -61,7 +61,7 @@ pub unsafe extern "C" fn lightbvh_add_instances(
     bvh: *mut Handle,
     mesh: CMesh,
     transforms: *const CTransform,
-    radiance: f32,
+    radiance: *const [f32; 3],
     count: usize,
     instances: *mut CInstance,
 ) -> Status {
@@ -71,10 +71,12 @@ pub unsafe extern "C" fn lightbvh_add_instances(
             let transforms = raw::at_most_lights(transforms, count, "transforms")?;
             let instances = raw::places(instances, count, "instances")?;
             let mesh = mesh.id()?;
+            let radiance = *raw::shared(radiance, "radiance")?;
             let add = |&transform: &CTransform| Edit::AddInstance {
                 mesh,
                 transform: transform.into(),
                 radiance,
+                mask: u32::MAX,
             };
             let bad = |EditError { edit, reason, .. }| {
                 Fault::new(Status::Refused, format!("instance {edit}: {reason}"))
@@ -108,7 +110,7 @@ pub unsafe extern "C" fn lightbvh_set_transform(
     }
 }
 
-/// An instance made brighter, dimmed, or turned off.
+/// An instance made brighter, dimmed, coloured, or turned off.
 ///
 /// # Safety
 /// As [`lightbvh_add_mesh`].
@@ -116,11 +118,12 @@ pub unsafe extern "C" fn lightbvh_set_transform(
 pub unsafe extern "C" fn lightbvh_set_radiance(
     bvh: *mut Handle,
     instance: CInstance,
-    radiance: f32,
+    radiance: *const [f32; 3],
 ) -> Status {
     // SAFETY: the caller's promise.
     unsafe {
         Handle::change(bvh, |bvh| {
+            let radiance = *raw::shared(radiance, "radiance")?;
             bvh.set_radiance(instance.id()?, radiance).map_err(refused)
         })
     }

@@ -48,14 +48,15 @@ fn expected() -> String {
     let add = |k| Edit::AddInstance {
         mesh,
         transform: at(k),
-        radiance: 1.0,
+        radiance: [1.0; 3],
+        mask: u32::MAX,
     };
     let mut lamps = bvh.apply((0..99).map(add).collect()).unwrap().instances;
     lamps.push(bvh.add_instance(mesh, at(99)).unwrap());
     bvh.refit();
     bvh.set_transform(lamps[40], Transform::at([40.0, 2.0, 0.0]))
         .unwrap();
-    bvh.set_radiance(lamps[41], 0.5).unwrap();
+    bvh.set_radiance(lamps[41], [0.5, 0.25, 0.125]).unwrap();
     bvh.remove_instance(lamps[42]).unwrap();
     lamp.p[1][0] = 0.0625;
     bvh.set_triangles(mesh, vec![lamp]).unwrap();
@@ -86,7 +87,8 @@ fn expected() -> String {
     let panel = Edit::AddInstance {
         mesh,
         transform: place,
-        radiance: 0.25,
+        radiance: [0.25; 3],
+        mask: u32::MAX,
     };
     bvh.apply(vec![panel]).unwrap();
     for frame in 1..=30 {

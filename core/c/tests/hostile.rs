@@ -6,6 +6,7 @@ use std::ptr::{null, null_mut};
 use lightbvh::{EmissiveTriangle, SampledLight, ShadingPoint};
 use lightbvh_c::*;
 
+const WHITE: [f32; 3] = [1.0; 3];
 const LAMP: EmissiveTriangle = EmissiveTriangle {
     p: [[0.0, 3.0, 0.0], [1.0, 3.0, 0.0], [0.0, 3.0, 1.0]],
     radiance: [1.0; 3],
@@ -77,7 +78,7 @@ fn null_and_unaligned_pointers_are_refused() {
             lightbvh_sample_batch(bvh, &POINT, &7, 1, null_mut()),
             lightbvh_pmf(bvh, &POINT, 0, 0, null_mut()),
             lightbvh_triangle_of(bvh, 0, 0, null_mut()),
-            lightbvh_add_instances(bvh, words([0, 0, 0, 1]), null(), 1.0, 1, null_mut()),
+            lightbvh_add_instances(bvh, words([0, 0, 0, 1]), null(), null(), 1, null_mut()),
             lightbvh_lights_of(bvh, words([0; 4]), null_mut(), null_mut()),
             lightbvh_point_of(bvh, 0, 0, 0.5, 0.5, null_mut()),
             lightbvh_light_count(bvh, null_mut()),
@@ -126,7 +127,7 @@ fn counts_and_numbers_out_of_range_are_refused() {
             bvh,
             mesh,
             &identity(),
-            1.0,
+            &WHITE,
             1,
             &mut instance,
         ));
@@ -150,7 +151,7 @@ unsafe fn add(bvh: *mut Handle, places: &[CTransform]) -> Vec<CInstance> {
     unsafe {
         ok(lightbvh_add_mesh(bvh, &LAMP, 1, &mut mesh));
         let out = instances.as_mut_ptr();
-        let added = lightbvh_add_instances(bvh, mesh, places.as_ptr(), 1.0, places.len(), out);
+        let added = lightbvh_add_instances(bvh, mesh, places.as_ptr(), &WHITE, places.len(), out);
         ok(added);
         ok(lightbvh_refit(bvh));
     }
@@ -217,21 +218,35 @@ fn wrong_ids_points_and_lights_are_refused() {
             bvh,
             cleared,
             &place,
-            1.0,
+            &WHITE,
             1,
             &mut instance,
         ));
         assert!(last().contains("lightbvh_add_mesh"), "{}", last());
-        refused(lightbvh_add_instances(other, mesh, &place, 1.0, 1, &mut instance));
+        refused(lightbvh_add_instances(
+            other,
+            mesh,
+            &place,
+            &WHITE,
+            1,
+            &mut instance,
+        ));
         refused(lightbvh_add_instances(
             bvh,
             mesh,
             &place,
-            f32::NAN,
+            &[1.0, f32::NAN, 1.0],
             1,
             &mut instance,
         ));
-        ok(lightbvh_add_instances(bvh, mesh, &place, 1.0, 1, &mut instance));
+        ok(lightbvh_add_instances(
+            bvh,
+            mesh,
+            &place,
+            &WHITE,
+            1,
+            &mut instance,
+        ));
         ok(lightbvh_refit(bvh));
         // The second point is bad, so the first one is not answered either.
         let far = ShadingPoint {
@@ -254,7 +269,7 @@ fn wrong_ids_points_and_lights_are_refused() {
         let far: &mut [f32; 12] = (&raw mut flat).cast::<[f32; 12]>().as_mut().unwrap();
         far[11] = f32::NAN;
         let mut two = [instance; 2];
-        let status = lightbvh_add_instances(bvh, mesh, [place, flat].as_ptr(), 1.0, 2, two.as_mut_ptr());
+        let status = lightbvh_add_instances(bvh, mesh, [place, flat].as_ptr(), &WHITE, 2, two.as_mut_ptr());
         refused(status);
         assert!(last().starts_with("instance 1"), "{}", last());
         ok(lightbvh_light_count(bvh, &mut count));

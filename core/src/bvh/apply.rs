@@ -54,17 +54,24 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                     mesh,
                     transform,
                     radiance,
+                    mask,
                 } => {
                     let mesh = mesh.place_in_batch().map_or(mesh, |place| updated.meshes[place]);
                     updated
                         .instances
-                        .push(self.insert_instance(mesh, transform, radiance));
+                        .push(self.insert_instance(mesh, transform, radiance, mask));
                 }
                 // Engines send all their transforms in every frame: what is set as it was is no change.
                 Edit::SetTransform { instance, transform } => self.set_place(instance.index, transform),
                 Edit::SetRadiance { instance, radiance } => {
                     let own = &mut self.placed[instance.index as usize].radiance;
-                    if core::mem::replace(own, radiance).to_bits() != radiance.to_bits() {
+                    if core::mem::replace(own, radiance).map(f32::to_bits) != radiance.map(f32::to_bits) {
+                        self.place(instance.index);
+                    }
+                }
+                Edit::SetMask { instance, mask } => {
+                    let own = &mut self.placed[instance.index as usize].mask;
+                    if core::mem::replace(own, mask) != mask {
                         self.place(instance.index);
                     }
                 }
@@ -136,7 +143,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         &mut self,
         mesh: MeshId,
         transform: Transform,
-        radiance: f32,
+        radiance: [f32; 3],
+        mask: u32,
     ) -> InstanceId {
         let index = self.placed_ranges.take(1).start;
         let old = self.placed.get(index as usize);
@@ -152,6 +160,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             user,
             transform,
             radiance,
+            mask,
             listed: self.live.len() as u32,
             lights: self.lights.take(count as u32),
             is_stale,
@@ -214,6 +223,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             first_triangle: mesh.triangles.start,
             count: placed.lights.len() as u32,
             listed: self.instances[index as usize].listed,
+            mask: placed.mask,
             ..self.in_place(placed.mesh, placed.transform, placed.radiance)
         };
         self.log.instance(index);
@@ -224,6 +234,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 /// The words of an instance that is not in use.
 pub(super) const NO_INSTANCE: Instance = Instance {
     flux: 0.0,
-    radiance: 0.0,
+    radiance: [0.0; 3],
     ..Instance::IDENTITY
 };

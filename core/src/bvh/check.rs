@@ -73,6 +73,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 mesh,
                 transform,
                 radiance,
+                mask: _,
             } => {
                 let (count, reach) = match mesh.place_in_batch() {
                     Some(place) => *batch.meshes.get(place).ok_or(EditReason::UnknownMesh(mesh))?,
@@ -99,6 +100,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             &mut Edit::SetRadiance { instance, radiance } => {
                 self.known_instance(batch, instance)?;
                 factor(radiance)?;
+            }
+            &mut Edit::SetMask { instance, mask: _ } => {
+                self.known_instance(batch, instance)?;
             }
             Edit::SetTriangles { mesh, triangles } => {
                 let expected = self.known_mesh(batch, *mesh)?;
@@ -219,11 +223,12 @@ fn checked<L: Light>(triangles: &mut [L]) -> Result<(), EditReason> {
 }
 
 /// `Ok` for a factor on radiance that may be.
-pub(super) fn factor(radiance: f32) -> Result<(), EditReason> {
-    if radiance == 0.0 || (RADIANCE_FACTORS[0]..=RADIANCE_FACTORS[1]).contains(&radiance) {
-        Ok(())
-    } else {
-        Err(EditReason::Radiance { value: radiance })
+pub(super) fn factor(radiance: [f32; 3]) -> Result<(), EditReason> {
+    let [least, most] = RADIANCE_FACTORS;
+    let is_one = |value: f32| value == 0.0 || (least..=most).contains(&value);
+    match radiance.into_iter().find(|&value| !is_one(value)) {
+        Some(value) => Err(EditReason::Radiance { value }),
+        None => Ok(()),
     }
 }
 

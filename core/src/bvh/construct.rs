@@ -36,7 +36,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let topologies = build_each(&meshes, &self.params);
         for (triangles, topology) in meshes.into_iter().zip(topologies) {
             let mesh = self.insert_mesh(triangles, &topology);
-            self.insert_instance(mesh, Transform::IDENTITY, 1.0);
+            self.insert_instance(mesh, Transform::IDENTITY, [1.0; 3], u32::MAX);
         }
         self.refit();
     }

@@ -86,8 +86,10 @@ pub enum Edit<L = EmissiveTriangle> {
         mesh: MeshId,
         /// Where.
         transform: Transform,
-        /// Factor on the mesh's radiance: 0, or from 2^-60 to 2^60.
-        radiance: f32,
+        /// Factor on the mesh's radiance, linear RGB: each 0, or from 2^-60 to 2^60.
+        radiance: [f32; 3],
+        /// Which receivers it lights, as bits; `u32::MAX` for all. See [`Linked`](crate::importance::Linked).
+        mask: u32,
     },
     /// An instance moved.
     SetTransform {
@@ -96,12 +98,19 @@ pub enum Edit<L = EmissiveTriangle> {
         /// Where to.
         transform: Transform,
     },
-    /// An instance made brighter, dimmed, or turned off.
+    /// An instance made brighter, dimmed, coloured, or turned off.
     SetRadiance {
         /// Which one.
         instance: InstanceId,
-        /// Factor on the mesh's radiance: 0, or from 2^-60 to 2^60.
-        radiance: f32,
+        /// Factor on the mesh's radiance, linear RGB: each 0, or from 2^-60 to 2^60.
+        radiance: [f32; 3],
+    },
+    /// An instance made to light other receivers.
+    SetMask {
+        /// Which one.
+        instance: InstanceId,
+        /// Which receivers it lights, as bits; `u32::MAX` for all.
+        mask: u32,
     },
     /// New vertices or new emission of a mesh, in all its instances.
     SetTriangles {
@@ -289,7 +298,7 @@ mod tests {
         let (mut bvh, mesh, instance) = scene();
         assert_eq!(MeshId::from_bits(mesh.to_bits()), mesh);
         assert_eq!(InstanceId::from_bits(instance.to_bits()), instance);
-        bvh.set_radiance(InstanceId::from_bits(instance.to_bits()), 2.0)
+        bvh.set_radiance(InstanceId::from_bits(instance.to_bits()), [2.0; 3])
             .unwrap();
         for bits in [[1, 2, 3], [u32::MAX, 0, 7]] {
             assert_eq!(MeshId::from_bits(bits).to_bits(), bits);
@@ -305,7 +314,7 @@ mod tests {
                 let mut bits = instance.to_bits();
                 bits[word] ^= wrong;
                 let id = InstanceId::from_bits(bits);
-                let error = bvh.set_radiance(id, 2.0).unwrap_err();
+                let error = bvh.set_radiance(id, [2.0; 3]).unwrap_err();
                 assert_eq!(error, EditReason::UnknownInstance(id));
                 let mut bits = mesh.to_bits();
                 bits[word] ^= wrong;

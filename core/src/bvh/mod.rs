@@ -71,9 +71,10 @@ use self::ranges::Ranges;
 use self::records::{InstanceState, Mesh, TreeId};
 use self::top::{Batch, Top};
 use crate::build::BuildParams;
-use crate::importance::DefaultImportance;
+use crate::importance::{DefaultImportance, Leveled, Linked, Moments};
 use crate::instance::Instance;
-use crate::node::{DefaultNode, Holds, Node};
+use crate::light::AnyLight;
+use crate::node::{DefaultNode, Holds, LinkedSpotMomentNode, Lit, Node, SpotMomentNode};
 use crate::refit::BlasRoot;
 use crate::tree::LightTree;
 
@@ -158,6 +159,13 @@ pub struct Parts<'a, N> {
 
 /// The light BVH with what measured best for its time: moments on packed nodes of 8 children, 1/64 of uniform choice.
 pub type LightBvh = Bvh<DefaultNode, DefaultImportance, 8>;
+
+/// [`LightBvh`] over lights of every kind, whose nodes know cones and ranges.
+pub type AnyLights = Bvh<Lit<SpotMomentNode<8>, AnyLight>, DefaultImportance, 8>;
+
+/// [`AnyLights`] with masks: an instance lights the receivers, [`LinkedPoint`](crate::importance::LinkedPoint)s, of which its mask has a bit, and no
+/// others. In place of a share of uniform choice each child with such a light keeps about 1/512 of its node.
+pub type MaskedLights = Bvh<Lit<LinkedSpotMomentNode<8>, AnyLight>, Linked<Leveled<Moments, 9>>, 8>;
 
 impl<N: Node<W>, I, const W: usize> Default for Bvh<N, I, W> {
     fn default() -> Self {

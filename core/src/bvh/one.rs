@@ -24,7 +24,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let added = self.one(Edit::AddInstance {
             mesh,
             transform,
-            radiance: 1.0,
+            radiance: [1.0; 3],
+            mask: u32::MAX,
         })?;
         Ok(added.instances[0])
     }
@@ -38,13 +39,23 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         self.one(Edit::SetTransform { instance, transform }).map(|_| ())
     }
 
-    /// Makes an instance brighter or dimmer: `radiance` is a factor on its mesh's, 0 or from 2^-60 to 2^60. 0 turns it off; uniform
-    /// choice may still return its lights, which then have no radiance.
+    /// Makes an instance brighter, dimmer, or of another colour: `radiance` is a factor on its mesh's, linear RGB, each 0 or from 2^-60 to
+    /// 2^60. Zeros turn it off; uniform choice may still return its lights, which then have no radiance. Weights go by its luminance, as if the
+    /// mesh were white.
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.
-    pub fn set_radiance(&mut self, instance: InstanceId, radiance: f32) -> Result<(), EditReason> {
+    pub fn set_radiance(&mut self, instance: InstanceId, radiance: [f32; 3]) -> Result<(), EditReason> {
         self.one(Edit::SetRadiance { instance, radiance }).map(|_| ())
+    }
+
+    /// Makes an instance light the receivers whose mask has a bit of `mask`, and no others, where nodes store masks: see
+    /// [`Linked`](crate::importance::Linked). Costs what moving it costs.
+    ///
+    /// # Errors
+    /// [`EditReason`]; nothing is changed then.
+    pub fn set_mask(&mut self, instance: InstanceId, mask: u32) -> Result<(), EditReason> {
+        self.one(Edit::SetMask { instance, mask }).map(|_| ())
     }
 
     /// Gives a mesh as many other triangles.

@@ -21,7 +21,7 @@ pub(super) fn common_power<L: Light>(lights: &[L]) -> u32 {
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// The words of an instance of `mesh` that depend on its map, its radiance and the kind of the mesh's lights.
-    pub(super) fn in_place(&self, mesh: u32, transform: Transform, radiance: f32) -> Instance {
+    pub(super) fn in_place(&self, mesh: u32, transform: Transform, radiance: [f32; 3]) -> Instance {
         let power = self.meshes[mesh as usize].power;
         let own = transform.instance_by(radiance, power);
         let is_told = N::Light::HAS_FLUX_POWERS && power != 2;

@@ -37,7 +37,8 @@ pub(super) struct InstanceState {
     /// Its place in the mesh's list of users.
     pub user: u32,
     pub transform: Transform,
-    pub radiance: f32,
+    pub radiance: [f32; 3],
+    pub mask: u32,
     /// Its place in the list of instances in use.
     pub listed: u32,
     pub lights: Range<u32>,
@@ -53,7 +54,8 @@ impl InstanceState {
         mesh: 0,
         user: 0,
         transform: Transform::IDENTITY,
-        radiance: 0.0,
+        radiance: [0.0; 3],
+        mask: 0,
         listed: 0,
         lights: 0..0,
         is_stale: false,

@@ -155,6 +155,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             first_triangle: mesh.triangles.start,
             count,
             listed: found.listed,
+            mask: placed.mask,
             ..self.in_place(placed.mesh, placed.transform, placed.radiance)
         };
         same_words(INVALID, index, &expected, found)?;

@@ -7,10 +7,11 @@ use crate::exact::{self, exponent, pow2};
 use crate::node::Node;
 use crate::point::LinkedPoint;
 
-/// Light linking: the importance `I` over the lights of which [`LinkedPoint`] has a bit. On layouts that store masks, as
+/// Light linking: the importance `I` over the lights of instances of whose masks [`LinkedPoint`] has a bit. On layouts that store masks, as
 /// [`LinkedMomentNode`](crate::node::LinkedMomentNode); another does not compile.
 ///
-/// The weight of a child is zero where the union of its lights' masks has no bit of the receiver's. Lights without flux are in no union. So a
+/// The weight of a child is zero where the union of its instances' masks has no bit of the receiver's. Lights without flux are in no union. Masks are of
+/// [instances](crate::Edit::SetMask): a single level has none. So a
 /// light has a positive probability just where it has flux and a common bit; all these probabilities sum to one; no walk comes to a dead end;
 /// and where no light is left, none is chosen. That costs one word per child.
 ///
@@ -20,43 +21,35 @@ use crate::point::LinkedPoint;
 /// `Defensive<Linked<_>, _>` compiles. [`Leveled`](super::Leveled) takes its place.
 ///
 /// ```
-/// # use lightbvh::importance::{Leveled, Linked, LinkedPoint};
-/// # use lightbvh::light::LinkedTriangle;
-/// # use lightbvh::node::{LinkedMomentNode, Lit};
-/// # use lightbvh::{Bvh, Moments, ShadingPoint};
-/// type Layout = Lit<LinkedMomentNode<8>, LinkedTriangle>;
+/// # use lightbvh::importance::LinkedPoint;
+/// # use lightbvh::{MaskedLights, ShadingPoint};
+/// # let lights = MaskedLights::default();
 /// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
-/// let sampled = Bvh::<Layout, Linked<Leveled<Moments, 9>>, 8>::default().sample(&receiver, 1_u32);
+/// let sampled = lights.sample(&receiver, 1_u32);
 /// ```
 /// Receivers of other kinds have masks as well: a leaf of two sides, say.
 /// ```
 /// # use lightbvh::importance::{Leveled, Linked, LinkedPoint, Transmissive, TransmissivePoint};
-/// # use lightbvh::light::LinkedTriangle;
-/// # use lightbvh::node::{LinkedMomentNode, Lit};
+/// # use lightbvh::node::LinkedMomentNode;
 /// # use lightbvh::{Bvh, Moments, ShadingPoint};
-/// # type Layout = Lit<LinkedMomentNode<8>, LinkedTriangle>;
 /// # let leaf = TransmissivePoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, front: 0.5, back: 0.5 };
 /// let receiver = LinkedPoint { point: leaf, mask: 1 };
-/// let lights = Bvh::<Layout, Linked<Leveled<Transmissive<Moments>, 9>>, 8>::default();
+/// let lights = Bvh::<LinkedMomentNode<8>, Linked<Leveled<Transmissive<Moments>, 9>>, 8>::default();
 /// let sampled = lights.sample(&receiver, 1_u32);
 /// ```
 /// ```compile_fail
 /// # use lightbvh::importance::{Defensive, Linked, LinkedPoint};
-/// # use lightbvh::light::LinkedTriangle;
-/// # use lightbvh::node::{LinkedMomentNode, Lit};
+/// # use lightbvh::node::LinkedMomentNode;
 /// # use lightbvh::{Bvh, Moments, ShadingPoint};
-/// # type Layout = Lit<LinkedMomentNode<8>, LinkedTriangle>;
 /// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
-/// let sampled = Bvh::<Layout, Linked<Defensive<Moments, 6>>, 8>::default().sample(&receiver, 1_u32);
+/// let sampled = Bvh::<LinkedMomentNode<8>, Linked<Defensive<Moments, 6>>, 8>::default().sample(&receiver, 1_u32);
 /// ```
 /// ```compile_fail
 /// # use lightbvh::importance::{Defensive, Linked, LinkedPoint};
-/// # use lightbvh::light::LinkedTriangle;
-/// # use lightbvh::node::{LinkedMomentNode, Lit};
+/// # use lightbvh::node::LinkedMomentNode;
 /// # use lightbvh::{Bvh, Moments, ShadingPoint};
-/// # type Layout = Lit<LinkedMomentNode<8>, LinkedTriangle>;
 /// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
-/// let sampled = Bvh::<Layout, Defensive<Linked<Moments>, 6>, 8>::default().sample(&receiver, 1_u32);
+/// let sampled = Bvh::<LinkedMomentNode<8>, Defensive<Linked<Moments>, 6>, 8>::default().sample(&receiver, 1_u32);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Linked<I>(PhantomData<I>);

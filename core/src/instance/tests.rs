@@ -201,17 +201,17 @@ fn normals_come_back_at_unit_length() {
 #[test]
 fn radiance_in_the_world() {
     use crate::light::{EmissiveTriangle, MAX_RADIANCE, MIN_RADIANCE};
-    let columns = [Vec3::X, Vec3::Y, Vec3::Z];
-    let of = |radiance: [f32; 3], factor: f32| {
+    let of_colors = |radiance: [f32; 3], factor: [f32; 3]| {
         let triangle = EmissiveTriangle {
             radiance,
             ..triangle([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
         };
-        placed(columns, Vec3::ZERO, factor)
-            .triangle(&triangle, 7)
-            .radiance
+        let instance = Transform::IDENTITY.instance_by(factor, 2);
+        instance.triangle(&triangle, 7).radiance
     };
+    let of = |radiance, factor| of_colors(radiance, [factor; 3]);
     assert_eq!(of([1.0, 0.0, 3.0], 0.5), [0.5, 0.0, 1.5]);
+    assert_eq!(of_colors([1.0, 2.0, 3.0], [0.0, 0.5, 2.0]), [0.0, 1.0, 6.0]);
     assert_eq!(of([1.0, 2.0, 3.0], 0.0), [0.0; 3]);
     assert_eq!(of([0.0; 3], 2.0), [0.0; 3]);
     let [least, most] = crate::bvh::RADIANCE_FACTORS;

@@ -6,7 +6,7 @@ use super::{Random, cross, dot, minus, narrow, normalize, wide};
 use crate::bvh::{Bvh, Edit};
 use crate::exact::hash;
 use crate::importance::ImportanceModel;
-use crate::light::{AnyLight, EmissiveTriangle, LinkedAny, SpotLight};
+use crate::light::{AnyLight, EmissiveTriangle, SpotLight};
 use crate::node::Node;
 use crate::{InstanceId, SampledLight, ShadingPoint, Transform};
 
@@ -45,15 +45,6 @@ impl Lamp for AnyLight {
             mesh: 0,
         }
         .into()
-    }
-}
-
-impl Lamp for LinkedAny {
-    fn any(random: &mut Random) -> Self {
-        Self {
-            light: AnyLight::any(random),
-            mask: 1 << random.below(20),
-        }
     }
 }
 
@@ -97,7 +88,8 @@ pub fn scattered<N: Node<W>, I, const W: usize>(
     let add = |k| Edit::AddInstance {
         mesh,
         transform: Transform::at(place(k)),
-        radiance: 1.0,
+        radiance: [1.0; 3],
+        mask: u32::MAX,
     };
     let added = bvh.apply((0..count).map(add).collect()).expect("a mesh");
     bvh.refit();
@@ -139,11 +131,12 @@ where
         let at = random.below(meshes.len().max(1) as u32) as usize;
         let on = random.below(all.len().max(1) as u32) as usize;
         let (mesh, instance) = (meshes.get(at).copied(), all.get(on).copied());
-        out.push(match (random.below(12), mesh, instance) {
+        out.push(match (random.below(13), mesh, instance) {
             (0..=2, Some(mesh), _) => Edit::AddInstance {
                 mesh,
                 transform: placed(random, 50.0),
-                radiance: [0.0, 1.0, 8.0][random.below(3) as usize],
+                radiance: [[0.0; 3], [1.0; 3], [0.0, 8.0, 1.0]][random.below(3) as usize],
+                mask: 1 << random.below(20),
             },
             (3 | 4, _, Some(instance)) => Edit::SetTransform {
                 instance,
@@ -151,7 +144,11 @@ where
             },
             (5, _, Some(instance)) => Edit::SetRadiance {
                 instance,
-                radiance: [0.0, 1.0, 100.0][random.below(3) as usize],
+                radiance: [[0.0; 3], [1.0; 3], [100.0, 0.0, 2.0]][random.below(3) as usize],
+            },
+            (11, _, Some(instance)) => Edit::SetMask {
+                instance,
+                mask: 1 << random.below(20),
             },
             (6, Some(mesh), _) => {
                 let end = bvh.mesh_triangles(mesh).map_or(1, <[_]>::len) as u32;

@@ -171,7 +171,7 @@ impl Flat {
         Self {
             p: instance.vertex(self.p),
             half: [[first.x, first.y, first.z], [second.x, second.y, second.z]],
-            radiance: shining(&self.radiance, instance.radiance, self.has_flux(shape)),
+            radiance: shining(&self.radiance, &instance.radiance, self.has_flux(shape)),
             mesh: index,
             flags: self.flags,
         }

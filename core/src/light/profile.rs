@@ -192,7 +192,7 @@ impl Light for ProfileLight {
         let is_kept = squared > LEAST_ACROSS;
         Self {
             p: instance.vertex(self.p),
-            intensity: shining(&self.intensity, instance.radiance, self.has_flux()),
+            intensity: shining(&self.intensity, &instance.radiance, self.has_flux()),
             axis: [axis.x, axis.y, axis.z],
             across: [
                 if is_kept { across.x } else { any.x },

@@ -198,7 +198,7 @@ impl Light for PointLight {
     fn in_world(&self, instance: &Instance, index: u32) -> Self {
         Self {
             p: instance.vertex(self.p),
-            intensity: shining(&self.intensity, instance.radiance, self.has_flux()),
+            intensity: shining(&self.intensity, &instance.radiance, self.has_flux()),
             mesh: index,
             ..*self
         }
@@ -345,7 +345,7 @@ impl Light for SpotLight {
         let axis = instance.direction_to_world(vector(&self.axis));
         Self {
             p: instance.vertex(self.p),
-            intensity: shining(&self.intensity, instance.radiance, self.has_flux()),
+            intensity: shining(&self.intensity, &instance.radiance, self.has_flux()),
             axis: [axis.x, axis.y, axis.z],
             mesh: index,
             ..*self

@@ -55,12 +55,6 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     fn flux_power(&self) -> u32 {
         Self::FLUX_POWER
     }
-    /// Which receivers it lights, as bits: those whose mask has one of them ([`LinkedPoint`](crate::importance::LinkedPoint)). All, unless a
-    /// kind says otherwise. Read by [`Linked`](crate::importance::Linked) on nodes that store masks, and by nothing else.
-    #[inline(always)]
-    fn mask(&self) -> u32 {
-        u32::MAX
-    }
     /// Distance from its box from which on nothing of it arrives, metres: [`Limits::ENDLESS`], unless it has a range. Read where nodes store
     /// beams, by nothing else.
     #[inline(always)]
@@ -209,13 +203,17 @@ pub(super) fn bounds(p: &[f32; 3], half: Vec3, cone: Cone, phi: f32) -> LightBou
 
 /// What a light of a mesh sends in the world: `factor` times as much, within the range; nothing where it has no flux in the mesh.
 #[inline(always)]
-pub(super) fn shining(emission: &[f32; 3], factor: f32, has_flux: bool) -> [f32; 3] {
-    let shines = (factor > 0.0) & has_flux;
-    let shine = |l: f32| {
+pub(super) fn shining(emission: &[f32; 3], factor: &[f32; 3], has_flux: bool) -> [f32; 3] {
+    let shine = |l: f32, factor: f32| {
         let scaled = exact::clamp(l * factor, MIN_RADIANCE, MAX_RADIANCE);
-        if (l > 0.0) & shines { scaled } else { 0.0 }
+        let shines = (l > 0.0) & (factor > 0.0) & has_flux;
+        if shines { scaled } else { 0.0 }
     };
-    [shine(emission[0]), shine(emission[1]), shine(emission[2])]
+    [
+        shine(emission[0], factor[0]),
+        shine(emission[1], factor[1]),
+        shine(emission[2], factor[2]),
+    ]
 }
 
 /// A direction at length 1, up to 2^-22; one that is so already stays.

@@ -113,7 +113,7 @@ impl Light for SphereLight {
         Self {
             p: instance.vertex(self.p),
             radius: exact::clamp(self.radius * instance.scale(), RADII[0], RADII[1]),
-            radiance: shining(&self.radiance, instance.radiance, self.has_flux()),
+            radiance: shining(&self.radiance, &instance.radiance, self.has_flux()),
             mesh: index,
         }
     }

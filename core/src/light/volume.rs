@@ -159,7 +159,7 @@ impl Light for BoxLight {
         Self {
             p: instance.vertex(self.p),
             half: [edge(0), edge(1), edge(2)],
-            radiance: shining(&self.radiance, instance.radiance, self.has_flux()),
+            radiance: shining(&self.radiance, &instance.radiance, self.has_flux()),
             mesh: index,
         }
     }

@@ -50,10 +50,8 @@ pub type MomentNode<const W: usize> = PackedMomentNode<W, ORIENTED>;
 pub type TwoSidedMomentNode<const W: usize> = PackedMomentNode<W, TWO_SIDED>;
 
 /// A node of 28 bytes per child that knows which lights a receiver may take: the words of [`MomentNode`], and the union of the masks of the
-/// child's lights ([`Light::mask`](crate::light::Light::mask)). What [`Linked`](crate::importance::Linked) needs; any other importance
+/// child's instances, all bits below an instance. What [`Linked`](crate::importance::Linked) needs; any other importance
 /// chooses as by [`MomentNode`], to the bit.
-///
-/// `Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Moments>, 8>` is a tree over [`LinkedTriangle`](crate::light::LinkedTriangle)s.
 pub type LinkedMomentNode<const W: usize> = PackedMomentNode<W, LINKED>;
 
 /// A node of 32 bytes per child for scenes with spots and ranges: the words of [`MomentNode`], a cone that holds all light of the child

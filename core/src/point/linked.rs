@@ -3,8 +3,8 @@
 use super::{Receiver, ShadingPoint};
 use crate::instance::Instance;
 
-/// A receiver with a mask, for [`Linked`](crate::importance::Linked): lit by the lights of which the mask has a bit
-/// ([`Light::mask`](crate::light::Light::mask)), and by no other. Around a [`ShadingPoint`](super::ShadingPoint), or any other receiver.
+/// A receiver with a mask, for [`Linked`](crate::importance::Linked): lit by the instances of
+/// whose masks it has a bit, and by no other. Around a [`ShadingPoint`](super::ShadingPoint), or any other receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkedPoint<P> {
     /// Where, and what else is known of it.

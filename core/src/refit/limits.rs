@@ -45,7 +45,7 @@ pub(crate) fn limits_below<N: Node<W>, const W: usize>(
 #[inline(always)]
 pub(super) fn limits_of_light<N: Node<W>, const W: usize>(light: &N::Light) -> Limits {
     Limits {
-        mask: light.mask(),
+        mask: u32::MAX,
         beam: if N::HAS_BEAMS {
             light.beam()
         } else {
@@ -69,7 +69,8 @@ pub(crate) fn limits_of_instance<N: Node<W>, const W: usize>(
     world: &N::Summary,
 ) -> Limits {
     if root.node < nodes.len() as u32 {
-        let own = nodes[root.node as usize].merged_limits(&root.summary());
+        let mut own = nodes[root.node as usize].merged_limits(&root.summary());
+        own.mask &= instance.mask;
         if N::HAS_BEAMS {
             own.to_world(instance, world.center())
         } else {

@@ -24,7 +24,7 @@ fn scene(flags: u32, instances: u32) -> LightBvh {
     for k in 0..=instances {
         let at = Transform::at([if k % 5 == 0 { 0.0 } else { 1.0 }, 0.0, 0.0]);
         let own = bvh.add_instance(meshes[k as usize % 2], at).expect("a mesh");
-        bvh.set_radiance(own, [1.0, 0.5, 0.0][k as usize % 3])
+        bvh.set_radiance(own, [[1.0, 0.5, 0.0][k as usize % 3]; 3])
             .expect("a factor");
         if k == instances {
             bvh.remove_instance(own).expect("there");

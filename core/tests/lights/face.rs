@@ -56,7 +56,8 @@ fn no_lights_are_a_tree_that_answers_none() {
             Edit::AddInstance {
                 mesh: MeshId::added(0),
                 transform: Transform::at([1.0, 0.0, 0.0]),
-                radiance: 1.0,
+                radiance: [1.0; 3],
+                mask: u32::MAX,
             },
         ]);
         added.expect("a lamp");

@@ -1,20 +1,20 @@
-//! Light linking against an exhaustive oracle: a light has a probability just where it has flux and a bit in common with the
-//! receiver, through edits, refits, rebuilds and files.
+//! Light linking against an exhaustive oracle: a light has a probability just where it has flux and its instance a bit in common with
+//! the receiver, through edits, refits, rebuilds and files.
 
 use crate::kit::Random;
 use lightbvh::bvh::{RebuilderParams, Swap};
 use lightbvh::importance::{
     Leveled, Linked, LinkedPoint, RaySegment, Subtended, Transmissive, TransmissivePoint,
 };
-use lightbvh::light::{Light, LinkedAny, LinkedTriangle};
+use lightbvh::light::{AnyLight, Light};
 use lightbvh::node::{LinkedMomentNode, LinkedSpotMomentNode, Lit, MomentLayout, Node};
 use lightbvh::tree::{LightTree, OPENED};
 use lightbvh::{
-    BuildParams, Bvh, Flux, Glossy, GlossyPoint, ImportanceModel, Lights, MomentNode, Moments, Random64,
-    Rebuilder, Receiver, SampledLight, ShadingPoint, Transform,
+    BuildParams, Bvh, Flux, Glossy, GlossyPoint, ImportanceModel, Instance, InstanceId, Lights, MeshId,
+    MomentNode, Moments, Random64, Rebuilder, Receiver, SampledLight, ShadingPoint, Transform,
 };
 
-type Tree<N> = Bvh<Lit<N, LinkedAny>, Linked<Moments>, 8>;
+type Tree<N> = Bvh<Lit<N, AnyLight>, Linked<Moments>, 8>;
 
 impl Random {
     /// Of few bits, so that some receivers have few lights; none for one in eight, all for one in eight.
@@ -38,15 +38,17 @@ impl Random {
     }
 
     /// Emission over six orders of magnitude: what is left may be far dimmer than what is masked out. One in eight has none.
-    fn linked(&mut self) -> LinkedAny {
+    fn leveled(&mut self) -> AnyLight {
         let kind = self.below(8);
         let level = 10.0_f32.powf(3.0 * self.signed());
         let level = if self.below(8) == 0 { 0.0 } else { level };
         let light = self.light(kind);
-        LinkedAny {
-            light: light.with_emission(light.emission().map(|x| x * level)),
-            mask: self.mask(),
-        }
+        light.with_emission(light.emission().map(|x| x * level))
+    }
+
+    /// A factor on radiance, one of three of one colour alone.
+    fn factor(&mut self) -> [f32; 3] {
+        [[0.0; 3], [1.0; 3], [40.0, 0.0, 0.0]][self.below(3) as usize]
     }
 
     fn place(&mut self) -> Transform {
@@ -56,8 +58,14 @@ impl Random {
     }
 }
 
-fn lights(random: &mut Random, count: u32) -> Vec<LinkedAny> {
-    (0..count).map(|_| random.linked()).collect()
+fn lights(random: &mut Random, count: u32) -> Vec<AnyLight> {
+    (0..count).map(|_| random.leveled()).collect()
+}
+
+fn put<N: MomentLayout<8>>(bvh: &mut Tree<N>, mesh: MeshId, random: &mut Random) -> InstanceId {
+    let id = bvh.add_instance(mesh, random.place()).expect("in the domain");
+    bvh.set_mask(id, random.mask()).expect("an instance");
+    id
 }
 
 /// A light's number, its instance, and whether it has flux.
@@ -69,29 +77,19 @@ struct Known {
 }
 
 fn known<N: MomentLayout<8>>(bvh: &Tree<N>) -> Vec<Known> {
-    let known = |light, instance, own: &LinkedAny, on| Known {
-        light,
-        instance,
-        shines: on && own.has_flux(),
-        mask: own.mask,
-    };
-    if bvh.is_single_level() {
-        let all = (0..).zip(bvh.triangles());
-        return all
-            .map(|(light, own)| known(light, u32::MAX, own, true))
-            .collect();
-    }
     let mut all = Vec::new();
     for id in (0..bvh.instances().len() as u32).filter_map(|k| bvh.instance_id(k)) {
         let mesh = bvh.mesh_of(id).expect("of an instance");
         let own = bvh.mesh_triangles(mesh).expect("of a mesh");
-        let on = bvh.instances()[id.index() as usize].radiance > 0.0;
+        let Instance { radiance, mask, .. } = bvh.instances()[id.index() as usize];
+        let is_on = radiance.iter().any(|&x| x > 0.0);
         let numbers = bvh.lights_of(id).expect("of an instance");
-        all.extend(
-            numbers
-                .zip(own)
-                .map(|(light, own)| known(light, id.index(), own, on)),
-        );
+        all.extend(numbers.zip(own).map(|(light, own)| Known {
+            light,
+            instance: id.index(),
+            shines: is_on && own.has_flux(),
+            mask,
+        }));
     }
     all
 }
@@ -145,9 +143,9 @@ fn check<N: Node<8>, I: ImportanceModel<N, 8, LinkedPoint<P>>, P: Receiver>(
         if allowed == 0 {
             assert_eq!(sampled, SampledLight::NONE);
         } else {
-            let at = known.iter().position(|own| {
-                own.light == sampled.light && (own.instance == sampled.instance || own.instance == u32::MAX)
-            });
+            let at = known
+                .iter()
+                .position(|own| own.light == sampled.light && own.instance == sampled.instance);
             assert_eq!(sampled.pmf.to_bits(), pmfs[at.expect("a light")].to_bits());
             assert!(sampled.pmf > 0.0);
         }
@@ -164,7 +162,7 @@ fn check_all<N: MomentLayout<8>>(bvh: &Tree<N>, receivers: u32, random: &mut Ran
     bvh.validate().expect("nodes are what refit makes");
     let known = known(bvh);
     for _ in 0..receivers {
-        let receiver = random.receiver(if bvh.is_single_level() { 2.0 } else { 32.0 });
+        let receiver = random.receiver(32.0);
         check(&bvh.tree(), &known, &receiver, random, seen);
     }
     let near = known.get(random.below(known.len().max(1) as u32) as usize);
@@ -223,31 +221,7 @@ fn check_all<N: MomentLayout<8>>(bvh: &Tree<N>, receivers: u32, random: &mut Ran
     );
 }
 
-#[test]
-fn one_level() {
-    let random = &mut Random(1);
-    let mut seen = Seen::default();
-    for count in [1, 2, 3, 7, 8, 9, 40, 200, 2000] {
-        let all = Lights::new(lights(random, count)).expect("in the domain");
-        let mut bvh = Tree::<LinkedMomentNode<8>>::single_level(&all, &BuildParams::default());
-        let receivers = if count < 1000 { 48 } else { 6 };
-        check_all(&bvh, receivers, random, &mut seen);
-        // New masks of some lights alone.
-        let mesh = bvh.mesh_id(0).expect("one mesh");
-        let first = random.below(count);
-        let some = 1 + random.below(count - first);
-        bvh.set_triangle_range(mesh, first, lights(random, some))
-            .expect("in the mesh");
-        bvh.refit();
-        check_all(&bvh, receivers, random, &mut seen);
-    }
-    assert!(
-        seen.without > 50 && seen.partial > 100 && seen.of_one > 20,
-        "{seen:?}"
-    );
-}
-
-/// With beams beside the masks, and large meshes whose parts are leaves of the top level with masks of their own.
+/// With beams beside the masks, and large meshes whose parts are leaves of the top level with the instance's mask.
 #[test]
 fn two_levels_go_on_by_edits() {
     type Both = Tree<LinkedSpotMomentNode<8>>;
@@ -258,14 +232,10 @@ fn two_levels_go_on_by_edits() {
         let mut ids = Vec::new();
         for _ in 0..2 + random.below(6) {
             let count = if seed == 3 { 300 } else { 1 + random.below(40) };
-            let mut own = lights(random, count);
-            if seed == 3 {
-                own.iter_mut()
-                    .for_each(|own| own.mask = 1 << ((own.centroid()[0] + 1.0) * 8.0) as u32);
-            }
+            let own = lights(random, count);
             let mesh = bvh.add_mesh(own).expect("in the domain");
             for _ in 0..=random.below(8) {
-                ids.push(bvh.add_instance(mesh, random.place()).expect("in the domain"));
+                ids.push(put(&mut bvh, mesh, random));
             }
         }
         bvh.refit();
@@ -278,11 +248,9 @@ fn two_levels_go_on_by_edits() {
             let at = random.below(ids.len() as u32) as usize;
             let mesh = bvh.mesh_of(ids[at]).expect("a mesh");
             let count = bvh.mesh_triangles(mesh).expect("a mesh").len() as u32;
-            match random.below(6) {
+            match random.below(7) {
                 0 => bvh.set_transform(ids[at], random.place()).expect("in the domain"),
-                1 => bvh
-                    .set_radiance(ids[at], [0.0, 1.0, 40.0][random.below(3) as usize])
-                    .expect("a factor"),
+                1 => bvh.set_radiance(ids[at], random.factor()).expect("a factor"),
                 2 | 3 => {
                     let first = random.below(count);
                     let some = 1 + random.below(count - first);
@@ -292,7 +260,8 @@ fn two_levels_go_on_by_edits() {
                 4 if ids.len() > 2 => {
                     bvh.remove_instance(ids.swap_remove(at)).expect("it is there");
                 }
-                _ => ids.push(bvh.add_instance(mesh, random.place()).expect("in the domain")),
+                5 => bvh.set_mask(ids[at], random.mask()).expect("an instance"),
+                _ => ids.push(put(&mut bvh, mesh, random)),
             }
             bvh.refit();
             rebuilder.end_frame(&bvh);
@@ -316,7 +285,7 @@ fn two_levels_go_on_by_edits() {
         let read = Both::from_words(&words).expect("what was written");
         assert!(read.to_words() == words);
         check_all(&read, 4, random, &mut seen);
-        assert!(Bvh::<Lit<MomentNode<8>, LinkedAny>, Moments, 8>::from_words(&words).is_err());
+        assert!(Bvh::<Lit<MomentNode<8>, AnyLight>, Moments, 8>::from_words(&words).is_err());
     }
     assert!(
         seen.without > 30 && seen.partial > 100 && opened > 0,
@@ -329,11 +298,10 @@ fn two_levels_go_on_by_edits() {
 fn masks_that_allow_all_change_nothing() {
     let random = &mut Random(9);
     let own: Vec<_> = (0..700).map(|_| random.triangle()).collect();
-    let linked = Lights::new(own.iter().map(|&own| LinkedTriangle::from(own)).collect());
-    let plain = Lights::new(own).expect("in the domain");
-    let plain: Bvh<MomentNode<8>, Moments, 8> = Bvh::single_level(&plain, &BuildParams::default());
-    let masked: Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Moments>, 8> =
-        Bvh::single_level(&linked.expect("in the domain"), &BuildParams::default());
+    let lights = Lights::new(own).expect("in the domain");
+    let plain: Bvh<MomentNode<8>, Moments, 8> = Bvh::single_level(&lights, &BuildParams::default());
+    let masked: Bvh<LinkedMomentNode<8>, Linked<Moments>, 8> =
+        Bvh::single_level(&lights, &BuildParams::default());
     // The words of a node but for the last row are those without masks.
     let row = size_of::<[u32; 8]>();
     assert_eq!(plain.nodes().len(), masked.nodes().len());
@@ -360,18 +328,22 @@ fn masks_that_allow_all_change_nothing() {
 fn least_shares_bound_probabilities() {
     const LEAST: f64 = 1.0 / 512.0;
     let random = &mut Random(12);
-    let all = Lights::new(lights(random, 600)).expect("in the domain");
-    let bvh = Tree::<LinkedMomentNode<8>>::single_level(&all, &BuildParams::default());
+    let mut bvh = Tree::<LinkedMomentNode<8>>::default();
+    for _ in 0..60 {
+        let mesh = bvh.add_mesh(lights(random, 10)).expect("in the domain");
+        put(&mut bvh, mesh, random);
+    }
+    bvh.refit();
     // What is raised adds to the sum; shares are whole numbers of 2^21 at least.
     let of_node = LEAST / (1.0 + 8.0 * LEAST) - 2f64.powi(-20);
     let bound = of_node.powi(bvh.depth() as i32);
     let tree = bvh.by::<Linked<Leveled<Moments, 9>>>();
     let mut below = 0;
     for _ in 0..40 {
-        let receiver = random.receiver(2.0);
-        for light in 0..600 {
-            let plain = bvh.tree().pmf(&receiver, light, 0);
-            let pmf = f64::from(tree.pmf(&receiver, light, 0));
+        let receiver = random.receiver(30.0);
+        for own in known(&bvh) {
+            let plain = bvh.tree().pmf(&receiver, own.light, own.instance);
+            let pmf = f64::from(tree.pmf(&receiver, own.light, own.instance));
             assert_eq!(plain > 0.0, pmf > 0.0);
             assert!(pmf == 0.0 || pmf >= bound, "{pmf} of {bound}");
             below += u32::from(plain > 0.0 && f64::from(plain) < bound);

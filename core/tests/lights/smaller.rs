@@ -74,7 +74,8 @@ fn scene<N: LightNode<W>, I, const W: usize>(seed: u32, flags: u32, params: Buil
             let edit = Edit::AddInstance {
                 mesh: own,
                 transform: transform(random, size),
-                radiance: [1.0, 0.25, 0.0][random.below(3) as usize],
+                radiance: [[1.0, 0.25, 0.0][random.below(3) as usize]; 3],
+                mask: u32::MAX,
             };
             instances.extend(bvh.apply(vec![edit]).expect("an instance").instances);
         }

@@ -8,7 +8,7 @@ use lightbvh::exact::hash;
 use lightbvh::{Bvh, Edit, EmissiveTriangle, InstanceId, LightNode, MeshId, Transform};
 
 use super::model::{Mesh, Model, Placed, reach, within};
-use super::placing::{factor, transform};
+use super::placing::{color, transform};
 use crate::input::{self, Coordinates};
 
 /// What is expected of an edit: the reasons for which it may be refused, by their names, and whether it may be done.
@@ -39,7 +39,7 @@ fn first_wrong(conditions: &[(Option<bool>, &'static str)]) -> Verdict {
 struct Staged {
     model: Model,
     meshes: Vec<Vec<EmissiveTriangle>>,
-    added: Vec<(MeshId, Transform, f32)>,
+    added: Vec<(MeshId, Transform, [f32; 3])>,
 }
 
 /// Applies a batch to the scene, and to the model if it is not refused; returns whether it was applied.
@@ -67,7 +67,7 @@ pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
         let (mesh, seed) = (mesh.id, u.arbitrary::<u8>()?);
         for k in 0..4 + seed % 32 {
             let axis = |axis: u32| f32::from(hash(u32::from(seed) << 16 | u32::from(k) << 8 | axis) as i8);
-            let (edit, verdict) = staged.add_instance(mesh, Transform::at([0, 1, 2].map(axis)), 1.0);
+            let (edit, verdict) = staged.add_instance(mesh, Transform::at([0, 1, 2].map(axis)), [1.0; 3]);
             edits.push(edit);
             verdicts.push(verdict);
         }
@@ -174,8 +174,9 @@ fn accepted(triangles: &[EmissiveTriangle]) -> (Option<bool>, Vec<EmissiveTriang
 }
 
 /// Whether a radiance factor is accepted.
-fn shines(radiance: f32) -> Option<bool> {
-    Some(radiance == 0.0 || (2f32.powi(-60)..=2f32.powi(60)).contains(&radiance))
+fn shines(radiance: [f32; 3]) -> Option<bool> {
+    let is_one = |x: f32| x == 0.0 || (2f32.powi(-60)..=2f32.powi(60)).contains(&x);
+    Some(radiance.into_iter().all(is_one))
 }
 
 /// An edit, done to the staged model where it may be done.
@@ -186,9 +187,9 @@ fn one(u: &mut Unstructured<'_>, staged: &mut Staged, first: bool) -> Result<(Ed
     let mesh_id = pick(which, &meshes, &staged.model.gone_meshes);
     let instance = pick(which, &instances, &staged.model.gone_instances);
     Ok(match (kind % 13, mesh_id, instance) {
-        (1..=3, Some(id), _) if !first => staged.add_instance(id, transform(u)?, factor(u)?),
+        (1..=3, Some(id), _) if !first => staged.add_instance(id, transform(u)?, color(u)?),
         (4..=6, _, Some(id)) => staged.move_to(id, transform(u)?),
-        (7, _, Some(id)) => staged.shine(id, factor(u)?),
+        (7, _, Some(id)) => staged.shine(id, color(u)?),
         (8 | 9, Some(id), _) => {
             let found = staged.model.meshes.iter().find(|mesh| mesh.id == id);
             let count = found.map(|mesh| mesh.triangles.len()).filter(|_| kind < 240);

@@ -28,7 +28,7 @@ pub struct Placed {
     pub id: InstanceId,
     pub mesh: MeshId,
     pub transform: Transform,
-    pub radiance: f32,
+    pub radiance: [f32; 3],
     pub lights: Range<u32>,
 }
 
@@ -119,9 +119,9 @@ fn check_vertices(map: &Transform, local: &EmissiveTriangle, found: &EmissiveTri
     );
 }
 
-fn check_radiance(local: [f32; 3], factor: f32, found: [f32; 3]) {
+fn check_radiance(local: [f32; 3], factor: [f32; 3], found: [f32; 3]) {
     let (least, most) = (2f32.powi(-100), 2f32.powi(100));
-    for (local, found) in local.into_iter().zip(found) {
+    for ((local, factor), found) in local.into_iter().zip(factor).zip(found) {
         let exact = f64::from(local) * f64::from(factor);
         let expected = if exact == 0.0 {
             0.0

@@ -44,8 +44,17 @@ pub fn transform(u: &mut Unstructured<'_>) -> Result<Transform> {
     Ok(transform)
 }
 
+/// A factor on radiance: of one colour, or of one that may be none at all in some channels.
+pub fn color(u: &mut Unstructured<'_>) -> Result<[f32; 3]> {
+    let first = factor(u)?;
+    Ok(match u.arbitrary()? {
+        false => [first; 3],
+        true => [first, factor(u)?, factor(u)?],
+    })
+}
+
 /// Factor on radiance: sound but for one in sixteen.
-pub fn factor(u: &mut Unstructured<'_>) -> Result<f32> {
+fn factor(u: &mut Unstructured<'_>) -> Result<f32> {
     let kind: u8 = u.arbitrary()?;
     Ok(match kind % 16 {
         0..=7 => 1.0,

@@ -82,7 +82,8 @@ impl<L: SceneLight> Instances<L> {
             add.push(Edit::AddInstance {
                 mesh,
                 transform: to_light_bvh(&place),
-                radiance: 1.0,
+                radiance: [1.0; 3],
+                mask: u32::MAX,
             });
         }
         let ids = lights.apply(add)?.instances;

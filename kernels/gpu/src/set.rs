@@ -66,11 +66,11 @@ impl KernelSet {
         light_points: &table::LIGHT_POINTS_ANY,
     };
 
-    /// The kernels of light linking, `Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Leveled<Moments, 9>>, 8>`. They are
-    /// asked [`LinkedQuery`](crate::LinkedQuery)s. Roots are read from the words that [`ANY`](Self::ANY)'s nodes have too.
+    /// The kernels of [`MaskedLights`](lightbvh::MaskedLights). They are asked [`LinkedQuery`](crate::LinkedQuery)s, also by
+    /// [`light_points`](Self::light_points).
     pub const LINKED: Self = Self {
         refit_bottom: &table::REFIT_BOTTOM_LINKED,
-        refit_roots: &table::REFIT_ROOTS_ANY,
+        refit_roots: &table::REFIT_ROOTS_LINKED,
         refit_top: &table::REFIT_TOP_LINKED,
         refit_nodes: &table::REFIT_NODES_LINKED,
         sample: &table::SAMPLE_LINKED,
@@ -144,8 +144,8 @@ impl KernelSet {
 
 #[cfg(test)]
 mod tests {
-    use lightbvh::light::{AnyLight, LinkedTriangle};
-    use lightbvh::node::{Holds, LinkedMomentNode, Lit, SpotMomentNode};
+    use lightbvh::light::AnyLight;
+    use lightbvh::node::{Holds, LinkedSpotMomentNode, Lit, SpotMomentNode};
     use lightbvh::requirements::Updates;
     use lightbvh::{CompactNode, MomentNode, SampledLight, TreeWords};
 
@@ -156,11 +156,7 @@ mod tests {
     fn fits<N: Holds, Q>(set: &KernelSet, suffix: &str) {
         for pass in Pass::ALL {
             let kernel = set.refit(pass);
-            let suffix = match pass {
-                Pass::Roots => suffix.replace("_linked", "_any"),
-                _ => suffix.into(),
-            };
-            assert_eq!(kernel.name.strip_suffix(&*suffix), Some(pass.name()));
+            assert_eq!(kernel.name.strip_suffix(suffix), Some(pass.name()));
             assert_eq!(kernel.push_constants, 12);
         }
         for kernel in [
@@ -226,6 +222,6 @@ mod tests {
         fits::<MomentNode<8>, Query>(&MOMENTS, "");
         fits::<CompactNode<4>, Query>(&EQ4, "_eq4");
         fits::<Lit<SpotMomentNode<8>, AnyLight>, Query>(&KernelSet::ANY, "_any");
-        fits::<Lit<LinkedMomentNode<8>, LinkedTriangle>, LinkedQuery>(&KernelSet::LINKED, "_linked");
+        fits::<Lit<LinkedSpotMomentNode<8>, AnyLight>, LinkedQuery>(&KernelSet::LINKED, "_linked");
     }
 }

@@ -28,7 +28,8 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
             .map(|_| Edit::AddInstance {
                 mesh: meshes[random.below(6) as usize].0,
                 transform: place(&mut random),
-                radiance: [0.0, 1.0, 0.25, 1000.0][random.below(4) as usize],
+                radiance: [[0.0, 1.0, 0.25, 1000.0][random.below(4) as usize]; 3],
+                mask: u32::MAX,
             })
             .collect();
         for &instance in &ids {

@@ -24,7 +24,8 @@ fn world(count: u32) -> (LightBvh, MeshId, Vec<InstanceId>) {
     let add = (0..count).map(|k| Edit::AddInstance {
         mesh,
         transform: place(k, 0),
-        radiance: 1.0,
+        radiance: [1.0; 3],
+        mask: u32::MAX,
     });
     let ids = bvh.apply(add.collect()).expect("within the domain").instances;
     bvh.refit();

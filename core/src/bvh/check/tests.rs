@@ -29,7 +29,8 @@ fn add(mesh: MeshId) -> Edit {
     Edit::AddInstance {
         mesh,
         transform: Transform::IDENTITY,
-        radiance: 1.0,
+        radiance: [1.0; 3],
+        mask: u32::MAX,
     }
 }
 
@@ -140,10 +141,14 @@ fn wrong_triangles_are_named_wherever_they_are() {
 fn factors_on_radiance() {
     let [least, most] = RADIANCE_FACTORS;
     for good in [0.0, -0.0, least, most, 1.0] {
-        factor(good).expect("within the range");
+        factor([1.0, good, good]).expect("within the range");
     }
     for bad in [-1.0, least * 0.5, most * 2.0, f32::NAN, f32::INFINITY, 1e-40] {
-        factor(bad).expect_err("beyond it");
+        for k in 0..3 {
+            let mut radiance = [1.0; 3];
+            radiance[k] = bad;
+            factor(radiance).expect_err("beyond it");
+        }
     }
 }
 
@@ -159,7 +164,7 @@ fn edits_are_applied_each_for_itself() {
         add(MeshId::added(1)),
         Edit::SetRadiance {
             instance,
-            radiance: -1.0,
+            radiance: [1.0, 1.0, -1.0],
         },
         moved(instance, [3.0, 0.0, 0.0]),
         Edit::RemoveInstance(instance),

@@ -11,7 +11,7 @@ use crate::kit::Random;
 use crate::kit::scenes::{
     Lamp, bare, edits, instances, lamps, lights, moved, number, points, scattered, sound, sound_samples,
 };
-use crate::light::{Light, LinkedAny};
+use crate::light::{AnyLight, Light};
 use crate::node::{CompactNode, Holds, LinkedSpotMomentNode, Lit};
 use crate::refit::{self, BlasRoot};
 use crate::summary::Summary;
@@ -232,7 +232,7 @@ where
 #[test]
 fn mirrors_follow_by_plans_alone() {
     follows::<CompactNode<2>, Eq4, 2>(3);
-    follows::<Lit<LinkedSpotMomentNode<8>, LinkedAny>, Defensive<Moments, 6>, 8>(4);
+    follows::<Lit<LinkedSpotMomentNode<8>, AnyLight>, Defensive<Moments, 6>, 8>(4);
 }
 
 /// The log and the lists of changed triangles are bounded.

@@ -102,9 +102,9 @@ fn check<L: Light>(mut make: impl FnMut(&mut Random) -> L) {
     let of_bounds = bounds.add_mesh(lights.clone()).expect("in the domain");
     for map in maps() {
         let id = bvh.add_instance(mesh, map).expect("in the domain");
-        bvh.set_radiance(id, 0.5).expect("a factor");
+        bvh.set_radiance(id, [0.5; 3]).expect("a factor");
         let id = bounds.add_instance(of_bounds, map).expect("in the domain");
-        bounds.set_radiance(id, 0.5).expect("a factor");
+        bounds.set_radiance(id, [0.5; 3]).expect("a factor");
     }
     bvh.refit();
     bounds.refit();

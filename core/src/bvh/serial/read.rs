@@ -101,7 +101,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                     return Err(words.wrong("first light of an instance"));
                 };
                 placed.lights = first..end;
-                placed.radiance = f32::from_bits(words.one()?);
+                placed.radiance = words.array::<3>()?.map(f32::from_bits);
+                placed.mask = words.one()?;
                 let entries = words.array::<12>()?.map(f32::from_bits);
                 let column = |k: usize| [entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]];
                 placed.transform = Transform {

@@ -188,7 +188,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 placed.live
                     && mesh.live
                     && placed.transform == Transform::IDENTITY
-                    && placed.radiance == 1.0
+                    && placed.radiance == [1.0; 3]
+                    && placed.mask == u32::MAX
                     && placed.lights.start == 0
                     && mesh.triangles.start == 0
             }

@@ -80,7 +80,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             let InstanceState {
                 mesh, user, listed, ..
             } = *placed;
-            words.extend([mesh, user, listed, placed.lights.start, placed.radiance.to_bits()]);
+            words.extend([mesh, user, listed, placed.lights.start]);
+            words.extend(placed.radiance.map(f32::to_bits));
+            words.push(placed.mask);
             let transform = &placed.transform;
             let entries = transform.columns.iter().flatten().chain(&transform.translation);
             words.extend(entries.map(|x| x.to_bits()));

@@ -159,7 +159,7 @@ fn a_tree_too_deep_for_its_trails_is_built_whole() {
         let mut at = Transform::at([pow2(38 - k), 0.0, 0.0]);
         at.columns = at.columns.map(|column| column.map(|x| x * pow2(-20)));
         let own = bvh.add_instance(mesh, at).expect("a mesh");
-        bvh.set_radiance(own, pow2(40)).expect("a factor");
+        bvh.set_radiance(own, [pow2(40); 3]).expect("a factor");
         bvh.refit();
         bvh.validate().expect("valid");
         wholes += u32::from(edited(&bvh, &mut cursor).is_none());
@@ -179,7 +179,7 @@ fn stand_among_neighbours<N: LightNode<W>, I, const W: usize>() {
         let (mut bvh, ids): (Bvh<N, I, W>, _) = small(2000, |_| within(random, 50.0));
         for radiance in [0.0, 1.0] {
             let some = ids.iter().skip(first).step_by(step);
-            some.for_each(|&id| bvh.set_radiance(id, radiance).expect("a factor"));
+            some.for_each(|&id| bvh.set_radiance(id, [radiance; 3]).expect("a factor"));
             bvh.refit();
             if radiance == 0.0 {
                 bvh.rebuild();
@@ -227,10 +227,10 @@ fn whole_builds_alone_open_instances() {
             .expect("there");
         assert_eq!(leaves(&mut bvh), [8, 8], "{x}");
     }
-    bvh.set_radiance(id, 0.0).expect("a factor");
+    bvh.set_radiance(id, [0.0; 3]).expect("a factor");
     assert_eq!(leaves(&mut bvh), [8, 1]);
     assert!(bvh.top.opened.is_empty());
-    bvh.set_radiance(id, 1.0).expect("a factor");
+    bvh.set_radiance(id, [1.0; 3]).expect("a factor");
     assert_eq!(leaves(&mut bvh), [1, 8]);
     bvh.set_triangles(mesh, with_one_far(random, 200))
         .expect("as many");

@@ -34,7 +34,8 @@ fn scene() -> Tree {
         adds.push(Edit::AddInstance {
             mesh,
             transform,
-            radiance: 1.0,
+            radiance: [1.0; 3],
+            mask: u32::MAX,
         });
     }
     scene.apply(adds).expect("instances");

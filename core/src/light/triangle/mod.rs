@@ -167,7 +167,7 @@ impl Instance {
         let mirrored = self.mirrors();
         EmissiveTriangle {
             p: [a, if mirrored { c } else { b }, if mirrored { b } else { c }],
-            radiance: shining(&local.radiance, self.radiance, has_flux(local)),
+            radiance: shining(&local.radiance, &self.radiance, has_flux(local)),
             mesh: index,
             flags: local.flags,
         }

@@ -18,7 +18,7 @@ impl Staged {
         (Edit::AddMesh { triangles }, verdict)
     }
 
-    pub fn add_instance(&mut self, mesh: MeshId, transform: Transform, radiance: f32) -> (Edit, Verdict) {
+    pub fn add_instance(&mut self, mesh: MeshId, transform: Transform, radiance: [f32; 3]) -> (Edit, Verdict) {
         let lives = self.lives(mesh);
         let inside = if lives {
             within(&transform, self.model.reach(mesh))
@@ -35,6 +35,7 @@ impl Staged {
             mesh,
             transform,
             radiance,
+            mask: u32::MAX,
         };
         (edit, verdict)
     }
@@ -49,7 +50,7 @@ impl Staged {
         (Edit::SetTransform { instance, transform }, verdict)
     }
 
-    pub fn shine(&mut self, instance: InstanceId, radiance: f32) -> (Edit, Verdict) {
+    pub fn shine(&mut self, instance: InstanceId, radiance: [f32; 3]) -> (Edit, Verdict) {
         let placed = self.placed(instance);
         let verdict = first_wrong(&[
             (Some(placed.is_some()), "UnknownInstance"),

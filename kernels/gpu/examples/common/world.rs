@@ -61,7 +61,8 @@ impl World {
             edits.push(Edit::AddInstance {
                 mesh: self.lamp,
                 transform: Transform::at([f32::from(frame), 0.0, f32::from(k) * 2.0]),
-                radiance: 1.0,
+                radiance: [1.0; 3],
+                mask: u32::MAX,
             });
         }
         if frame >= 10 {
