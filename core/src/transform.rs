@@ -7,6 +7,7 @@ use crate::emission::luminance_of;
 use crate::exact;
 use crate::instance::Instance;
 use crate::light::{Light, MAX_COORDINATE, MIN_COORDINATE};
+use crate::vector;
 
 /// Entries of the maps below this count as zero: 2^-60.
 const TINY_ENTRY: f32 = exact::pow2(-60);
@@ -95,12 +96,12 @@ impl Transform {
     #[must_use]
     pub fn look_along(p: [f32; 3], direction: [f32; 3], up: [f32; 3]) -> Self {
         let back = -Vec3::from(direction).normalize_or(Vec3::NEG_Z);
-        let across = Vec3::from(up).cross(back);
+        let across = vector::cross(Vec3::from(up), back);
         let across = across
             .try_normalize()
             .unwrap_or_else(|| back.any_orthonormal_vector());
         Self {
-            columns: [across, back.cross(across), back].map(|v| v.to_array()),
+            columns: [across, vector::cross(back, across), back].map(|v| v.to_array()),
             translation: p,
         }
     }

@@ -38,6 +38,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         let new_meshes = edits.iter().filter_map(|edit| match edit {
             Edit::AddMesh { triangles } => Some(&**triangles),
+            Edit::AddLight { light, .. } => Some(core::slice::from_ref(light)),
             _ => None,
         });
         let mut topologies = build_each(&new_meshes.collect::<Vec<_>>(), &self.params).into_iter();
@@ -60,6 +61,18 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                     updated
                         .instances
                         .push(self.insert_instance(mesh, transform, radiance, mask));
+                }
+                Edit::AddLight { light, mask } => {
+                    let added = topologies.next().map(|topology| {
+                        let mesh = self.insert_mesh(&[light], &topology);
+                        self.meshes[mesh.index as usize].is_light = true;
+                        self.insert_instance(mesh, Transform::IDENTITY, [1.0; 3], mask)
+                    });
+                    updated.instances.extend(added);
+                }
+                Edit::SetLight { instance, light } => {
+                    let mesh = self.placed[instance.index as usize].mesh;
+                    self.write_triangles(mesh, 0, &[light]);
                 }
                 // Engines send all their transforms in every frame: what is set as it was is no change.
                 Edit::SetTransform { instance, transform } => self.set_place(instance.index, transform),
@@ -183,11 +196,12 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let placed = &mut self.placed[index as usize];
         placed.live = false;
         let (mesh, user, listed, lights) = (placed.mesh, placed.user, placed.listed, placed.lights.clone());
-        let users = &mut self.meshes[mesh as usize].users;
-        users.swap_remove(user as usize);
-        if let Some(&moved) = users.get(user as usize) {
+        let own = &mut self.meshes[mesh as usize];
+        own.users.swap_remove(user as usize);
+        if let Some(&moved) = own.users.get(user as usize) {
             self.placed[moved as usize].user = user;
         }
+        let goes_too = own.is_light && own.users.is_empty();
         // The last of the list takes its entry.
         self.live.swap_remove(listed as usize);
         if let Some(&moved) = self.live.get(listed as usize) {
@@ -204,6 +218,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         self.log.instance(index);
         self.retire_lights(lights);
         self.placed_ranges.give(index..index + 1);
+        if goes_too {
+            self.take_mesh(mesh);
+        }
     }
 
     /// Writes entry `entry` of the list of instances in use into the record that holds it.

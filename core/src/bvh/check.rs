@@ -40,8 +40,12 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns how far meshes
     /// reach that are deformed.
     pub(super) fn check(&self, edits: &mut [Edit<N::Light>]) -> Result<Reaches, EditError> {
-        let deforms =
-            |edit: &Edit<N::Light>| matches!(edit, Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. });
+        let deforms = |edit: &Edit<N::Light>| {
+            matches!(
+                edit,
+                Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. } | Edit::SetLight { .. }
+            )
+        };
         let mut batch = Batch {
             instances: self.placed_ranges.end() as usize,
             lights: self.lights.end() as usize,
@@ -88,6 +92,19 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 batch.instances += 1;
                 batch.lights += count;
             }
+            Edit::AddLight { light, mask: _ } => {
+                checked(core::slice::from_mut(light))?;
+                batch.instances += 1;
+                batch.lights += 1;
+                batch.triangles += 1;
+            }
+            Edit::SetLight { instance, light } => {
+                let mesh = self.known_instance(batch, *instance)?;
+                if !self.meshes[mesh.index as usize].is_light {
+                    return Err(EditReason::NoLight(*instance));
+                }
+                self.check_triangles(batch, mesh, core::slice::from_mut(light))?;
+            }
             &mut Edit::SetTransform { instance, transform } => {
                 let mesh = self.known_instance(batch, instance)?;
                 transform
@@ -132,15 +149,15 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 let mesh = self.known_instance(batch, id)?;
                 batch.removed_instances.insert(id);
                 *batch.uses.entry(mesh).or_default() -= 1;
+                if self.meshes[mesh.index as usize].is_light && self.instances_of(batch, mesh) == 0 {
+                    batch.removed_meshes.insert(mesh);
+                }
             }
             &mut Edit::RemoveMesh(id) => {
                 self.known_mesh(batch, id)?;
-                let now = self.meshes[id.index as usize].users.len() as i64;
-                let instances = now + batch.uses.get(&id).copied().unwrap_or(0);
+                let instances = self.instances_of(batch, id);
                 if instances != 0 {
-                    return Err(EditReason::InUse {
-                        instances: instances as usize,
-                    });
+                    return Err(EditReason::InUse { instances });
                 }
                 batch.removed_meshes.insert(id);
             }
@@ -171,6 +188,12 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             Some(placed) if !batch.removed_instances.contains(&id) => Ok(self.id_of_mesh(placed.mesh)),
             _ => Err(EditReason::UnknownInstance(id)),
         }
+    }
+
+    /// How many instances a mesh has.
+    fn instances_of(&self, batch: &Batch, id: MeshId) -> usize {
+        let now = self.meshes[id.index as usize].users.len() as i64;
+        (now + batch.uses.get(&id).copied().unwrap_or(0)) as usize
     }
 
     fn mesh_len(&self, id: MeshId) -> usize {

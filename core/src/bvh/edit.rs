@@ -91,6 +91,21 @@ pub enum Edit<L = EmissiveTriangle> {
         /// Which receivers it lights, as bits; `u32::MAX` for all. See [`Linked`](crate::importance::Linked).
         mask: u32,
     },
+    /// A light by itself, in the world: an instance at the identity of a mesh of its own, which goes with it. The next id among
+    /// [`Added::instances`](super::Added::instances) is its.
+    AddLight {
+        /// In the world; its `mesh` is ignored.
+        light: L,
+        /// Which receivers it lights, as bits; `u32::MAX` for all.
+        mask: u32,
+    },
+    /// A light by itself becomes another one.
+    SetLight {
+        /// Which one: an instance that [`Edit::AddLight`] made.
+        instance: InstanceId,
+        /// In the world, if the instance was not moved.
+        light: L,
+    },
     /// An instance moved.
     SetTransform {
         /// Which one.
@@ -129,7 +144,7 @@ pub enum Edit<L = EmissiveTriangle> {
         /// What the triangles from there on become; may be none.
         triangles: Vec<L>,
     },
-    /// An instance taken out of the world.
+    /// An instance, or a light by itself, taken out of the world.
     RemoveInstance(InstanceId),
     /// A mesh without instances taken out of the scene.
     RemoveMesh(MeshId),
@@ -155,6 +170,8 @@ pub enum EditReason {
     UnknownMesh(MeshId),
     /// No instance has that id: it was removed, or is one of another light BVH.
     UnknownInstance(InstanceId),
+    /// An instance is of a mesh, no light by itself.
+    NoLight(InstanceId),
     /// A mesh has no triangle.
     EmptyMesh,
     /// A triangle of a mesh is outside the domain.
@@ -221,6 +238,11 @@ impl fmt::Display for EditReason {
                 f,
                 "instance {} is not there: it was removed, or the id is of another light BVH (one that was cloned or \
                  read has ids of its own: `instance_id`)",
+                id.index
+            ),
+            Self::NoLight(id) => write!(
+                f,
+                "instance {} is of a mesh; change the mesh's lights by `set_triangles`",
                 id.index
             ),
             Self::EmptyMesh => write!(f, "a mesh without lights; leave it out"),

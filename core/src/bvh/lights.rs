@@ -70,6 +70,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         Some(self.id_of_mesh(mesh))
     }
 
+    /// Whether an instance is a light by itself.
+    #[cfg(test)]
+    pub(crate) fn is_light(&self, instance: InstanceId) -> bool {
+        let placed = self.live(instance);
+        placed.is_some_and(|placed| self.meshes[placed.mesh as usize].is_light)
+    }
+
     pub(super) fn id_of_mesh(&self, index: u32) -> MeshId {
         let generation = self.meshes[index as usize].generation;
         MeshId::from_bits([self.id.0, index, generation])

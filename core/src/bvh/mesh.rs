@@ -55,6 +55,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             .map_or(0, |old| old.generation + 1);
         let mesh = Mesh {
             live: true,
+            is_light: false,
             generation,
             users: Vec::new(),
             nodes: 0..0,

@@ -30,6 +30,26 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(added.instances[0])
     }
 
+    /// Puts a light by itself into the world. The instance that it is has its id, and whatever instances have: a transform, a colour, a mask;
+    /// [`remove_instance`](Self::remove_instance) takes it out.
+    ///
+    /// # Errors
+    /// [`EditReason`]; nothing is changed then.
+    pub fn add_light(&mut self, light: impl Into<N::Light>) -> Result<InstanceId, EditReason> {
+        let light = light.into();
+        let mask = u32::MAX;
+        Ok(self.one(Edit::AddLight { light, mask })?.instances[0])
+    }
+
+    /// Makes a light by itself another one, of any kind and in any place.
+    ///
+    /// # Errors
+    /// [`EditReason`], [`EditReason::NoLight`] for an instance of a mesh; nothing is changed then.
+    pub fn set_light(&mut self, instance: InstanceId, light: impl Into<N::Light>) -> Result<(), EditReason> {
+        let light = light.into();
+        self.one(Edit::SetLight { instance, light }).map(|_| ())
+    }
+
     /// Moves an instance, anywhere: it keeps its id and its lights' numbers. One that goes away from those around it is put in
     /// elsewhere in the top level.
     ///

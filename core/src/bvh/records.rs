@@ -11,6 +11,8 @@ use crate::transform::Transform;
 #[derive(Clone, Debug)]
 pub(super) struct Mesh {
     pub live: bool,
+    /// Whether it is a light by itself: it goes with its last instance.
+    pub is_light: bool,
     pub generation: u32,
     /// Indices of its instances.
     pub users: Vec<u32>,

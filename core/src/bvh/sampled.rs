@@ -2,6 +2,7 @@
 
 use super::Bvh;
 use super::edit::InstanceId;
+use crate::exact::{self, pow2};
 use crate::importance::ImportanceModel;
 use crate::light::{Light, LightPoint};
 use crate::node::Node;
@@ -95,7 +96,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             pmf: found.pmf,
             point: on,
             direction: [direction.x, direction.y, direction.z],
-            distance: (vector(&on.p) - at.position()).length(),
+            distance: exact::sqrt(seen.squared) * pow2(seen.exponent),
             pdf: on.density_seen(at.position(), found.pmf),
             irradiance: on.irradiance(at),
         })

@@ -131,7 +131,7 @@ where
         let at = random.below(meshes.len().max(1) as u32) as usize;
         let on = random.below(all.len().max(1) as u32) as usize;
         let (mesh, instance) = (meshes.get(at).copied(), all.get(on).copied());
-        out.push(match (random.below(13), mesh, instance) {
+        out.push(match (random.below(15), mesh, instance) {
             (0..=2, Some(mesh), _) => Edit::AddInstance {
                 mesh,
                 transform: placed(random, 50.0),
@@ -145,6 +145,14 @@ where
             (5, _, Some(instance)) => Edit::SetRadiance {
                 instance,
                 radiance: [[0.0; 3], [1.0; 3], [100.0, 0.0, 2.0]][random.below(3) as usize],
+            },
+            (13, ..) => Edit::AddLight {
+                light: N::Light::any(random),
+                mask: 1 << random.below(20),
+            },
+            (12, _, Some(instance)) if bvh.is_light(instance) => Edit::SetLight {
+                instance,
+                light: N::Light::any(random),
             },
             (11, _, Some(instance)) => Edit::SetMask {
                 instance,

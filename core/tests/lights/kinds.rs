@@ -195,7 +195,10 @@ fn colors_count_by_luminance() {
         let [own, other] = ids.map(|id| f64::from(bvh.pmf_of(&point, id, 0).expect("a light")));
         let share = luminance(color) / (luminance(color) + 0.5);
         // Flux is stored to 1/32.
-        assert!((own - share).abs() < 0.04 * share.max(1.0 - share), "{own} {share}");
+        assert!(
+            (own - share).abs() < 0.04 * share.max(1.0 - share),
+            "{own} {share}"
+        );
         assert!((own + other - 1.0).abs() < 1.0e-6);
     }
 }

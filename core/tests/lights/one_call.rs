@@ -1,10 +1,12 @@
 //! Samples with all that shading needs, and densities where rays meet lights.
 
 use crate::kit::{Random, Wide, dot, length, minus, wide};
-use lightbvh::bvh::mis_weight;
+use lightbvh::bvh::{EditReason, mis_weight};
 use lightbvh::light::{AnyLight, Light, LightPoint, SphereLight};
 use lightbvh::node::{Lit, SpotMomentNode};
-use lightbvh::{BuildParams, Bvh, Defensive, LightBvh, Lights, Moments, ShadingPoint};
+use lightbvh::{
+    BuildParams, Bvh, Defensive, Edit, InstanceId, LightBvh, Lights, Moments, ShadingPoint, Transform,
+};
 
 type Tree = Bvh<Lit<SpotMomentNode<8>, AnyLight>, Defensive<Moments, 6>, 8>;
 
@@ -37,7 +39,7 @@ fn density(on: &LightPoint, normal: Wide, from: [f32; 3], pmf: f32) -> f64 {
 }
 
 fn is_near(found: f32, expected: f64, part: f64) -> bool {
-    (f64::from(found) - expected).abs() <= part * expected.abs() + 1.0e-12
+    (f64::from(found) - expected).abs() <= part * expected.abs() + 1.0e-7 * part
 }
 
 /// All numbers of a sample are those of its light, and the density of a ray that meets its point is that of the sample.
@@ -152,4 +154,90 @@ fn weights_of_both_ways_sum_to_one() {
         assert_eq!(mis_weight(0.0, a), 1.0);
         assert_eq!(mis_weight(a, 0.0), 1.0);
     }
+}
+
+/// Lights by themselves come, change, move and go as instances do, and leave nothing behind.
+#[test]
+fn lights_by_themselves() {
+    let random = &mut Random(11);
+    let random_point = |k: u32| glam::Vec3::new(4.0, k as f32, -3.0);
+    let mut bvh = Tree::default();
+    let mut own: Vec<(InstanceId, AnyLight)> = Vec::new();
+    let mesh = bvh.add_mesh(vec![random.light(2)]).expect("in the domain");
+    let of_mesh = bvh.add_instance(mesh, Transform::IDENTITY).expect("a mesh");
+    let mut most = 0;
+    for round in 0..400_u32 {
+        let kind = random.below(8);
+        let light = random.light(kind);
+        match random.below(4) {
+            0 if !own.is_empty() => {
+                let (id, _) = own.swap_remove(random.below(own.len() as u32) as usize);
+                bvh.remove_instance(id).expect("a light");
+                assert_eq!(bvh.set_light(id, light), Err(EditReason::UnknownInstance(id)));
+            }
+            1 if !own.is_empty() => {
+                let at = random.below(own.len() as u32) as usize;
+                bvh.set_light(own[at].0, light).expect("a light");
+                own[at].1 = light;
+            }
+            _ if own.len() < 40 => own.push((bvh.add_light(light).expect("in the domain"), light)),
+            _ => {}
+        }
+        bvh.refit();
+        bvh.take_removed_lights();
+        bvh.validate().expect("nodes are what refit makes");
+        for (id, light) in &own {
+            let number = bvh.lights_of(*id).expect("a light").start;
+            let found = bvh.triangle(number, id.index()).expect("a light");
+            // Identity rounds axes and normals.
+            let [found, expected] = [found, light.checked().expect("one")]
+                .map(|light| light.point_for(random_point(number), [0.25, 0.75]));
+            for k in 0..3 {
+                assert!(is_near(found.p[k], f64::from(expected.p[k]), 1.0e-4));
+                assert!(is_near(
+                    found.radiance[k],
+                    f64::from(expected.radiance[k]),
+                    1.0e-2
+                ));
+            }
+        }
+        assert_eq!(bvh.light_count(), own.len() + 1);
+        // Once there have been forty, all room is used again.
+        if round == 300 {
+            most = bvh.memory();
+        }
+    }
+    assert!(bvh.memory() <= most + most / 8 && bvh.instances().len() <= 42);
+    assert_eq!(
+        bvh.set_light(of_mesh, random.light(1)),
+        Err(EditReason::NoLight(of_mesh))
+    );
+    let words = bvh.to_words();
+    let mut read = Tree::from_words(&words).expect("its words");
+    let at = read.instance_id(own[0].0.index()).expect("a light");
+    read.set_light(at, random.light(3)).expect("a light still");
+    // In one batch: it is gone for what follows.
+    let (id, light) = own[0];
+    let mesh = bvh.mesh_of(id).expect("a mesh of its own");
+    let edits = vec![
+        Edit::RemoveInstance(id),
+        Edit::AddInstance {
+            mesh,
+            transform: Transform::IDENTITY,
+            radiance: [1.0; 3],
+            mask: u32::MAX,
+        },
+    ];
+    let error = bvh.apply(edits).expect_err("the mesh went with its light");
+    assert_eq!((error.edit, error.reason), (1, EditReason::UnknownMesh(mesh)));
+    bvh.apply(vec![Edit::AddLight { light, mask: 5 }, Edit::RemoveInstance(id)])
+        .expect("both are there");
+    let nan = SphereLight {
+        radius: f32::NAN,
+        ..SphereLight::DARK
+    };
+    assert!(matches!(
+        bvh.add_light(nan),
+        Err(EditReason::Light { index: 0, .. })
+    ));
 }

@@ -46,6 +46,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             let start = words.one()?;
             let mut mesh = Mesh {
                 live: start != INVALID,
+                is_light: false,
                 generation: 0,
                 users: Vec::new(),
                 nodes: 0..0,
@@ -62,9 +63,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 words.expect(is_range, "nodes of a mesh")?;
                 (mesh.nodes, mesh.room) = (start..end, room);
                 mesh.triangles = words.range(header.triangles, "triangles of a mesh")?;
-                let reshaped = words.one()?;
-                words.expect(reshaped < 2, "whether a mesh changed")?;
-                if reshaped == 1 {
+                let flags = words.one()?;
+                words.expect(flags < 4, "whether a mesh changed or is a light")?;
+                mesh.is_light = flags & 2 != 0;
+                if flags & 1 != 0 {
                     self.reshaped.insert(index);
                 }
             }

@@ -46,7 +46,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         };
         let mut words = bytemuck::cast::<_, [u32; HEADER_WORDS]>(header).to_vec();
         for (index, mesh) in (0u32..).zip(&self.meshes) {
-            let is_reshaped = u32::from(self.reshaped.contains(&index));
+            let flags = u32::from(self.reshaped.contains(&index)) | (u32::from(mesh.is_light) << 1);
             let (nodes, triangles) = (&mesh.nodes, &mesh.triangles);
             match mesh.live {
                 true => words.extend([
@@ -55,7 +55,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                     mesh.room,
                     triangles.start,
                     triangles.end,
-                    is_reshaped,
+                    flags,
                 ]),
                 false => words.push(INVALID),
             }

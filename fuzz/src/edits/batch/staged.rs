@@ -18,7 +18,12 @@ impl Staged {
         (Edit::AddMesh { triangles }, verdict)
     }
 
-    pub fn add_instance(&mut self, mesh: MeshId, transform: Transform, radiance: [f32; 3]) -> (Edit, Verdict) {
+    pub fn add_instance(
+        &mut self,
+        mesh: MeshId,
+        transform: Transform,
+        radiance: [f32; 3],
+    ) -> (Edit, Verdict) {
         let lives = self.lives(mesh);
         let inside = if lives {
             within(&transform, self.model.reach(mesh))
