@@ -143,7 +143,11 @@ pub use transform::Transform;
 #[doc(hidden)]
 pub use tree::{DefaultTree, INVALID, LightTree, TreeWords};
 
-/// The snippets of the first page, compiled and run.
+/// The snippets of documents, compiled and run.
 #[cfg(all(doctest, feature = "std"))]
-#[doc = include_str!("../../README.md")]
-struct FirstPage;
+mod documents {
+    #[doc = include_str!("../../README.md")]
+    struct FirstPage;
+    #[doc = include_str!("../../docs/lights.md")]
+    struct Lights;
+}
