@@ -6,78 +6,27 @@ use lightbvh_scenes::{Scene, SceneError};
 use crate::Forms;
 use crate::gltf::within_domain;
 
-/// What OBJ files are made of.
-const OBJ: &[&str] = &[
-    "v", "vn", "vt", "f", "f", "f", "o", "g", "usemtl", "mtllib", "l", "p", "s", "\n", "\n", "\n", "\\\n",
-    "#", "a", "b", "1/1/1", "2//2", "3/3", "1/2/3", "-1", "-2", "-3//-1", "1", "2", "3",
-];
+/// What OBJ files are made of, with bars between.
+const OBJ: &str = "v|vn|vt|f|f|f|o|g|usemtl|mtllib|l|p|s|\n|\n|\n|\\\n|\
+    #|a|b|1/1/1|2//2|3/3|1/2/3|-1|-2|-3//-1|1|2|3";
 
-/// What headers of PLY files are made of, and numbers after them.
-const PLY: &[&str] = &[
-    "ply\nformat ascii 1.0\n",
-    "element vertex",
-    "element face",
-    "element x",
-    "property float x\n",
-    "property float y\n",
-    "property double z\n",
-    "property float nx\n",
-    "property float ny\n",
-    "property float nz\n",
-    "property float u\n",
-    "property float v\n",
-    "property list uchar int vertex_indices\n",
-    "property list int float junk\n",
-    "property uchar red\n",
-    "end_header\n",
-    "comment\n",
-    "\n",
-    "0",
-    "1",
-    "2",
-    "3",
-];
+/// What headers of PLY files are made of, and numbers after them, with bars between.
+const PLY: &str = "ply\nformat ascii 1.0\n|element vertex|element face|element x|property float x\n|\
+    property float y\n|property double z\n|property float nx\n|property float ny\n|\
+    property float nz\n|property float u\n|property float v\n|\
+    property list uchar int vertex_indices\n|property list int float junk\n|property uchar red\n|\
+    end_header\n|comment\n|\n|0|1|2|3";
 
-/// Numbers, of which some are at the edge of what is taken.
-const NUMBERS: &[&str] = &[
-    "0",
-    "1",
-    "-1",
-    "2",
-    "0.5",
-    "3",
-    "4",
-    "8",
-    "-0",
-    "1e-3",
-    "90",
-    "180",
-    "360",
-    "1e10",
-    "1e20",
-    "1e30",
-    "1e38",
-    "3.5e38",
-    "-1e30",
-    "1e-30",
-    "1e-45",
-    "1e300",
-    "nan",
-    "inf",
-    "1048577",
-    "4294967296",
-    "18446744073709551616",
-    "0x10",
-    "1.5.2",
-    "",
-];
+/// Numbers, of which some are at the edge of what is taken, and none.
+const NUMBERS: &str = "0 1 -1 2 0.5 3 4 8 -0 1e-3 90 180 360 1e10 1e20 1e30 1e38 3.5e38 -1e30 1e-30 1e-45 1e300 nan \
+    inf 1048577 4294967296 18446744073709551616 0x10 1.5.2 ";
 
 /// An OBJ or PLY file, of any bytes or of words that such files are made of: refused, or a scene whose frames hold numbers
 /// in the domain.
 pub fn texts(data: &[u8], _: Forms) {
     let run = |u: &mut Unstructured<'_>| -> Result<()> {
         let kind: u8 = u.arbitrary()?;
-        let (words, read): (&[&str], fn(&[u8]) -> _) = match kind % 3 {
+        let (words, read): (&str, fn(&[u8]) -> _) = match kind % 3 {
             0 | 1 => (OBJ, |bytes| Scene::read_obj_slice("fuzz.obj", bytes, None)),
             _ => (PLY, |bytes| Scene::read_ply_slice("fuzz.ply", bytes)),
         };
@@ -92,19 +41,21 @@ pub fn texts(data: &[u8], _: Forms) {
 }
 
 /// Words and numbers until the input ends: a quarter of them numbers, and now and then several in a row, as points come.
-fn text(u: &mut Unstructured<'_>, words: &[&str]) -> Result<String> {
+fn text(u: &mut Unstructured<'_>, words: &str) -> Result<String> {
+    let words: Vec<&str> = words.split('|').collect();
+    let numbers: Vec<&str> = NUMBERS.split(' ').collect();
     let mut text = String::new();
     while !u.is_empty() && text.len() < 1 << 16 {
         let which: u8 = u.arbitrary()?;
         match which {
-            0..=63 => text += u.choose(NUMBERS)?,
+            0..=63 => text += u.choose(&numbers)?,
             64..=79 => {
                 for _ in 0..u.int_in_range(2..=12)? {
-                    text += u.choose(&NUMBERS[..8])?;
+                    text += u.choose(&numbers[..8])?;
                     text.push(' ');
                 }
             }
-            _ => text += u.choose(words)?,
+            _ => text += u.choose(&words)?,
         }
         text.push(if which & 7 == 0 { '\n' } else { ' ' });
     }

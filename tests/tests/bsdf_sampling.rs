@@ -172,37 +172,6 @@ fn directions_have_their_density() {
     }
 }
 
-/// Lobes too narrow for cells: the power of the half vector's cosine is uniform in [0, 1).
-#[test]
-fn half_vectors_of_narrow_lobes_have_their_density() {
-    const CELLS: usize = 64;
-    let mut random = Random::new(4);
-    for exponent_log2 in 0..=MAX_EXPONENT_LOG2 {
-        let m = material(0.0, 1.0, exponent_log2);
-        let n = Vec3::from(random.direction());
-        let wo = n;
-        let mut counts = vec![0_u64; CELLS];
-        for _ in 0..50_000 {
-            let wi = m.sample(n, wo, draw3(&mut random));
-            // From straight above every half vector is met, and the mirrored direction tells it: twice its angle.
-            let cos_squared = (1.0 + f64::from(wi.dot(n))) / 2.0;
-            let sin_squared = (wi - n).as_dvec3().length_squared() / 4.0;
-            let power = if sin_squared < 0.5 {
-                ((-sin_squared).ln_1p() * 0.5 * f64::from(1_u32 << exponent_log2)).exp()
-            } else {
-                cos_squared.max(0.0).powf(0.5 * f64::from(1_u32 << exponent_log2))
-            };
-            counts[((power * CELLS as f64) as usize).min(CELLS - 1)] += 1;
-        }
-        let (statistic, degrees) = chi_squared(&counts, &vec![1.0 / CELLS as f64; CELLS]);
-        let threshold = chi_squared_quantile(degrees, TAIL);
-        assert!(
-            statistic < threshold,
-            "2^{exponent_log2}: {statistic} of {threshold}"
-        );
-    }
-}
-
 /// What is told of a sampled direction, and of any other, is the density by its formula.
 #[test]
 fn told_densities_are_the_formula_s() {

@@ -10,7 +10,6 @@ mod exact;
 mod film;
 mod flushing;
 mod importance;
-mod instance;
 mod instanced;
 mod kinds_render;
 mod known_words;

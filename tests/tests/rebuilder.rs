@@ -1,7 +1,7 @@
-//! Builds in the background by nodes that can be held up or made to panic: nothing is lost when the worker is slow, panics, or is
-//! dropped. That trees do not depend on its speed is in core's own tests.
+//! Builds in the background by nodes that can be held up or made to panic: nothing is lost when the worker is slow or panics. That trees
+//! do not depend on its speed is in core's own tests, that a dropped rebuilder ends is in `core/tests/handover.rs`.
 
-use std::sync::{Mutex, MutexGuard, PoisonError, mpsc};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
@@ -200,26 +200,4 @@ fn a_panic_is_reported_once_and_the_next_build_is_sound() {
         assert!(scene.to_words() == rebuilt(&scene));
         scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
     }
-}
-
-/// Never used; idle after a build; in the middle of one.
-#[test]
-fn dropped_while_it_builds_it_ends() {
-    let _alone = lock(&SERIAL);
-    let (mut scene, _) = town(40);
-    let [unused, mut idle, mut busy] = [(); 3].map(|()| rebuilder(Swap::Deterministic));
-    idle.end_frame(&scene);
-    idle.begin_frame(&mut scene).expect("no panic");
-    let held = lock(&GATE);
-    busy.end_frame(&scene);
-    let (done, ended) = mpsc::channel();
-    thread::spawn(move || {
-        drop((unused, idle, busy));
-        done.send(()).expect("someone listens");
-    });
-    thread::sleep(Duration::from_millis(30));
-    drop(held);
-    ended
-        .recv_timeout(Duration::from_secs(60))
-        .expect("dropping ends");
 }

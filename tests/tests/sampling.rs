@@ -4,7 +4,6 @@ use lightbvh::{
     BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, ImportanceModel, LightNode, Lights,
     MomentNode, Moments, Random64, SampledLight, ShadingPoint, Summary,
 };
-use lightbvh_host::stability::geometry::contribution;
 use lightbvh_tests::each_layout;
 use lightbvh_tests::generate::{self, Random};
 use lightbvh_tests::oracle::{built, leaves, pmf_of};

@@ -1,14 +1,13 @@
 //! Direct lighting by sampled lights converges to the sum over all lights, for every sampler and number of candidates.
 
 use glam::Vec3;
-use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, ShadingPoint, exact};
+use lightbvh::{EmissiveTriangle, ShadingPoint, exact};
 use lightbvh_kernels::shading::direct::{Samples, reflected};
 use lightbvh_kernels::shading::numbers::Part;
-use lightbvh_kernels::shading::pixel::Seen;
 use lightbvh_tests::direct::brute_force;
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::statistics::Mean;
-use lightbvh_tests::world::{By, Corners, World, agrees, glossy, matte, seen};
+use lightbvh_tests::world::{Corners, World, agrees, matte, seen};
 
 /// Light samples for each picker at each point.
 const SAMPLES: u32 = 40_000;
@@ -123,55 +122,4 @@ fn surfaces_without_occluders() {
 #[test]
 fn surfaces_behind_occluders() {
     surfaces_converge(2, true);
-}
-
-/// The mean of `count` estimates at `seen` by lights of a tree.
-fn mean_of(world: &World, seen: &Seen, samples: Samples, count: u32) -> Mean {
-    let lights = Lights::new(world.lights.clone()).expect("within the domain");
-    let tree = LightBvh::two_level(&lights, &BuildParams::default());
-    let mut mean = Mean::default();
-    for sample in 0..count {
-        let value = reflected(
-            &world.scene(),
-            seen,
-            &By(&tree.tree()),
-            samples,
-            exact::hash(sample),
-        );
-        mean.add(f64::from(value.x) + f64::from(value.z));
-    }
-    mean
-}
-
-/// Of a gloss no closed form is at hand: the mean of one light out of four is that of lights as picked.
-#[test]
-fn candidates_for_gloss_agree_with_lights_as_picked() {
-    let random = &mut Random::new(4);
-    let (lights, occluders) = (lights(random), occluders(random));
-    let mut lit = 0;
-    for (exponent_log2, specular) in [(0, 0.25), (4, 0.5), (8, 1.0), (12, 1.0)] {
-        let world = World::new(lights.clone(), &occluders, glossy(0.5, specular, exponent_log2));
-        for i in 0..8 {
-            // Towards a light, by the mirror.
-            let point = point(random, i);
-            let towards = &lights[random.below(40) as usize];
-            let wi = (towards.vertex(0) - point.position()).normalize();
-            let n = point.normal();
-            let wo = n * (2.0 * n.dot(wi)) - wi;
-            if n.dot(wi) <= 0.0 {
-                continue;
-            }
-            let seen = seen(point, wo);
-            let plain = mean_of(&world, &seen, Samples::of(4), 8_000);
-            let candidates = Samples {
-                candidates: 4,
-                ..Samples::of(1)
-            };
-            let with = mean_of(&world, &seen, candidates, 8_000);
-            let what = format!("2^{exponent_log2} at {point:?} from {wo}");
-            agrees(&what, &with, plain.mean(), plain.error());
-            lit += u32::from(plain.mean() > 0.0);
-        }
-    }
-    assert!(lit >= 20, "{lit} lit");
 }

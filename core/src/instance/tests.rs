@@ -136,7 +136,8 @@ fn moments_in_the_world() {
     assert!(squashed > 100, "{squashed}");
 }
 
-/// A cone stays where the map leaves its axis about as long as it was, to a hundredth of the square; else it is all directions.
+/// A cone stays where the map leaves its axis about as long as it was, to a hundredth of the square; else it is all directions. Boxes
+/// hold what is there.
 #[test]
 fn cones_stay_where_lengths_stay() {
     let mut random = Random(7);
@@ -152,9 +153,13 @@ fn cones_stay_where_lengths_stay() {
         };
         let instance = placed(columns, Vec3::new(0.0, 0.0, 0.0), 1.0);
         let axis = normalize(wide(random.vector()));
+        let (center, half) = (
+            random.vector(),
+            Vec3::new(random.unit(), random.unit(), random.unit()),
+        );
         let local = LightBounds {
-            min: Vec3::new(-1.0, -1.0, -1.0),
-            max: Vec3::new(1.0, 1.0, 1.0),
+            min: center - half,
+            max: center + half,
             axis: Vec3::from_array(axis.map(|x| x as f32)),
             cos_theta_o: 0.75,
             phi: 1.0,
@@ -169,30 +174,55 @@ fn cones_stay_where_lengths_stay() {
             opened += 1;
             assert_eq!(found.cos_theta_o, -1.0, "{squared}");
         }
+        let center = Map::by(&map.columns, wide(center));
         for k in 0..3 {
             near(found.axis[k], normalize(mapped)[k], 4.0, "axis");
+            let reach: f64 = (0..3).map(|j| map.columns[j][k].abs() * f64::from(half[j])).sum();
+            near(found.min[k], center[k] - reach, 8.0, "box");
+            near(found.max[k], center[k] + reach, 8.0, "box");
         }
     }
     assert!(kept > 1000 && opened > 900, "{kept} {opened}");
 }
 
-/// Normals of the mesh's space are of unit length whatever the map's size, down to where its entries count as zero.
+/// Normals of the mesh's space are of unit length whatever the map's size, down to where its entries count as zero, and places come
+/// back.
 #[test]
-fn normals_come_back_at_unit_length() {
+fn points_come_back() {
     let mut random = Random(13);
     for exponent in [-42, -40, -20, -11, -3, 0, 2, 20, 38] {
         let (columns, map) = map(&mut random, 1.0);
-        let instance = placed(columns.map(|c| c * pow2(exponent)), Vec3::new(0.0, 0.0, 0.0), 1.0);
+        let (size, p) = (pow2(exponent), random.vector());
+        let instance = placed(columns.map(|c| c * size), random.vector(), 1.0);
         let n = normalize(wide(random.vector()));
         let point = ShadingPoint {
-            p: [0.0; 3],
+            p: p.to_array(),
             n: n.map(|x| x as f32),
         };
         let expected = normalize(map.columns.map(|column| dot(column, n)));
-        let found = instance.to_local(&point).n;
+        let found = instance.to_local(&point);
+        let back = instance.vertex(found.p);
         for k in 0..3 {
-            near(found[k], expected[k], 1.0, "normal");
+            near(found.n[k], expected[k], 1.0, "normal");
+            near(back[k], p[k].into(), 4.0, "place");
         }
+    }
+}
+
+/// A volume stays one, and a map that loses the normal makes one: its lights then count on both sides of the horizon.
+#[test]
+fn normals_that_are_lost() {
+    let up = |n| ShadingPoint {
+        p: [3.0, 4.0, 5.0],
+        n,
+    };
+    let flat = placed([Vec3::X, Vec3::ZERO, Vec3::Z], Vec3::Y, 1.0);
+    assert_eq!(flat.to_local(&up([0.0, 1.0, 0.0])).n, [0.0; 3]);
+    let slanted = flat.to_local(&up([0.6, 0.8, 0.0])).n;
+    near(slanted[0], 1.0, 1.0, "normal");
+    assert_eq!(slanted[1..], [0.0; 2]);
+    for columns in [[Vec3::X, Vec3::ZERO, Vec3::Z], map(&mut Random(4), 1.0).0] {
+        assert_eq!(placed(columns, Vec3::Y, 1.0).to_local(&up([0.0; 3])).n, [0.0; 3]);
     }
 }
 

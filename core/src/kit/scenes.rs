@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Random, cross, dot, minus, narrow, normalize, wide};
+use super::{Random, narrow, normalize, wide};
 use crate::bvh::{Bvh, Edit};
 use crate::exact::hash;
 use crate::importance::ImportanceModel;
@@ -245,24 +245,4 @@ pub fn sound<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(bvh: &Bvh<N, 
         let sum: f64 = pmfs.map(f64::from).sum();
         assert!((sum - 1.0).abs() < 1e-5, "{sum} at {point:?}");
     }
-}
-
-/// Light that a triangle sends to a point from its centroid, unshadowed.
-pub fn sent(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
-    let p = triangle.p.map(|v| v.map(f64::from));
-    let center = [0, 1, 2].map(|k| (p[0][k] + p[1][k] + p[2][k]) / 3.0);
-    let across = cross(minus(p[1], p[0]), minus(p[2], p[0]));
-    let v = minus(center, point.p.map(f64::from));
-    let received = if point.n == [0.0; 3] {
-        dot(v, v).sqrt()
-    } else {
-        dot(point.n.map(f64::from), v).max(0.0)
-    };
-    let along = -dot(across, v);
-    let emitted = if triangle.is_two_sided() {
-        along.abs()
-    } else {
-        along.max(0.0)
-    };
-    f64::from(triangle.radiance[0]) * received * emitted / dot(v, v).powi(2)
 }

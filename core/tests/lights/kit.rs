@@ -1,12 +1,11 @@
-//! Lights of each kind, a room, variances in it.
+//! Lights of each kind, and a room.
 
-pub use crate::numbers::{Random, Wide, cross, dot, minus, times};
+pub use crate::numbers::{Random, Wide, dot, minus, times};
 use lightbvh::exact::{hash, unit_f32};
-use lightbvh::importance::{ImportanceModel, Receiver};
 use lightbvh::light::{
     AnyLight, BoxLight, DiscLight, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
 };
-use lightbvh::{BuildParams, Bvh, EmissiveTriangle, LightNode, Lights, ShadingPoint, Transform};
+use lightbvh::{EmissiveTriangle, Lights, ShadingPoint, Transform};
 
 impl Random {
     pub fn within(&mut self, scale: f32) -> [f32; 3] {
@@ -170,37 +169,6 @@ pub fn wide(v: [f32; 3]) -> Wide {
     v.map(f64::from)
 }
 
-pub fn length(v: Wide) -> f64 {
-    dot(v, v).sqrt()
-}
-
-/// Twice a triangle's area times its normal, and the middles of `N`² pieces of it.
-pub fn pieces<const N: usize>(triangle: &EmissiveTriangle) -> (Wide, Vec<Wide>) {
-    let v = triangle.p.map(wide);
-    let (a, b) = (minus(v[1], v[0]), minus(v[2], v[0]));
-    let middle = |i: usize| {
-        let (mut s, mut t) = (
-            ((i / N) as f64 + 0.4) / N as f64,
-            ((i % N) as f64 + 0.5) / N as f64,
-        );
-        // Pieces of a square, the upper half of which is the lower one turned.
-        if s + t > 1.0 {
-            (s, t) = (1.0 - s, 1.0 - t);
-        }
-        core::array::from_fn(|k| v[0][k] + a[k] * s + b[k] * t)
-    };
-    (cross(a, b), (0..N * N).map(middle).collect())
-}
-
-/// What of a cosine at its front a triangle emits by.
-pub fn emitted(triangle: &EmissiveTriangle, cosine: f64) -> f64 {
-    if triangle.is_two_sided() {
-        cosine.abs()
-    } else {
-        cosine.max(0.0)
-    }
-}
-
 /// 200 triangles of up to half a metre in a room of 10 m, in four meshes.
 pub fn room(random: &mut Random) -> Lights {
     let triangle = |k: u32| {
@@ -217,47 +185,4 @@ pub fn room(random: &mut Random) -> Lights {
         }
     };
     Lights::new((0..200).map(triangle).collect()).expect("in the domain")
-}
-
-/// Mean relative variance of one sample in a room, by enumeration of all lights. `query` returns a
-/// receiver as the importance takes it, and the light that arrives there; receivers without light do not count.
-pub fn variance<N, I, P, F, const W: usize>(
-    two: bool,
-    count: u32,
-    query: impl Fn(&mut Random) -> (P, F),
-) -> f64
-where
-    N: LightNode<W>,
-    P: Receiver,
-    I: ImportanceModel<N, W, P>,
-    F: Fn(&EmissiveTriangle) -> f64,
-{
-    let random = &mut Random(4);
-    let lights = room(random);
-    let bvh: Bvh<N, I, W> = if two {
-        Bvh::two_level(&lights, &BuildParams::default())
-    } else {
-        Bvh::single_level(&lights, &BuildParams::default())
-    };
-    let (mut all, mut reached) = (0.0, 0.0);
-    for index in 0..count {
-        let (told, received) = query(random);
-        let (mut mean, mut square, mut sum) = (0.0, 0.0, 0.0);
-        for (light, triangle) in (0..).zip(lights.triangles()) {
-            let instance = if two { triangle.mesh } else { 0 };
-            let pmf = f64::from(bvh.tree().pmf(&told, light, instance));
-            let f = received(triangle);
-            assert!(pmf > 0.0 || f == 0.0, "{light} is lost at receiver {index}");
-            mean += f;
-            square += if f > 0.0 { f * f / pmf } else { 0.0 };
-            sum += pmf;
-        }
-        assert!((sum - 1.0).abs() < 1e-5, "{sum}");
-        if mean > 0.0 {
-            all += square / (mean * mean) - 1.0;
-            reached += 1.0;
-        }
-    }
-    assert!(reached > 0.9 * f64::from(count), "{reached}");
-    all / reached
 }

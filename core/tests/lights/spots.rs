@@ -374,50 +374,6 @@ fn where_no_beam_counts_samples_are_those_without() {
     }
 }
 
-/// Sum of squares of what a sample gives over the square of what all lights give: 1 is perfect.
-fn second_moment(lights: &[AnyLight], point: &ShadingPoint, pmf: impl Fn(u32) -> f32) -> f64 {
-    let (mut sum, mut squares) = (0.0, 0.0);
-    for (k, light) in (0..).zip(lights) {
-        let on = light.point_for(Vec3::from(point.p), [0.5; 2]);
-        let f = f64::from(on.irradiance(point)[0]);
-        sum += f;
-        squares += if f > 0.0 { f * f / f64::from(pmf(k)) } else { 0.0 };
-    }
-    squares / (sum * sum)
-}
-
-/// A room with bulbs and a bright narrow spot: next to its cone the bulbs are chosen.
-#[test]
-fn points_next_to_a_cone_choose_what_lights_them() {
-    let random = &mut Random(12);
-    for angle in [5.0_f32, 15.0, 30.0, 60.0] {
-        let mut own: Vec<AnyLight> = (0..8)
-            .map(|_| bulb([4.0 * random.signed(), 4.0 * random.signed(), 3.0], 1.0))
-            .collect();
-        own.push(down([0.0, 0.0, 3.5], 2000.0, angle));
-        let lights = Lights::new(own.clone()).expect("in the domain");
-        let with = Tree::single_level(&lights, &BuildParams::default());
-        let without = Plain::single_level(&lights, &BuildParams::default());
-        // Logarithms with and without beams, next to the cone and within it.
-        let mut sums = [[0.0; 3]; 2];
-        for _ in 0..400 {
-            let point = floor(5.0 * random.signed(), 5.0 * random.signed());
-            let sums = &mut sums[usize::from(sent(&own[8], point.p) > 0.0)];
-            sums[0] += second_moment(&own, &point, |k| with.pmf(&point, k, u32::MAX)).ln();
-            sums[1] += second_moment(&own, &point, |k| without.pmf(&point, k, u32::MAX)).ln();
-            sums[2] += 1.0;
-        }
-        let [beside, within] =
-            sums.map(|sums: [f64; 3]| [(sums[0] / sums[2]).exp(), (sums[1] / sums[2]).exp(), sums[2]]);
-        println!("{angle}°: next to it {beside:?}, within {within:?}");
-        assert!(beside[2] > 10.0 && beside[0] < 2.0, "{angle}: {beside:?}");
-        assert!(
-            within[2] < 1.0 || within[0] < 1.01 * within[1],
-            "{angle}: {within:?}"
-        );
-    }
-}
-
 /// In its cone a spot counts as what it is there: as bright as a bulb that sends as much, at its side or among spots around it.
 #[test]
 fn points_in_a_cone_see_how_bright_it_is() {

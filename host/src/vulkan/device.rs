@@ -96,7 +96,8 @@ impl Device {
         &self.shared.probe.name
     }
 
-    /// The device is lost in the call after `calls` more that may find it so: submissions, waits, times. For tests; there is none of it without debug assertions.
+    /// The device is lost in the call after `calls` more that may find it so: submissions, waits, times. One that was lost is there
+    /// again until then. For tests; there is none of it without debug assertions.
     #[cfg(debug_assertions)]
     #[doc(hidden)]
     pub fn lose_after(&self, calls: u32) {

@@ -14,10 +14,11 @@ pub(super) struct Faults {
 
 #[cfg(debug_assertions)]
 impl Faults {
-    /// The device is lost in the call after `calls` more.
+    /// The device, which is there again, is lost in the call after `calls` more.
     pub fn lose_after(&self, calls: u32) {
-        self.left
-            .store(calls.saturating_add(1), std::sync::atomic::Ordering::Relaxed);
+        use std::sync::atomic::Ordering::Relaxed;
+        self.lost.store(false, Relaxed);
+        self.left.store(calls.saturating_add(1), Relaxed);
     }
 
     /// Counts a call that can return that the device is lost; an error from the call on by which it is. The device is idle by

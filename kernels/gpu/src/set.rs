@@ -144,54 +144,9 @@ impl KernelSet {
 
 #[cfg(test)]
 mod tests {
-    use lightbvh::light::AnyLight;
-    use lightbvh::node::{Holds, LinkedSpotMomentNode, Lit, SpotMomentNode};
     use lightbvh::requirements::Updates;
-    use lightbvh::{CompactNode, MomentNode, SampledLight, TreeWords};
 
     use super::*;
-    use crate::buffer::Buffer;
-    use crate::query::{LinkedQuery, Query, query_push};
-
-    fn fits<N: Holds, Q>(set: &KernelSet, suffix: &str) {
-        for pass in Pass::ALL {
-            let kernel = set.refit(pass);
-            assert_eq!(kernel.name.strip_suffix(suffix), Some(pass.name()));
-            assert_eq!(kernel.push_constants, 12);
-        }
-        for kernel in [
-            set.refit_bottom,
-            set.refit_roots,
-            set.refit_top,
-            set.refit_nodes,
-            set.sample,
-            set.pmf,
-            set.light_points,
-        ] {
-            for binding in kernel.bindings {
-                match Buffer::named(binding.name) {
-                    Some(buffer) => assert_eq!(binding.stride, buffer.stride::<N>(), "{binding:?}"),
-                    None => assert!(
-                        ["list", "children", "queries", "results", "samples", "numbers"]
-                            .contains(&binding.name),
-                        "{binding:?}"
-                    ),
-                }
-            }
-        }
-        for (kernel, answer) in [
-            (set.sample, size_of::<SampledLight>()),
-            (set.pmf, size_of::<f32>()),
-        ] {
-            let stride = |name| kernel.binding(name).map(|binding| binding.stride as usize);
-            assert_eq!(stride("queries"), Some(size_of::<Q>()), "{}", kernel.name);
-            assert_eq!(stride("results"), Some(answer), "{}", kernel.name);
-            assert_eq!(
-                kernel.push_constants as usize,
-                size_of_val(&query_push(0, TreeWords::default()))
-            );
-        }
-    }
 
     #[test]
     fn a_model_has_its_kernels_or_the_command_that_compiles_them() {
@@ -215,13 +170,5 @@ mod tests {
             "{said}"
         );
         assert!(said.contains("TwoSidedMomentNode<8>"), "{said}");
-    }
-
-    #[test]
-    fn the_buffers_of_core_fit_the_kernels() {
-        fits::<MomentNode<8>, Query>(&MOMENTS, "");
-        fits::<CompactNode<4>, Query>(&EQ4, "_eq4");
-        fits::<Lit<SpotMomentNode<8>, AnyLight>, Query>(&KernelSet::ANY, "_any");
-        fits::<Lit<LinkedSpotMomentNode<8>, AnyLight>, LinkedQuery>(&KernelSet::LINKED, "_linked");
     }
 }

@@ -1,75 +1,40 @@
-//! Irradiance that theory tells of each kind of light, and of skies.
+//! Irradiance by each kind of light, and by skies.
+
+use lightbvh::ShadingPoint;
+use lightbvh::light::Light;
 
 use super::*;
 use crate::textures::{add, plain_floor, reflects};
 
-/// Irradiance at a point of the floor at `x` from below the lamp, which hangs `h` above it.
-fn known(kind: AnalyticKind, h: f64, x: f64) -> f64 {
-    let d = (h * h + x * x).sqrt();
-    let cosine = h / d;
-    match kind {
-        AnalyticKind::Point => cosine / (d * d),
-        AnalyticKind::Spot { inner, outer } => {
-            let (ci, co) = (f64::from(inner).cos(), f64::from(outer).cos());
-            let t = ((cosine - co) / (ci - co)).clamp(0.0, 1.0);
-            t * t * cosine / (d * d)
-        }
-        // All of it above the horizon.
-        AnalyticKind::Sphere { radius } => PI * f64::from(radius).powi(2) * cosine / (d * d),
-        // By quadrature; the lamp's -Z points down, so both normals are vertical.
-        AnalyticKind::Rectangle { half } => over(half.map(f64::from), |u, v| [u, v, 1.0], h, x),
-        AnalyticKind::Disc { half } => over(
-            half.map(f64::from),
-            |u, v| [u, v, if u * u + v * v <= 1.0 { 1.0 } else { 0.0 }],
-            h,
-            x,
-        ),
-        AnalyticKind::Box { half } => {
-            let half = half.map(f64::from);
-            let n = 60;
-            let step = |i: usize| 2.0 * (i as f64 + 0.5) / f64::from(n as u32) - 1.0;
-            let volume = 8.0 * half[0] * half[1] * half[2] / (n as f64).powi(3);
-            let mut sum = 0.0;
-            for i in 0..n {
-                for j in 0..n {
-                    for k in 0..n {
-                        let p = [half[0] * step(i) - x, half[1] * step(j), h + half[2] * step(k)];
-                        let squared = p.iter().map(|x| x * x).sum::<f64>();
-                        sum += volume * p[2] / squared.powf(1.5);
-                    }
-                }
-            }
-            sum
-        }
-        AnalyticKind::Directional | AnalyticKind::Profile { .. } => unreachable!("it is not among these"),
-    }
-}
-
-/// Irradiance of unit radiance from a horizontal surface of `half` sizes; `shape` says where it is.
-fn over(half: [f64; 2], shape: impl Fn(f64, f64) -> [f64; 3], h: f64, x: f64) -> f64 {
-    let n = 800;
-    let step = |i: usize| 2.0 * (i as f64 + 0.5) / f64::from(n as u32) - 1.0;
-    let area = 4.0 * half[0] * half[1] / (n as f64).powi(2);
+/// What core's points on the lights of the scene send to a point of the floor at `x`: integrals, as its own tests show.
+fn sent(scene: &Scene, x: f32) -> f64 {
+    let lights = arrays(scene, &render_params((1, 1), 1, 1, [0.0; 3])).lights;
+    let point = ShadingPoint {
+        p: [x, 0.0, 0.0],
+        n: [0.0, 1.0, 0.0],
+    };
+    let n = 512;
     let mut sum = 0.0;
-    for i in 0..n {
-        for j in 0..n {
-            let [u, v, weight] = shape(step(i), step(j));
-            let (dx, dz) = (half[0] * u - x, half[1] * v);
-            let squared = dx * dx + dz * dz + h * h;
-            sum += weight * area * h * h / (squared * squared);
+    for light in lights.triangles() {
+        for k in 0..n * n {
+            let uv = [k % n, k / n].map(|k| (k as f32 + 0.5) / n as f32);
+            let own = light.point_for(point.position(), uv).irradiance(&point);
+            sum += f64::from(own[1]) / f64::from(n * n);
         }
     }
     sum
 }
 
 #[test]
-fn each_kind_has_the_known_irradiance() {
+fn each_kind_has_the_irradiance_of_its_points() {
     for kind in ALL {
         for x in [0.0, 1.1] {
-            let (h, intensity) = (2.5, 3.0);
-            let mut data = plain_floor([x as f32, 1.0]);
-            add(&mut data, down([0.0, h as f32, 0.0]), kind, intensity as f32);
-            reflects(data, [intensity * known(kind, h, x); 3], [0.5; 3], 1e-3);
+            let mut data = plain_floor([x, 1.0]);
+            add(&mut data, down([0.0, 2.5, 0.0]), kind, 3.0);
+            let scene = Scene::new(data).expect("a sound scene");
+            let irradiance = sent(&scene, x);
+            assert!(irradiance > 0.1, "{kind:?} is dark");
+            reflects(scene.into_data(), [irradiance; 3], [0.5; 3], 1e-3);
         }
     }
 }

@@ -2,8 +2,8 @@
 //! whatever the words are; this one notices when a change gives others. Equal bits are this crate's promise, so a change that
 //! is meant belongs under "Changes to bits" in `CHANGELOG.md`, with the new digests here.
 
-mod arithmetic;
 mod digest;
+mod reservoirs;
 mod scenes;
 pub mod trees;
 
@@ -41,7 +41,7 @@ fn changelog_names_the_version_of_node_words() {
     assert!(version.starts_with(&format!("{NODE_FORMAT},")), "{NODE_FORMAT}");
 }
 
-/// `cargo run -p lightbvh-tests --example self_test` writes them.
+/// Exact arithmetic, bit by bit. `cargo run -p lightbvh-tests --example self_test` writes the answers.
 #[test]
 fn self_test_has_the_answers_of_this_build() {
     let words = self_test::words();

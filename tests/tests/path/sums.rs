@@ -6,8 +6,6 @@ use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::path::{MAX_BOUNCES, path_radiance};
 use lightbvh_kernels::shading::pick::{PickLight, Uniform};
 use lightbvh_kernels::shading::ray::{FAR, Ray};
-use lightbvh_tests::direct::brute_force;
-use lightbvh_tests::generate::Random;
 use lightbvh_tests::statistics::{Mean, normal_quantile};
 use lightbvh_tests::world::{By, Corners, RENDERER_ERROR, TAIL, World, agrees, glossy, light, matte, quad};
 
@@ -91,25 +89,6 @@ fn hall(material: Material) -> World {
 fn to_the_floor(x: f32, z: f32) -> Ray {
     let eye = Vec3::new(x - 0.5, 0.8, z + 0.3);
     Ray::new(eye, (Vec3::new(x, 0.0, z) - eye).normalize(), FAR)
-}
-
-/// The same against the sum over all lights by brute force in f64.
-#[test]
-fn one_bounce_is_the_sum_over_all_lights() {
-    let world = hall(matte(1.0));
-    let walls = quad([3.5, 0.0, -4.0], [0.0, 4.0, 0.0], [0.0, 0.0, 3.0]);
-    let mut random = Random::new(3);
-    for (x, z) in [(0.5, 0.3), (-1.0, 2.5), (2.5, -1.5)] {
-        let point = ShadingPoint {
-            p: [x, 0.0, z],
-            n: [0.0, 1.0, 0.0],
-        };
-        let reference = brute_force(&point, &world.lights, &walls, 48, &mut random);
-        let pi = std::f64::consts::PI;
-        for (name, mean) in by_each_picker(&world, &to_the_floor(x, z), 1, 120_000) {
-            agree(name, &mean, reference.sum / pi, reference.error / pi);
-        }
-    }
 }
 
 /// Sampled lights with weights, and directions alone, agree over several reflections on shiny and dull surfaces.

@@ -159,19 +159,6 @@ mod tests {
     }
 
     #[test]
-    fn splits_instructions() {
-        let words = module(&[2 << 16 | 17, 1, 1 << 16 | 56]);
-        let list = instructions(&words).unwrap();
-        assert_eq!(list.len(), 2);
-        assert_eq!(
-            (list[0].opcode, list[0].at, list[0].operands),
-            (17, 5, &[1u32][..])
-        );
-        assert_eq!((list[1].opcode, list[1].at, list[1].operands), (56, 7, &[][..]));
-        assert_eq!(list[1].operand(0).unwrap_err().at, 7);
-    }
-
-    #[test]
     fn refuses_corrupt_words() {
         assert_eq!(instructions(&HEAD[..3]).unwrap_err().at, 3);
         assert_eq!(instructions(&[0; 5]).unwrap_err().at, 0);

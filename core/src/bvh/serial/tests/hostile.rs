@@ -6,7 +6,7 @@ use alloc::string::ToString;
 
 use super::{alike, read};
 use crate::bvh::Bvh;
-use crate::importance::{Eq4, ImportanceModel, Moments};
+use crate::importance::{Eq4, Moments};
 use crate::kit::Random;
 use crate::kit::scenes::{edits, lamps, placed};
 use crate::node::{CompactNode, LightNode, MomentNode, Node};
@@ -33,9 +33,9 @@ fn small<N: LightNode<W>, I, const W: usize>() -> Bvh<N, I, W> {
 }
 
 /// What is read, if it is, is valid, and edits do not break it.
-fn harmless<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(words: &[u32], seed: u32) -> bool {
-    let Ok(mut bvh) = Bvh::<N, I, W>::from_words(words) else {
-        return false;
+fn harmless(words: &[u32], seed: u32) {
+    let Ok(mut bvh) = Bvh::<CompactNode<4>, Eq4, 4>::from_words(words) else {
+        return;
     };
     alike(&bvh, &read(&bvh));
     let random = &mut Random(seed);
@@ -46,29 +46,10 @@ fn harmless<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(words: &[
         bvh.rebuild();
         bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
     }
-    true
 }
 
-fn every_bit<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(step: usize) {
-    let words = small::<N, I, W>().to_words();
-    assert!(harmless::<N, I, W>(&words, 0));
-    let mut taken = 0;
-    for bit in (0..32 * words.len()).step_by(step) {
-        let mut wrong = words.clone();
-        wrong[bit / 32] ^= 1 << (bit % 32);
-        taken += usize::from(harmless::<N, I, W>(&wrong, bit as u32));
-    }
-    // Most bits are those of coordinates: another triangle is a triangle too.
-    super::std::println!("{} words: {taken} flips are read", words.len());
-}
-
-#[test]
-fn every_flipped_bit_is_refused_or_harmless() {
-    every_bit::<MomentNode<8>, Moments, 8>(23);
-    every_bit::<CompactNode<4>, Eq4, 4>(19);
-}
-
-/// Words of numbers that say how many, where and which, all of them, to other small numbers and to great ones.
+/// Words of numbers that say how many, where and which, all of them, to other small numbers and to great ones. Other bits are the
+/// fuzz target `read_words`.
 #[test]
 fn wrong_numbers_are_refused_or_harmless() {
     let words = small::<CompactNode<4>, Eq4, 4>().to_words();
@@ -85,7 +66,7 @@ fn wrong_numbers_are_refused_or_harmless() {
         ] {
             let mut wrong = words.clone();
             wrong[at] = value;
-            harmless::<CompactNode<4>, Eq4, 4>(&wrong, value);
+            harmless(&wrong, value);
         }
     }
 }

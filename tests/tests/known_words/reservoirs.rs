@@ -1,39 +1,9 @@
-//! Exact arithmetic, and reservoirs: candidates and their end. Summaries, unions, maps of instances and weights are in the words of
-//! trees and scenes.
+//! Reservoirs: candidates and their end.
 
-use lightbvh::exact;
 use lightbvh::reservoir::{LightSample, Resampling, target};
 use lightbvh_tests::generate::{self, Random};
 
 use super::digest::Digest;
-
-#[test]
-fn arithmetic() {
-    let mut random = Random::new(41);
-    let mut digest = Digest::new();
-    for _ in 0..200_000 {
-        let x = generate::log_uniform(&mut random, -60, 60);
-        let y = generate::log_uniform(&mut random, -60, 60);
-        for value in [
-            exact::div(x, y),
-            exact::div_emulated(x, y),
-            exact::div_emulated(x, x * 4.0),
-            exact::div_emulated(-x, x.next_up()),
-            exact::sqrt(x),
-            exact::sqrt_emulated(x),
-            exact::recip(x),
-            exact::recip_rough(x),
-            exact::rsqrt(x),
-            exact::rsqrt_rough(x),
-            exact::significand(x),
-            exact::pow2(exact::exponent(x)),
-            exact::unit_f32(exact::hash(x.to_bits())),
-        ] {
-            digest.float(value);
-        }
-    }
-    digest.is(0x6b77_41b8_c5eb_1e06, "arithmetic");
-}
 
 #[test]
 fn reservoirs() {
