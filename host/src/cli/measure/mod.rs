@@ -6,6 +6,8 @@ pub(super) mod points;
 pub(super) mod reference;
 pub(super) mod times;
 
+pub(super) use crate::metrics::variance;
+
 use crate::metrics::mean;
 
 /// Said where no figure is known.
@@ -15,18 +17,6 @@ pub(super) const NOT_MEASURED: &str =
 /// The mean; `None` of no values.
 pub(super) fn mean_of(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| mean(values))
-}
-
-/// The relative variance of one sample of lights that send `sent` to a point and have probabilities `pmfs` there: sum of
-/// squares over probabilities, over the squared sum, less 1; `None` if nothing is sent.
-pub(super) fn variance(lights: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
-    let (mut mean, mut square) = (0.0, 0.0);
-    for (sent, pmf) in lights.filter(|(sent, _)| *sent > 0.0) {
-        mean += sent;
-        square += sent * sent / pmf;
-    }
-    // Below zero by rounding only, where one light counts.
-    (mean > 0.0).then(|| (square / (mean * mean) - 1.0).max(0.0))
 }
 
 #[cfg(test)]
