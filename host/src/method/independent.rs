@@ -142,11 +142,6 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
             bytes: bvh.bytes(),
         })
     }
-
-    /// A single level has the shape of the first frame or of this one.
-    fn may_skip(&self) -> bool {
-        self.moving.is_none()
-    }
 }
 
 /// Into how many parts the samples of a pixel are shared out, each with a camera ray of its own: of light samples, as few as
