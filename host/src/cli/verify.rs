@@ -12,6 +12,7 @@ use lightbvh::light::AnyLight;
 use serde::Serialize;
 use serde_json::json;
 
+use super::devices::Opened;
 use super::reading::Reading;
 use super::{Context, Outcome, devices, progress, table};
 use crate::cli::table::{news, say};
@@ -48,13 +49,24 @@ pub(super) struct Args {
     mesh_triangles: u32,
 }
 
-#[derive(Serialize)]
+#[derive(Clone, Debug, Serialize)]
 struct DeviceReport {
     name: String,
     driver: String,
     exact: bool,
     #[serde(flatten)]
     tally: Tally,
+}
+
+impl DeviceReport {
+    fn new(opened: &Opened, tally: Tally) -> Self {
+        Self {
+            name: opened.device.name().to_owned(),
+            driver: opened.device.probe().driver.to_string(),
+            exact: opened.exactness.exact && tally.different == 0,
+            tally,
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -79,14 +91,8 @@ struct Report {
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     if let Some(frames) = args.soak {
-        let plan = soak::Plan {
-            frames,
-            seed: args.seed,
-            instances: args.instances,
-            mesh_triangles: args.mesh_triangles,
-        };
         let opened = devices::open(context)?;
-        let report = soak::soak(&plan, &opened, context.json)?;
+        let report = soak::soak(frames, args, &opened, context.json)?;
         devices::close(opened)?;
         match context.json {
             true => table::print_json(&json!({ "soak": report }))?,
@@ -145,12 +151,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         devices: opened
             .iter()
             .zip(&tallies.devices)
-            .map(|(o, tally)| DeviceReport {
-                name: o.device.name().to_owned(),
-                driver: o.device.probe().driver.to_string(),
-                exact: o.exactness.exact && tally.different == 0,
-                tally: tally.clone(),
-            })
+            .map(|(o, tally)| DeviceReport::new(o, tally.clone()))
             .collect(),
     };
     drop(targets);
