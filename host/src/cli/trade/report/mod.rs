@@ -8,7 +8,7 @@ mod tree;
 use std::path::Path;
 
 use image::ExtendedColorType;
-use lightbvh_kernels::bvh::Standard;
+use lightbvh_kernels::bvh::{Standard, WIDTH};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -16,7 +16,7 @@ use self::machine::Made;
 use self::pictures::{Pictures, pictures, png_url};
 use self::tree::{Drawn, drawn};
 use super::front::Point;
-use super::subject::{Axis, Config, Followed};
+use super::subject::{Axis, Config, tree};
 use crate::backend::{Backend, CpuBackend, Integrator, Sampler};
 use crate::cli::target;
 use crate::error::HostError;
@@ -67,11 +67,11 @@ impl Report {
     ) -> Result<(), HostError> {
         let lights = lights_at(scene, frame)?;
         let step = Step::new(scene, frame, &lights);
-        let tree: Followed = Followed::new(Config::new(Axis::Default), &step)?;
+        let (bvh, _) = tree::<Standard, WIDTH>(&Config::new(Axis::Default), &step)?;
         let (width, height) = judge.size();
         let columns = (ROWS * width / height).clamp(1, 4 * ROWS);
         let arrays = arrays_at(scene, frame, columns, ROWS)?;
-        let mut backend = CpuBackend::<Standard, 8>::new(tree.bvh);
+        let mut backend = CpuBackend::<Standard>::new(bvh);
         let params = render_params((columns, ROWS), RAYS, 0, scene.frame(frame).background);
         let image = backend.render(&arrays, &params, Sampler::TwoLevel, Integrator::Direct)?;
         let film = Film::new(columns, ROWS, image.value)?;
