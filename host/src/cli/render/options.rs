@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
-use super::view::{CameraName, Up, camera};
+use super::view::Up;
 use crate::backend::Integrator;
 use crate::cli::frames;
 use crate::cli::reading::Reading;
@@ -38,9 +38,9 @@ pub struct Args {
     /// Light samples per pixel, 1 to 65536.
     #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub(super) spp: u32,
-    /// Number of the scene's camera, from 0; `auto`: chosen by what is lit.
-    #[arg(long, default_value = "0", value_name = "N|auto", value_parser = camera)]
-    pub(super) camera: CameraName,
+    /// Number of the scene's camera, from 0; in a scene without one it is chosen by what is lit.
+    #[arg(long, default_value_t = 0)]
+    pub(super) camera: usize,
     /// Look from this place, metres, in place of any camera of the scene.
     #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true, requires = "look_at", conflicts_with = "camera")]
     pub(super) look_from: Option<[f32; 3]>,

@@ -36,37 +36,12 @@ pub(super) fn playing(scene: Scene, words: &[String]) -> Result<Scene, HostError
     Ok(Scene::new(data)?)
 }
 
-/// A camera of a scene.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum CameraName {
-    /// By its number.
-    Own(usize),
-    /// Chosen by what there is to see.
-    Auto,
-}
-
-pub(super) fn camera(word: &str) -> Result<CameraName, String> {
-    match word {
-        "auto" => Ok(CameraName::Auto),
-        _ => word
-            .parse()
-            .map(CameraName::Own)
-            .map_err(|_| String::from("give a number from 0, or auto")),
-    }
-}
-
-/// The scene as that camera sees it.
-pub(super) fn seen_by(scene: Scene, camera: CameraName) -> Result<Scene, HostError> {
+/// The scene as the camera of this number sees it.
+pub(super) fn seen_by(scene: Scene, camera: usize) -> Result<Scene, HostError> {
     let cameras = scene.data().cameras.len();
-    let camera = match camera {
-        CameraName::Own(0) => return Ok(scene),
-        CameraName::Own(number) => number,
-        CameraName::Auto => {
-            let mut data = scene.into_data();
-            data.cameras.clear();
-            return Ok(Scene::new(data)?);
-        }
-    };
+    if camera == 0 {
+        return Ok(scene);
+    }
     if camera >= cameras {
         let expected = match cameras {
             0 => String::from(
