@@ -313,7 +313,7 @@ impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize
 }
 
 /// The tree of a frame, and where the lights of one of two levels are.
-pub(super) fn tree<C: TriangleChoice<W>, const W: usize>(
+fn tree<C: TriangleChoice<W>, const W: usize>(
     config: &Config,
     frame: &Step<'_>,
 ) -> Result<(Bvh<C, W>, Option<Instances>), HostError> {
