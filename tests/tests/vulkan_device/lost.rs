@@ -63,10 +63,7 @@ fn assert_follows(what: &str, bvh: &LightBvh, backend: &mut OnDevice<'_>) {
 
 #[test]
 fn where_a_device_is_lost_another_takes_over() {
-    let options = Options {
-        force_staging: true,
-        ..Options::default()
-    };
+    let options = Options::default();
     // What is lost is the host's: one device tells.
     for info in &devices().devices[..1] {
         let mut found_in = std::collections::BTreeSet::new();
