@@ -37,7 +37,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .as_ref()
         .map(|shown| frames::numbered(&args.output, shown.start));
     target::picture(first.as_ref().unwrap_or(&args.output))?;
-    let mut scene = args.up.turn(args.reading.open(&args.scene)?)?;
+    let mut scene = args.reading.open(&args.scene)?;
     if !args.animation.is_empty() {
         scene = playing(scene, &args.animation)?;
     }

@@ -183,32 +183,7 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
             ("invariants", |t| t.said.clone()),
         ],
     )?;
-    if !report.devices.is_empty() {
-        table::print(
-            &report.devices,
-            &[
-                ("device", |d| d.name.clone()),
-                ("words compared", |d| d.tally.compared.to_string()),
-                ("words different", |d| d.tally.different.to_string()),
-                ("exact", |d| table::yes(d.exact)),
-            ],
-        )?;
-    }
-    for device in &report.devices {
-        for (kind, words) in &device.tally.words {
-            say!(
-                "{}: {} {}, {} words, {} different",
-                device.name,
-                device.tally.records[kind],
-                kind.name(),
-                words.compared,
-                words.different
-            )?;
-        }
-        if let Some(first) = &device.tally.first_difference {
-            say!("{}: first difference: {first}", device.name)?;
-        }
-    }
+    print_devices(&report.devices)?;
     say!(
         "cpu: {} words computed twice, {} different",
         report.cpu_compared,
@@ -216,6 +191,22 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
     )?;
     if let Some(first) = cpu_difference {
         say!("cpu: first difference: {first}")?;
+    }
+    Ok(())
+}
+
+fn print_devices(devices: &[DeviceReport]) -> std::io::Result<()> {
+    for DeviceReport {
+        name, exact, tally, ..
+    } in devices
+    {
+        for (kind, words) in &tally.words {
+            let (count, kind) = (tally.records[kind], kind.name());
+            let (compared, different) = (words.compared, words.different);
+            say!("{name}: {count} {kind}, {compared} words, {different} different")?;
+        }
+        let first = tally.first_difference.as_deref().unwrap_or("none");
+        say!("{name}: exact: {}; first difference: {first}", table::yes(*exact))?;
     }
     Ok(())
 }

@@ -56,7 +56,7 @@ fn assert_sound(report: &Value) {
 fn built_in_scenes_that_stay_keep_no_triangles() {
     let moving = report("inspect street --json --points 16");
     assert_sound(&moving);
-    assert_eq!(fact(&moving, "orientation"), "present");
+    assert_eq!(fact(&moving, "two-sided only"), "no");
     assert_eq!(fact(&moving, "one mesh"), "no");
     assert_eq!(moving["model"]["updates"], "all");
     assert_eq!(moving["checked_frame"], 1);

@@ -28,7 +28,6 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
         // Options without effect.
         ("render street --bounces 3", ["--integrator path", ""]),
         ("render street --device 0", ["--backend vulkan", ""]),
-        ("render street --up z", ["--up z", ".obj or .ply"]),
         ("render street --camera 9", ["--camera 9", "the scene has"]),
         (
             "render street --look-from 1,1,1 --look-at 1,1,1",

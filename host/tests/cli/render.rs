@@ -1,6 +1,5 @@
 //! Pictures: equal files on both processors, every sampler, numbered sequences.
 
-use crate::model;
 use crate::program::{Folder, run};
 
 #[test]
@@ -43,34 +42,4 @@ fn a_camera_of_ones_own() {
         ));
         assert_eq!(output.status.code(), Some(2), "{wrong}");
     }
-}
-
-#[test]
-fn the_exposure_that_is_printed_gives_the_same_picture() {
-    let folder = Folder::new("exposure");
-    let path = model::write(&folder, "bright", &[], |root| {
-        root["materials"][1]["extensions"] = serde_json::json!({
-            "KHR_materials_emissive_strength": { "emissiveStrength": 12345.6 }
-        });
-        root["extensionsUsed"] = serde_json::json!(["KHR_materials_emissive_strength"]);
-    });
-    let (first, again) = (folder.file("first.png"), folder.file("again.png"));
-    let small = "--width 32 --height 24 --spp 4";
-    let output = run(&format!("render {path} {small} -o {first}"));
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
-    let exposure = said
-        .lines()
-        .next()
-        .and_then(|line| line.split_once(", exposure "));
-    let (_, exposure) = exposure.expect("an exposure");
-    assert!(exposure.parse::<f32>().is_ok_and(|x| x < 0.01), "{said}");
-    assert!(
-        run(&format!("render {path} {small} --exposure {exposure} -o {again}"))
-            .status
-            .success()
-    );
-    assert!(
-        std::fs::read(first).expect("a picture") == std::fs::read(again).expect("a picture"),
-        "{exposure}"
-    );
 }

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
-use super::view::Up;
 use crate::backend::Integrator;
 use crate::cli::frames;
 use crate::cli::reading::Reading;
@@ -53,9 +52,6 @@ pub struct Args {
     /// Animation to show alone, by name or number from 0; may be repeated [default: all that can be].
     #[arg(long, value_name = "NAME|NUMBER")]
     pub(super) animation: Vec<String>,
-    /// Axis of a .obj or .ply file that points up; with z, (x, y, z) of the file lies at (x, z, -y).
-    #[arg(long, value_enum, default_value_t = Up::Y)]
-    pub(super) up: Up,
     /// An environment map that lights the scene: a .hdr or .exr picture by longitude and latitude.
     #[arg(long, value_name = "FILE.hdr|FILE.exr")]
     pub(super) environment: Option<PathBuf>,

@@ -3,28 +3,6 @@
 use crate::error::HostError;
 use crate::scene::Scene;
 
-/// An axis that points up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum Up {
-    Y,
-    Z,
-}
-
-impl Up {
-    /// The scene of a file whose axis this is.
-    pub(super) fn turn(self, scene: Scene) -> Result<Scene, HostError> {
-        let name = scene.name().to_ascii_lowercase();
-        match self {
-            Self::Y => Ok(scene),
-            Self::Z if name.ends_with(".obj") || name.ends_with(".ply") => Ok(scene.from_z_up()?),
-            Self::Z => Err(HostError::Usage {
-                option: "--up z",
-                needs: "a .obj or .ply file; in others it is known which way is up",
-            }),
-        }
-    }
-}
-
 /// The scene with the animations of these names or numbers.
 pub(super) fn playing(scene: Scene, words: &[String]) -> Result<Scene, HostError> {
     let mut data = scene.into_data();

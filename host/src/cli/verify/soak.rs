@@ -523,11 +523,7 @@ pub(super) fn print(report: &Report) -> Result<(), HostError> {
             }
         )?;
     }
-    for DeviceReport { name, tally, .. } in &report.devices {
-        let first = tally.first_difference.as_deref().unwrap_or("");
-        let (compared, different) = (tally.compared, tally.different);
-        say!("{name}: {compared} words compared, {different} different {first}")?;
-    }
+    super::print_devices(&report.devices)?;
     if let Some(invalid) = &report.invalid {
         say!("INVALID: {invalid}")?;
     }
