@@ -10,7 +10,6 @@ pub mod geometry;
 pub mod invariance;
 pub mod random;
 pub mod row;
-pub mod statistics;
 pub mod subject;
 pub mod words;
 

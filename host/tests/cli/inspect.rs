@@ -104,6 +104,22 @@ fn one_mesh_of_two_sided_lamps_needs_neither_normals_nor_a_top_level() {
 }
 
 #[test]
+fn points_without_light_have_no_figure() {
+    let folder = Folder::new("inspect-unlit");
+    // Lamps that shine up, where nothing is.
+    let path = model::write(&folder, "unlit", &[], |root| {
+        root["scenes"][0]["nodes"] = json!([0, 1]);
+        root["nodes"][1]["rotation"] = json!([1, 0, 0, 0]);
+    });
+    let found = report(&format!("inspect {path} --json"));
+    assert_eq!(
+        (&found["holds"], &found["default"]["variance"]),
+        (&json!(true), &Value::Null)
+    );
+    assert!(!found["steps"].as_array().expect("steps").is_empty());
+}
+
+#[test]
 fn words_are_for_people() {
     let folder = Folder::new("inspect-words");
     let path = room(&folder, "room", 1.0, &[]);
