@@ -113,7 +113,7 @@
   set("axis", "");
 
   // Images.
-  const { pictures, tree } = sceneShown();
+  const { pictures } = sceneShown();
   check(pictures.choices.some((picture) => picture), "there are pictures");
   for (const view of ["image", "flip", "relative"]) {
     const radio = document.querySelector(`#view [value=${view}]`);
@@ -133,14 +133,6 @@
     check(sides[1] === 100 - value && byId("divider").style.left === `${value}%`, `the divider goes to ${value}`);
   }
   check(byId("compare").getBoundingClientRect().width <= document.documentElement.clientWidth, "images fit the window");
-
-  // The tree.
-  for (let depth = 1; depth <= tree.cuts.length; depth += 1) {
-    set("depth", depth, "input");
-    check(document.querySelectorAll("#drawn ellipse").length === tree.cuts[depth - 1].ellipses.length, `ellipses of depth ${depth}`);
-  }
-  check(document.querySelectorAll("#depths rect").length === 2 * tree.lights_by_depth.length, "bars of depths");
-  check(tree.lights_by_depth.reduce((a, b) => a + b) === sceneShown().lights, "all lights are in the tree");
 
   // Other scenes.
   for (const input of document.querySelectorAll("#scenes input")) {

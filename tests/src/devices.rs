@@ -29,13 +29,7 @@ pub fn devices() -> DeviceList {
 /// If the device cannot be opened.
 #[must_use]
 pub fn open(info: &DeviceInfo, options: Options) -> Device {
-    match Device::open(
-        info,
-        Options {
-            validation: true,
-            ..options
-        },
-    ) {
+    match Device::open(info, Options { validation: true }) {
         Err(VulkanError::NoValidationLayer) => {
             eprintln!(
                 "{}: without validation, the layer is not installed",

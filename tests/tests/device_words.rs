@@ -185,11 +185,7 @@ fn same<T: Pod>(device: &Device, what: &str, found: &[T], expected: &[T]) {
 
 /// On every device that is exact.
 fn on_exact(test: impl Fn(&Device)) {
-    on_exact_by(Options::default(), test);
-}
-
-fn on_exact_by(options: Options, test: impl Fn(&Device)) {
-    on_each_device(options, |device| {
+    on_each_device(Options::default(), |device| {
         if device.self_test().expect("a verdict").exact {
             test(device);
         } else {
@@ -297,12 +293,8 @@ fn triangles_by_moments() {
 }
 
 #[test]
-fn triangles_by_eq_4_through_staging_buffers() {
-    let options = Options {
-        force_staging: true,
-        ..Options::default()
-    };
-    on_exact_by(options, |device| {
+fn triangles_by_eq_4() {
+    on_exact(|device| {
         frames::<PaperNode, Eq4, ShadingPoint, 4>(device, EQ4);
         built::<PaperNode, Eq4, 4>(device, EQ4);
     });

@@ -1,6 +1,6 @@
 //! Samples with all that shading needs, and densities where rays meet lights.
 
-use crate::kit::{Random, Wide, dot, length, minus, wide};
+use crate::kit::{Random, Wide, dot, minus, wide};
 use lightbvh::bvh::{EditReason, mis_weight};
 use lightbvh::light::{AnyLight, Light, LightPoint, SphereLight};
 use lightbvh::node::{Lit, SpotMomentNode};
@@ -36,6 +36,10 @@ fn density(on: &LightPoint, normal: Wide, from: [f32; 3], pmf: f32) -> f64 {
     } else {
         0.0
     }
+}
+
+fn length(v: Wide) -> f64 {
+    dot(v, v).sqrt()
 }
 
 fn is_near(found: f32, expected: f64, part: f64) -> bool {

@@ -395,6 +395,17 @@ fn points_in_a_cone_see_how_bright_it_is() {
     assert!(lone > 0.005, "{lone}");
 }
 
+/// Sum of squares of what a sample gives over the square of what all lights give: 1 is perfect.
+fn second_moment(lights: &[AnyLight], point: &ShadingPoint, pmf: impl Fn(u32) -> f32) -> f64 {
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for (k, light) in (0..).zip(lights) {
+        let f = f64::from(light.point_for(Vec3::from(point.p), [0.5; 2]).irradiance(point)[0]);
+        sum += f;
+        squares += if f > 0.0 { f * f / f64::from(pmf(k)) } else { 0.0 };
+    }
+    squares / (sum * sum)
+}
+
 /// Points and spots that end after 15 and 25 metres, spread over a field of 200 metres: few samples go to lights that do not
 /// arrive, and variance is less.
 #[test]

@@ -44,8 +44,7 @@ impl Integrator {
 }
 
 /// The image of `params` from images of at most `most` samples each, which take the samples of a pixel one after another or, of
-/// paths, differ in their seed. Up to `most` samples it is `image` itself; beyond, the mean over all samples, added in order in
-/// `f64` and rounded once.
+/// paths, differ in their seed. Up to `most` samples it is `image` itself; beyond, the mean of all.
 pub(super) fn in_batches<E>(
     params: &RenderParams,
     integrator: Integrator,
@@ -55,43 +54,48 @@ pub(super) fn in_batches<E>(
     if params.samples <= most {
         return image(params);
     }
-    let parts = params.samples.div_ceil(most);
+    let count = params.samples.div_ceil(most);
     let mut first = params.first;
-    let mut sum = vec![[0.0f64; 3]; params.width as usize * params.height as usize];
-    let mut time = Duration::ZERO;
-    for part in 0..parts {
-        let samples = params.samples / parts + u32::from(part < params.samples % parts);
-        let part = image(&match integrator {
-            Integrator::Direct => RenderParams {
-                samples,
-                first,
-                all: if params.all == 0 {
+    let parts = (0..count).map(|part| {
+        let samples = params.samples / count + u32::from(part < params.samples % count);
+        let mut own = RenderParams { samples, ..*params };
+        match integrator {
+            Integrator::Direct => {
+                own.first = first;
+                own.all = if params.all == 0 {
                     params.samples
                 } else {
                     params.all
-                },
-                ..*params
-            },
-            Integrator::Path { .. } => RenderParams {
-                samples,
-                seed: hash(hash(params.seed).wrapping_add(part)),
-                ..*params
-            },
-        })?;
-        first = first.wrapping_add(samples);
-        time += part.time;
-        for (sum, pixel) in sum.iter_mut().flatten().zip(part.value.iter().flatten()) {
-            *sum += f64::from(*pixel) * f64::from(samples);
+                };
+            }
+            Integrator::Path { .. } => own.seed = hash(hash(params.seed).wrapping_add(part)),
         }
+        first = first.wrapping_add(samples);
+        own
+    });
+    mean_image(parts, image)
+}
+
+/// The mean over all samples of images of one size, added in order in `f64` and rounded once, and their times together.
+pub(crate) fn mean_image<E>(
+    parts: impl Iterator<Item = RenderParams>,
+    mut image: impl FnMut(&RenderParams) -> Result<Timed<Vec<[f32; 3]>>, E>,
+) -> Result<Timed<Vec<[f32; 3]>>, E> {
+    let (mut sum, mut all, mut time) = (Vec::new(), 0.0, Duration::ZERO);
+    for params in parts {
+        let (part, samples) = (image(&params)?, f64::from(params.samples));
+        sum.resize(part.value.len(), [0.0; 3]);
+        for (sum, pixel) in sum.iter_mut().flatten().zip(part.value.iter().flatten()) {
+            *sum += f64::from(*pixel) * samples;
+        }
+        all += samples;
+        time += part.time;
     }
-    let all = f64::from(params.samples);
-    Ok(Timed {
-        value: sum
-            .iter()
-            .map(|pixel| pixel.map(|sum| (sum / all) as f32))
-            .collect(),
-        time,
-    })
+    let value = sum
+        .iter()
+        .map(|pixel| pixel.map(|sum| (sum / all) as f32))
+        .collect();
+    Ok(Timed { value, time })
 }
 
 #[cfg(test)]

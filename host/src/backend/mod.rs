@@ -12,6 +12,7 @@ mod record;
 mod scene;
 
 pub use batches::Integrator;
+pub(crate) use batches::mean_image;
 pub use cpu::CpuBackend;
 pub use device::DeviceArrays;
 pub use device::DeviceBackend;

@@ -126,12 +126,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         if all > 1 {
             results.push((all, measured()?));
         }
-        for (threads, (built, times, batch)) in &results {
+        for (threads, (built, [refit, sample, pmf], batch)) in &results {
             push(BUILD, "cpu", *threads, built, args.lights);
-            push(REFIT, "cpu", *threads, &times.refit, args.lights);
-            push(SAMPLE, "cpu", *threads, &times.sample, args.queries);
+            push(REFIT, "cpu", *threads, refit, args.lights);
+            push(SAMPLE, "cpu", *threads, sample, args.queries);
             push(BATCH, "cpu", *threads, batch, args.queries);
-            push(PMF, "cpu", *threads, &times.pmf, args.queries);
+            push(PMF, "cpu", *threads, pmf, args.queries);
         }
         for o in &opened {
             let mut device: DeviceBackend<'_> = DeviceBackend::new(&o.device, &bvh)?;
@@ -140,10 +140,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 own.follow(&lights)?;
                 Ok(device.follow(&own)?.time)
             };
-            let times = passes(&mut device, refit, &queries)?;
-            push(REFIT, o.device.name(), 0, &times.refit, args.lights);
-            push(SAMPLE, o.device.name(), 0, &times.sample, args.queries);
-            push(PMF, o.device.name(), 0, &times.pmf, args.queries);
+            let [refit, sample, pmf] = passes(&mut device, refit, &queries)?;
+            push(REFIT, o.device.name(), 0, &refit, args.lights);
+            push(SAMPLE, o.device.name(), 0, &sample, args.queries);
+            push(PMF, o.device.name(), 0, &pmf, args.queries);
         }
     }
     devices::close(opened)?;

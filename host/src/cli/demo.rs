@@ -10,22 +10,20 @@ use serde_json::json;
 
 use super::measure::times::{ms, spread_ms};
 use super::{Context, Outcome, devices, table, target};
-use crate::backend::{PIXEL_RECORD, SAMPLED_RECORD, Timed};
+use crate::backend::{PIXEL_RECORD, Timed};
 use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::method::{Method, Runner, Step, Target};
 use crate::render::Film;
 use crate::scene::Scene;
 use crate::tally::{Kind, Tally};
-use crate::workload::{arrays_at, lights_at, queries, render_params};
+use crate::workload::{arrays_at, lights_at, render_params};
 
 const SCENE: &str = "street";
 /// Frames shown: those of the paper's Table 1.
 const FRAMES: [u32; 4] = [0, 50, 100, 150];
 /// Light samples per pixel.
 const SAMPLES: u32 = 4;
-/// Lights sampled per frame, besides those of the image.
-const QUERIES: u32 = 100_000;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -41,21 +39,25 @@ pub(super) struct Args {
 }
 
 /// A row of the table: a backend over all frames.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 struct Row {
     backend: String,
-    lights: usize,
-    triangles: usize,
-    nodes: usize,
-    depth: u32,
     /// Milliseconds: the build once, with the upload, the others as the median over the frames.
     build_ms: f64,
     refit_ms: f64,
-    sample_ms: f64,
     render_ms: f64,
     compared: u64,
     different: u64,
     first_difference: Option<String>,
+}
+
+/// A backend, and what is measured of it: the build, and refit and image of each frame.
+struct Lane<'d> {
+    name: String,
+    runner: Box<dyn Runner + 'd>,
+    build: Duration,
+    times: [Vec<Duration>; 2],
+    tally: Tally,
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
@@ -66,54 +68,43 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let lights: Lights = lights_at(&scene, FRAMES[0])?;
     let recipe = Method::TwoLevelMoments.recipe();
     let on_devices = opened.iter().map(|o| Target::Device(&o.device));
-    let targets: Vec<Target<'_>> = std::iter::once(Target::Cpu).chain(on_devices).collect();
-    let mut runners: Vec<(Box<dyn Runner>, Row)> = Vec::new();
-    for target in &targets {
-        let built = Timed::of(|| recipe.runner(&Step::new(&scene, FRAMES[0], &lights), *target));
-        let row = Row {
-            backend: target.name().to_owned(),
-            lights: lights.triangles().len(),
-            triangles: scene.triangle_count(),
-            build_ms: ms(built.time),
-            ..Row::default()
-        };
-        runners.push((built.value?, row));
+    let mut lanes = Vec::new();
+    for target in std::iter::once(Target::Cpu).chain(on_devices) {
+        let built = Timed::of(|| recipe.runner(&Step::new(&scene, FRAMES[0], &lights), target));
+        lanes.push(Lane {
+            name: target.name().to_owned(),
+            runner: built.value?,
+            build: built.time,
+            times: Default::default(),
+            tally: Tally::default(),
+        });
     }
-    // Refit, sample and render of each backend, by frame.
-    let mut times: Vec<[Vec<Duration>; 3]> = vec![Default::default(); targets.len()];
-    let mut tallies = vec![Tally::default(); targets.len()];
     let (mut written, mut exposure) = (Vec::new(), None);
     for frame in FRAMES {
         news!("frame {frame}");
         let arrays = arrays_at(&scene, frame, size.0, size.1)?;
         let step = Step::new(&scene, frame, &arrays.lights);
         let params = render_params(size, SAMPLES, frame, scene.frame(frame).background);
-        let asked = queries(&arrays, frame, 0, QUERIES);
         let mut expected = None;
-        for (at, (runner, row)) in runners.iter_mut().enumerate() {
-            let refit = runner.advance(&step)?.refit;
-            let tree = runner.tree().expect("a light BVH");
-            (row.nodes, row.depth) = (tree.nodes, tree.depth);
+        for lane in &mut lanes {
+            let runner = &mut lane.runner;
+            lane.times[0].push(runner.advance(&step)?.refit);
             let words = runner.backend().nodes()?;
             let nodes = runner.words_in_use(words);
-            let sampled = runner.backend().sample(&asked)?;
             let image = runner.image(&step, &arrays, &params)?;
-            for (list, time) in times[at].iter_mut().zip([refit, sampled.time, image.time]) {
-                list.push(time);
-            }
-            let found = (nodes, sampled.value, image.value);
-            let (nodes, sampled, image) = expected.get_or_insert_with(|| found.clone());
-            if at > 0 {
-                let tally = &mut tallies[at];
-                let record = runner.backend().node_record();
-                tally.take(Kind::Nodes, "refit", &record, nodes, &found.0)?;
-                let (expected, found_samples) = (cast_slice(sampled), cast_slice(&found.1));
-                tally.take(Kind::Samples, "sample", &SAMPLED_RECORD, expected, found_samples)?;
-                let (expected, found) = (cast_slice(image), cast_slice(&found.2));
-                tally.take(Kind::Pixels, "render", &PIXEL_RECORD, expected, found)?;
-            }
+            lane.times[1].push(image.time);
+            // The CPU comes first.
+            let Some((own, pixels)) = &expected else {
+                expected = Some((nodes, image.value));
+                continue;
+            };
+            let record = runner.backend().node_record();
+            lane.tally.take(Kind::Nodes, "refit", &record, own, &nodes)?;
+            let (pixels, found) = (cast_slice(pixels), cast_slice(&image.value));
+            lane.tally
+                .take(Kind::Pixels, "render", &PIXEL_RECORD, pixels, found)?;
         }
-        let image = expected.map(|(_, _, image)| image).unwrap_or_default();
+        let image = expected.map(|(_, image)| image).unwrap_or_default();
         let film = Film::new(size.0, size.1, image)?;
         // One exposure for all frames, so that they can be compared.
         let exposure = *exposure.get_or_insert_with(|| film.auto_exposure());
@@ -121,22 +112,16 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         film.write(&path, exposure)?;
         written.push(path);
     }
-    let rows = runners.into_iter().zip(times.iter().zip(tallies));
-    let rows: Vec<Row> = rows
-        .map(|((_, row), (times, tally))| {
-            let [refit_ms, sample_ms, render_ms] = times.each_ref().map(|own| spread_ms(own).median);
-            Row {
-                refit_ms,
-                sample_ms,
-                render_ms,
-                compared: tally.compared,
-                different: tally.different,
-                first_difference: tally.first_difference,
-                ..row
-            }
-        })
-        .collect();
-    drop(targets);
+    let row = |lane: Lane<'_>| Row {
+        backend: lane.name,
+        build_ms: ms(lane.build),
+        refit_ms: spread_ms(&lane.times[0]).median,
+        render_ms: spread_ms(&lane.times[1]).median,
+        compared: lane.tally.compared,
+        different: lane.tally.different,
+        first_difference: lane.tally.first_difference,
+    };
+    let rows: Vec<Row> = lanes.into_iter().map(row).collect();
     devices::close(opened)?;
     let outcome = Outcome::good_if(rows.iter().all(|row| row.different == 0));
     if context.json {
@@ -147,13 +132,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         &rows,
         &[
             ("backend", |r| r.backend.clone()),
-            ("lights", |r| r.lights.to_string()),
-            ("triangles", |r| r.triangles.to_string()),
-            ("nodes", |r| r.nodes.to_string()),
-            ("depth", |r| r.depth.to_string()),
             ("build ms", |r| format!("{:.1}", r.build_ms)),
             ("refit ms", |r| format!("{:.2}", r.refit_ms)),
-            ("sample ms", |r| format!("{:.1}", r.sample_ms)),
             ("render ms", |r| format!("{:.0}", r.render_ms)),
             ("words compared", |r| r.compared.to_string()),
             ("different", |r| r.different.to_string()),

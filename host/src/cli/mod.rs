@@ -38,7 +38,7 @@ struct Args {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Build, animate, refit, sample and render a street on the CPU and every device
+    /// Build, animate, refit and render a street on the CPU and every device
     Demo(OnDevices<demo::Args>),
     /// Render a frame or an animation of a scene
     Render(OnDevices<render::Args>),

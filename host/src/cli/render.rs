@@ -8,14 +8,13 @@ use std::sync::Arc;
 
 use lightbvh::EmissiveTriangle;
 use lightbvh::light::AnyLight;
-use serde_json::{Value, json};
+use serde_json::json;
 
-use self::options::{IntegratorName, recipe};
+use self::options::recipe;
 use self::sequence::Sequence;
 use self::view::{camera_words, check_places, playing, seen_by};
 use super::reading::BackendName;
 use super::{Context, Outcome, devices, frames, table, target};
-use crate::backend::Integrator;
 use crate::cli::table::news;
 use crate::error::HostError;
 use crate::method::MethodLight;
@@ -38,7 +37,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .as_ref()
         .map(|shown| frames::numbered(&args.output, shown.start));
     target::picture(first.as_ref().unwrap_or(&args.output))?;
-    let mut scene = args.up.turn(args.reading.open(&args.scene)?)?;
+    let mut scene = args.reading.open(&args.scene)?;
     if !args.animation.is_empty() {
         scene = playing(scene, &args.animation)?;
     }
@@ -98,31 +97,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         }
     };
     if context.json {
-        let mut report = json!({
-            "camera_chosen": camera_words(&scene), "scene": scene.name(), "width": args.width, "height": args.height, "spp": args.spp,
-            "sampler": args.sampler, "backend": name,
-        });
-        if recipe.lights.needs_bvh() {
-            report["importance"] = json!(recipe.importance);
-        }
-        // Direct lighting is reflected once.
-        report["bounces"] = match recipe.integrator {
-            Integrator::Direct => 1,
-            Integrator::Path { bounces } => bounces,
-        }
-        .into();
-        report["integrator"] = json!(args.integrator);
-        if args.integrator == IntegratorName::Direct {
-            report["candidates"] = recipe.candidates.into();
-        }
-        if args.animate.is_some() {
-            report["frames"] = shown.into();
-        } else {
-            for (key, value) in shown.first().and_then(Value::as_object).into_iter().flatten() {
-                report[key] = value.clone();
-            }
-        }
-        table::print_json(&report)?;
+        table::print_json(&json!({
+            "scene": scene.name(), "backend": name, "camera_chosen": camera_words(&scene), "frames": shown,
+        }))?;
     }
     Ok(Outcome::Good)
 }

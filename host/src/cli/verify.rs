@@ -12,6 +12,7 @@ use lightbvh::light::AnyLight;
 use serde::Serialize;
 use serde_json::json;
 
+use super::devices::Opened;
 use super::reading::Reading;
 use super::{Context, Outcome, devices, progress, table};
 use crate::cli::table::{news, say};
@@ -48,13 +49,24 @@ pub(super) struct Args {
     mesh_triangles: u32,
 }
 
-#[derive(Serialize)]
+#[derive(Clone, Debug, Serialize)]
 struct DeviceReport {
     name: String,
     driver: String,
     exact: bool,
     #[serde(flatten)]
     tally: Tally,
+}
+
+impl DeviceReport {
+    fn new(opened: &Opened, tally: Tally) -> Self {
+        Self {
+            name: opened.device.name().to_owned(),
+            driver: opened.device.probe().driver.to_string(),
+            exact: opened.exactness.exact && tally.different == 0,
+            tally,
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -79,14 +91,8 @@ struct Report {
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     if let Some(frames) = args.soak {
-        let plan = soak::Plan {
-            frames,
-            seed: args.seed,
-            instances: args.instances,
-            mesh_triangles: args.mesh_triangles,
-        };
         let opened = devices::open(context)?;
-        let report = soak::soak(&plan, &opened, context.json)?;
+        let report = soak::soak(frames, args, &opened, context.json)?;
         devices::close(opened)?;
         match context.json {
             true => table::print_json(&json!({ "soak": report }))?,
@@ -145,12 +151,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         devices: opened
             .iter()
             .zip(&tallies.devices)
-            .map(|(o, tally)| DeviceReport {
-                name: o.device.name().to_owned(),
-                driver: o.device.probe().driver.to_string(),
-                exact: o.exactness.exact && tally.different == 0,
-                tally: tally.clone(),
-            })
+            .map(|(o, tally)| DeviceReport::new(o, tally.clone()))
             .collect(),
     };
     drop(targets);
@@ -182,32 +183,7 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
             ("invariants", |t| t.said.clone()),
         ],
     )?;
-    if !report.devices.is_empty() {
-        table::print(
-            &report.devices,
-            &[
-                ("device", |d| d.name.clone()),
-                ("words compared", |d| d.tally.compared.to_string()),
-                ("words different", |d| d.tally.different.to_string()),
-                ("exact", |d| table::yes(d.exact)),
-            ],
-        )?;
-    }
-    for device in &report.devices {
-        for (kind, words) in &device.tally.words {
-            say!(
-                "{}: {} {}, {} words, {} different",
-                device.name,
-                device.tally.records[kind],
-                kind.name(),
-                words.compared,
-                words.different
-            )?;
-        }
-        if let Some(first) = &device.tally.first_difference {
-            say!("{}: first difference: {first}", device.name)?;
-        }
-    }
+    print_devices(&report.devices)?;
     say!(
         "cpu: {} words computed twice, {} different",
         report.cpu_compared,
@@ -215,6 +191,22 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
     )?;
     if let Some(first) = cpu_difference {
         say!("cpu: first difference: {first}")?;
+    }
+    Ok(())
+}
+
+fn print_devices(devices: &[DeviceReport]) -> std::io::Result<()> {
+    for DeviceReport {
+        name, exact, tally, ..
+    } in devices
+    {
+        for (kind, words) in &tally.words {
+            let (count, kind) = (tally.records[kind], kind.name());
+            let (compared, different) = (words.compared, words.different);
+            say!("{name}: {count} {kind}, {compared} words, {different} different")?;
+        }
+        let first = tally.first_difference.as_deref().unwrap_or("none");
+        say!("{name}: exact: {}; first difference: {first}", table::yes(*exact))?;
     }
     Ok(())
 }

@@ -2,7 +2,6 @@
 //! levels.
 
 use std::hint::black_box;
-use std::time::Duration;
 
 use lightbvh::exact::hash;
 use lightbvh_kernels::bvh::Choice;
@@ -10,7 +9,9 @@ use lightbvh_kernels::render::RenderParams;
 
 use super::moving::Moving;
 use super::{Recipe, Runner, SampleBudget, Step, Target, TreeFacts, UpdateTimes};
-use crate::backend::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed};
+use crate::backend::{
+    Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, mean_image,
+};
 use crate::error::HostError;
 use crate::render::power_thresholds;
 use crate::scene::SceneLight;
@@ -108,17 +109,21 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
         match recipe.budget {
             SampleBudget::ShadowRays => Ok(render(all)?),
             SampleBudget::CameraRays => {
-                let parts = parts(recipe.integrator, all.samples, recipe.candidates);
-                mean_of(parts, &all, |part| {
-                    let mut params = all;
-                    params.samples = all.samples / parts;
-                    params.jitter = part;
+                let count = parts(recipe.integrator, all.samples, recipe.candidates);
+                let parts = (0..count).map(|part| {
+                    let samples = all.samples / count;
+                    let mut own = RenderParams {
+                        samples,
+                        jitter: part,
+                        ..all
+                    };
                     match recipe.integrator {
-                        Integrator::Direct => (params.part, params.parts) = (part, parts),
-                        Integrator::Path { .. } => params.seed = hash(all.seed).wrapping_add(part),
+                        Integrator::Direct => (own.part, own.parts) = (part, count),
+                        Integrator::Path { .. } => own.seed = hash(all.seed).wrapping_add(part),
                     }
-                    Ok(render(params)?)
-                })
+                    own
+                });
+                Ok(mean_image(parts, |params| render(*params))?)
             }
         }
     }
@@ -142,11 +147,6 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
             bytes: bvh.bytes(),
         })
     }
-
-    /// A single level has the shape of the first frame or of this one.
-    fn may_skip(&self) -> bool {
-        self.moving.is_none()
-    }
 }
 
 /// Into how many parts the samples of a pixel are shared out, each with a camera ray of its own: of light samples, as few as
@@ -160,24 +160,4 @@ fn parts(integrator: Integrator, samples: u32, candidates: u32) -> u32 {
         }
         Integrator::Direct | Integrator::Path { .. } => samples,
     }
-}
-
-/// The mean of `count` images, and their times together.
-fn mean_of(
-    count: u32,
-    params: &RenderParams,
-    mut image: impl FnMut(u32) -> Result<Timed<Vec<[f32; 3]>>, HostError>,
-) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
-    let mut sum = Timed {
-        value: vec![[0.0f32; 3]; params.width as usize * params.height as usize],
-        time: Duration::ZERO,
-    };
-    for number in 0..count {
-        let part = image(number)?;
-        sum.time += part.time;
-        for (sum, part) in sum.value.iter_mut().flatten().zip(part.value.iter().flatten()) {
-            *sum += part / count as f32;
-        }
-    }
-    Ok(sum)
 }

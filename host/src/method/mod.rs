@@ -91,8 +91,7 @@ pub struct TreeFacts {
 
 /// A method over one scene on one backend, whose lights are of type `L`.
 pub trait Runner<L: SceneLight = EmissiveTriangle> {
-    /// Brings the structures to the next frame. Frames come in ascending order; only methods that say so in
-    /// [`may_skip`](Self::may_skip) see them with gaps.
+    /// Brings the structures to the next frame. Frames come in ascending order, without gaps.
     fn advance(&mut self, step: &Step<'_, L>) -> Result<UpdateTimes, HostError>;
 
     /// Renders the frame last advanced to, which `arrays` are of.
@@ -111,9 +110,6 @@ pub trait Runner<L: SceneLight = EmissiveTriangle> {
 
     /// The light BVH; none where lights are chosen by a table.
     fn tree(&self) -> Option<TreeFacts>;
-
-    /// Whether a frame depends on the first frame and itself alone, so that those between may be left out.
-    fn may_skip(&self) -> bool;
 }
 
 /// Where a method renders and refits.

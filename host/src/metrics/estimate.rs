@@ -23,6 +23,18 @@ pub fn mean(values: &[f64]) -> f64 {
     }
 }
 
+/// The relative variance of one sample of lights that send `sent` to a point and have probabilities `pmfs` there: sum of
+/// squares over probabilities, over the squared sum, less 1; `None` if nothing is sent.
+pub fn variance(lights: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
+    let (mut mean, mut square) = (0.0, 0.0);
+    for (sent, pmf) in lights.filter(|(sent, _)| *sent > 0.0) {
+        mean += sent;
+        square += sent * sent / pmf;
+    }
+    // Below zero by rounding only, where one light counts.
+    (mean > 0.0).then(|| (square / (mean * mean) - 1.0).max(0.0))
+}
+
 impl Estimate {
     /// The mean of `values` by Student's t distribution; nothing for no values.
     pub fn of(values: &[f64]) -> Option<Self> {

@@ -29,10 +29,6 @@ pub struct Case {
     pub params: BuildParams,
     /// Points to light.
     pub points: Vec<ShadingPoint>,
-    /// Levels that a tree of two-wide nodes must have; 0 where it is not about depth.
-    pub least_depth: u32,
-    /// Whether samples are so costly that fewer must do.
-    pub large: bool,
 }
 
 impl Case {
@@ -45,8 +41,6 @@ impl Case {
             source: Source::World(triangles),
             params: BuildParams::default(),
             points,
-            least_depth: 0,
-            large: false,
         }
     }
 

@@ -1,8 +1,7 @@
 //! `lightbvh stability`: the extremes that the light BVH must survive, each with its worst error against a stated bound.
 //!
-//! [`cases`] makes the extremes; [`checks`] looks at one tree over one of them on the CPU, by oracles in f64 that share no
-//! arithmetic with what they check; [`invariance`] compares a scene with itself scaled, turned and moved; [`words`] compares
-//! devices with the CPU. What a row means stands in [`row`].
+//! [`cases`] makes the extremes; [`checks`] looks at one tree over one of them on the CPU; [`invariance`] compares a scene with
+//! itself scaled, turned and moved; [`words`] compares devices with the CPU. What a row means stands in [`row`].
 
 pub mod case;
 pub mod cases;
@@ -11,17 +10,16 @@ pub mod geometry;
 pub mod invariance;
 pub mod random;
 pub mod row;
-pub mod statistics;
 pub mod subject;
 pub mod words;
 
-use lightbvh::{Bvh, CompactNode, Eq4, Lights, Node as _, ShadingPoint};
+use lightbvh::{Lights, ShadingPoint};
 use serde::Serialize;
 
 use self::case::{Case, Source, moving_scene, validated};
-use self::row::{Check, Row};
+use self::row::Row;
 use self::subject::Subject;
-use crate::backend::{self, Sampler};
+use crate::backend::{Bvh, Sampler};
 use crate::error::HostError;
 use crate::vulkan::{Device, VulkanError};
 use crate::workload;
@@ -74,12 +72,7 @@ pub struct Skipped {
 
 /// Runs one extreme: on the CPU, and on each device.
 pub fn run(case: &Case, effort: &Effort, devices: &[&Device], found: &mut Found) -> Result<(), HostError> {
-    // Few points do for very many lights: each asks for all their probabilities.
-    let samples = if case.large {
-        50 * effort.samples
-    } else {
-        effort.samples
-    };
+    let samples = effort.samples;
     let triangles = match &case.source {
         Source::World(triangles) => triangles,
         Source::Moving { meshes, instances } => {
@@ -102,31 +95,13 @@ pub fn run(case: &Case, effort: &Effort, devices: &[&Device], found: &mut Found)
             found,
         )?;
     }
-    if !case.large {
-        narrow(case, &lights, samples, found);
-    }
     Ok(())
-}
-
-/// Trees of two-wide nodes, the deepest there are, by the paper's importance: on the CPU alone, since no kernels are compiled
-/// for them.
-fn narrow(case: &Case, lights: &Lights, samples: u32, found: &mut Found) {
-    let bvh = Bvh::<CompactNode<2>, Eq4, 2>::two_level(lights, &case.params);
-    let structure = format!("two-level {} 2-wide", CompactNode::<2>::NAME);
-    let tree = Subject::by::<_, _, Eq4, 2>(&bvh, lights);
-    if case.least_depth > 0 {
-        let missing = f64::from(case.least_depth.saturating_sub(tree.depth));
-        let row = Row::new(&case.name, &structure, Check::Depth, missing, 0.0);
-        found.rows.push(row);
-    }
-    let rows = checks::check(&case.name, &structure, &tree, &case.points, samples);
-    found.rows.extend(rows);
 }
 
 /// A tree of this structure on the CPU, and on each device.
 fn check(
     name: &str,
-    (bvh, lights, structure): (&backend::Bvh, &Lights, &str),
+    (bvh, lights, structure): (&Bvh, &Lights, &str),
     (points, samples): (&[ShadingPoint], u32),
     devices: &[&Device],
     found: &mut Found,

@@ -40,13 +40,7 @@ checks! {
     Equal: "samples whose pmf differs from the evaluated one in any bit, or without a light though one has a probability; \
         both come from the same range of numbers, so none",
     Starved: "lights with flux that have no probability by weights alone; weights are positive wherever there is flux, so none",
-    Frequencies: "chi-square of lights drawn against probabilities, over its quantile with a tail of 1e-6",
-    Bias: "error of unshadowed direct light by samples against the sum over all lights, over Bernstein's bound with the \
-        exact variance and a tail of 1e-9 per point, 1e-5 relative added for rounding",
-    Depth: "levels missing to what the extreme is to have",
     SameBits: "probabilities that differ in any bit; the arithmetic is that of significands, so none",
-    Variation: "share of samples that goes to other lights; new rounding of the input moves quantised summaries by a step \
-        here and there, of which those of flux and deviation are the coarsest (1/16 and 1/8): 4 %",
     Deviation: "standard deviation of the estimate (root mean square over points), against the untouched scene; another \
         tree may be worse, within a factor of 2",
     RefitWords: "words of refitted nodes that the device computes otherwise than the CPU; none may be",

@@ -71,12 +71,8 @@ impl<T: Pod> Buffer<T> {
 
     fn new(shared: &Arc<Shared>, len: usize) -> Result<Self, VulkanError> {
         let bytes = (len as u64).saturating_mul(Self::ELEMENT_BYTES as u64);
-        let location = match shared.probe.unified_memory && !shared.options.force_staging {
-            true => MemoryLocation::GpuToCpu,
-            false => MemoryLocation::GpuOnly,
-        };
         // Vulkan has no buffers of zero bytes; one word stands in, smaller than any element but a word itself.
-        let memory = Arc::new(Memory::new(shared, bytes.max(4), location)?);
+        let memory = Arc::new(Memory::new(shared, bytes.max(4), MemoryLocation::GpuOnly)?);
         Ok(Self {
             memory,
             len,

@@ -81,7 +81,7 @@ impl Device {
             });
         }
         let raw = create(&instance, &candidate, options)?;
-        let shared = Arc::new(Shared::new(instance, raw, candidate, options)?);
+        let shared = Arc::new(Shared::new(instance, raw, candidate)?);
         shared.check_validation()?;
         Ok(Self { shared })
     }

@@ -5,7 +5,6 @@ use super::shared::Shared;
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
-use std::ptr::NonNull;
 use std::sync::Arc;
 
 /// A Vulkan buffer with its memory.
@@ -14,7 +13,6 @@ pub(crate) struct Memory {
     pub(crate) buffer: vk::Buffer,
     pub(crate) bytes: u64,
     allocation: Option<Allocation>,
-    location: MemoryLocation,
 }
 
 /// Bytes of a staging buffer at most.
@@ -50,39 +48,22 @@ impl Memory {
             buffer,
             bytes,
             allocation: Some(allocation),
-            location,
         })
     }
 
-    /// Copies each part's bytes to its place in the buffer, which holds them. Bytes that the host does not reach go through a
-    /// staging buffer, many parts by one copy.
+    /// Copies each part's bytes to its place in the buffer, which holds them: through a staging buffer, many parts by one copy.
     pub(crate) fn write(&self, parts: &[(u64, &[u8])]) -> Result<(), VulkanError> {
-        if let Some(mapped) = self.mapped() {
-            let queue = self.shared.queue();
-            for (at, data) in parts {
-                assert!(at + data.len() as u64 <= self.bytes, "checked by the callers");
-                // SAFETY: the memory is mapped for `bytes`, which hold the data (as above). Nothing else reaches it meanwhile: the
-                // device runs nothing, and the host reads and writes with the queue held.
-                unsafe {
-                    mapped
-                        .add(*at as usize)
-                        .copy_from_nonoverlapping(NonNull::from(*data).cast(), data.len());
-                };
-            }
-            drop(queue);
-            return Ok(());
-        }
         let all: u64 = parts.iter().map(|(_, data)| data.len() as u64).sum();
         if all == 0 {
             return Ok(());
         }
-        let staging = Self::new(&self.shared, all.min(PART), MemoryLocation::GpuToCpu)?;
+        let mut staging = Self::new(&self.shared, all.min(PART), MemoryLocation::GpuToCpu)?;
         let (mut regions, mut used) = (Vec::new(), 0);
         for &(mut at, mut data) in parts {
             while !data.is_empty() {
                 let room = (staging.bytes - used) as usize;
                 let (now, later) = data.split_at(data.len().min(room));
-                staging.write(&[(used, now)])?;
+                staging.mapped()[used as usize..][..now.len()].copy_from_slice(now);
                 let bytes = now.len() as u64;
                 regions.push(region(used, at, bytes));
                 (used, at, data) = (used + bytes, at + bytes, later);
@@ -101,19 +82,11 @@ impl Memory {
         if data.is_empty() {
             return Ok(());
         }
-        if let Some(mapped) = self.mapped() {
-            let queue = self.shared.queue();
-            assert!(data.len() as u64 <= self.bytes, "checked by the callers");
-            // SAFETY: the memory is mapped for `bytes`, which are no fewer (as above). Nothing writes it meanwhile, as in `write`.
-            unsafe { mapped.copy_to_nonoverlapping(NonNull::from(&mut *data).cast(), data.len()) };
-            drop(queue);
-            return Ok(());
-        }
         let part = PART.min(data.len() as u64);
-        let staging = Self::new(&self.shared, part, MemoryLocation::GpuToCpu)?;
+        let mut staging = Self::new(&self.shared, part, MemoryLocation::GpuToCpu)?;
         for (index, data) in (0..).zip(data.chunks_mut(part as usize)) {
             staging.copy(self, &[region(index * part, 0, data.len() as u64)])?;
-            staging.read(data)?;
+            data.copy_from_slice(&staging.mapped()[..data.len()]);
         }
         Ok(())
     }
@@ -133,17 +106,6 @@ impl Memory {
 
     /// Sets every word of the buffer.
     pub(crate) fn fill(&self, word: u32) -> Result<(), VulkanError> {
-        if let Some(mapped) = self.mapped() {
-            let queue = self.shared.queue();
-            let words = mapped.cast::<u32>();
-            for at in 0..self.bytes as usize / 4 {
-                // SAFETY: the memory is mapped for `bytes` and aligned to more than a word; nothing else reaches it meanwhile, as
-                // in `write`.
-                unsafe { words.add(at).write(word) };
-            }
-            drop(queue);
-            return Ok(());
-        }
         let filled = self.shared.run(|device, commands| {
             // SAFETY: the command buffer is recording; the buffer belongs to this device, was made for transfers, is `bytes` long,
             // a multiple of 4, and is borrowed until the submission has ended.
@@ -152,10 +114,10 @@ impl Memory {
         filled.map(drop)
     }
 
-    /// The memory where host and device may both reach it, mapped for as long as it lives.
-    fn mapped(&self) -> Option<NonNull<u8>> {
-        let mapped = self.allocation.as_ref()?.mapped_ptr()?.cast();
-        (self.location != MemoryLocation::GpuOnly).then_some(mapped)
+    /// The bytes of a staging buffer. Submissions are waited for, so none reads or writes them meanwhile.
+    fn mapped(&mut self) -> &mut [u8] {
+        let mapped = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut);
+        mapped.expect("staging buffers lie where the host reaches them")
     }
 }
 

@@ -5,6 +5,4 @@
 pub struct Options {
     /// Run under `VK_LAYER_KHRONOS_validation`: any message of it becomes an error of the call that drew it.
     pub validation: bool,
-    /// Copy through staging buffers even where host and device share memory; for tests of that path.
-    pub force_staging: bool,
 }

@@ -23,8 +23,6 @@ pub struct Probe {
     pub features: Features,
     /// Limits this program checks.
     pub limits: Limits,
-    /// Whether host and device share one memory, so that buffers need no staging copy.
-    pub unified_memory: bool,
 }
 
 /// Driver identity; belongs into every report about bits or times.
@@ -138,8 +136,6 @@ impl Candidate {
         // SAFETY: as above.
         unsafe { vk_instance.get_physical_device_features2(physical, &mut features) };
         let robust_buffer_access = features.features.robust_buffer_access == vk::TRUE;
-        // SAFETY: as above.
-        let memory = unsafe { vk_instance.get_physical_device_memory_properties(physical) };
         if vulkan12.vulkan_memory_model == vk::FALSE {
             return Err(format!("{name}: no vulkanMemoryModel, which the kernels need"));
         }
@@ -177,7 +173,6 @@ impl Candidate {
                 timestamp_period: limits.timestamp_period,
                 timestamp_valid_bits: family.timestamp_valid_bits,
             },
-            unified_memory: unified(basic.device_type, memory.memory_types_as_slice()),
         };
         Ok(Self {
             physical,
@@ -185,22 +180,6 @@ impl Candidate {
             probe,
         })
     }
-}
-
-/// Whether buffers can live where both sides reach them at full speed.
-///
-/// A discrete GPU's host-visible window into its own memory does not count: the host reads it uncached over the bus.
-fn unified(device_type: vk::PhysicalDeviceType, memory_types: &[vk::MemoryType]) -> bool {
-    let shared = vk::MemoryPropertyFlags::DEVICE_LOCAL
-        | vk::MemoryPropertyFlags::HOST_VISIBLE
-        | vk::MemoryPropertyFlags::HOST_COHERENT
-        | vk::MemoryPropertyFlags::HOST_CACHED;
-    matches!(
-        device_type,
-        vk::PhysicalDeviceType::CPU | vk::PhysicalDeviceType::INTEGRATED_GPU
-    ) && memory_types
-        .iter()
-        .any(|memory| memory.property_flags.contains(shared))
 }
 
 fn kind(device_type: vk::PhysicalDeviceType) -> &'static str {

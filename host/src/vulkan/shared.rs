@@ -4,7 +4,6 @@ use super::error::VulkanError;
 use super::fault::Faults;
 use super::instance::Instance;
 use super::kernel::Kernels;
-use super::options::Options;
 use super::probe::{Candidate, Probe};
 use super::queue::Queue;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
@@ -22,7 +21,6 @@ static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 pub(crate) struct Shared {
     pub(crate) id: u64,
     pub(crate) probe: Probe,
-    pub(crate) options: Options,
     pub(crate) raw: ash::Device,
     pub(super) faults: Faults,
     queue: Mutex<Queue>,
@@ -38,7 +36,6 @@ impl Shared {
         instance: Instance,
         raw: ash::Device,
         candidate: Candidate,
-        options: Options,
     ) -> Result<Self, VulkanError> {
         let Candidate {
             physical,
@@ -71,7 +68,6 @@ impl Shared {
             Ok((queue, allocator)) => Ok(Self {
                 id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
                 probe,
-                options,
                 faults: Faults::default(),
                 raw,
                 queue: Mutex::new(queue),

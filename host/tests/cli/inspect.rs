@@ -56,7 +56,7 @@ fn assert_sound(report: &Value) {
 fn built_in_scenes_that_stay_keep_no_triangles() {
     let moving = report("inspect street --json --points 16");
     assert_sound(&moving);
-    assert_eq!(fact(&moving, "orientation"), "present");
+    assert_eq!(fact(&moving, "two-sided only"), "no");
     assert_eq!(fact(&moving, "one mesh"), "no");
     assert_eq!(moving["model"]["updates"], "all");
     assert_eq!(moving["checked_frame"], 1);
@@ -101,6 +101,22 @@ fn one_mesh_of_two_sided_lamps_needs_neither_normals_nor_a_top_level() {
         command.contains("--layout two-sided --width 8 --share 6"),
         "{command}"
     );
+}
+
+#[test]
+fn points_without_light_have_no_figure() {
+    let folder = Folder::new("inspect-unlit");
+    // Lamps that shine up, where nothing is.
+    let path = model::write(&folder, "unlit", &[], |root| {
+        root["scenes"][0]["nodes"] = json!([0, 1]);
+        root["nodes"][1]["rotation"] = json!([1, 0, 0, 0]);
+    });
+    let found = report(&format!("inspect {path} --json"));
+    assert_eq!(
+        (&found["holds"], &found["default"]["variance"]),
+        (&json!(true), &Value::Null)
+    );
+    assert!(!found["steps"].as_array().expect("steps").is_empty());
 }
 
 #[test]

@@ -28,7 +28,6 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
         // Options without effect.
         ("render street --bounces 3", ["--integrator path", ""]),
         ("render street --device 0", ["--backend vulkan", ""]),
-        ("render street --up z", ["--up z", ".obj or .ply"]),
         ("render street --camera 9", ["--camera 9", "the scene has"]),
         (
             "render street --look-from 1,1,1 --look-at 1,1,1",
@@ -42,6 +41,8 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
         ("demo --height 0 --out IMAGES", ["--height", ""]),
         ("bench --lights 0", ["--lights", "0 is not in"]),
         ("bench --queries 0", ["--queries", "0 is not in"]),
+        ("compare --frames 100001", ["100001 is not in", ""]),
+        ("compare --reference-samples 1", ["--reference-samples", ""]),
         ("verify --queries many", ["many", ""]),
         ("inspect street --static --changes radiance", ["--changes", ""]),
         ("inspect street --points 0", ["--points", ""]),

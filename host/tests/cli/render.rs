@@ -1,49 +1,17 @@
 //! Pictures: equal files on both processors, every sampler, numbered sequences.
 
-use std::path::Path;
-
-use crate::model;
-use crate::program::{Folder, json, run};
+use crate::program::{Folder, run};
 
 #[test]
-fn paths_render_and_add_what_is_reflected_again() {
+fn paths_add_what_is_reflected_again() {
     let folder = Folder::new("paths");
-    let small = "--width 48 --height 27 --spp 8 --frame 3 --json";
-    let mut images = Vec::new();
-    for bounces in ["1", "4"] {
+    let image = |bounces: u32| {
         let file = folder.file(&format!("{bounces}.exr"));
-        let path = format!("--integrator path --bounces {bounces}");
-        let report = json(&format!("render street {path} -o {file} {small}"));
-        assert_eq!(report["integrator"], "path");
-        assert_eq!(report["bounces"].to_string(), bounces);
-        images.push(std::fs::read(&file).expect("an image"));
-    }
-    assert!(images[0] != images[1], "more reflections, another image");
-    let file = folder.file("direct.exr");
-    let report = json(&format!("render street -o {file} {small}"));
-    assert_eq!(
-        (&report["integrator"], &report["bounces"]),
-        (&"direct".into(), &1.into())
-    );
-}
-
-#[test]
-fn every_sampler_renders() {
-    let folder = Folder::new("samplers");
-    for sampler in [
-        "uniform",
-        "power",
-        "single-level-refit",
-        "single-level-rebuilt",
-        "two-level-sah",
-        "two-level",
-    ] {
-        let file = folder.file(&format!("{sampler}.png"));
-        json(&format!(
-            "render street --frame 3 --width 16 --height 9 --spp 1 --sampler {sampler} -o {file} --json"
-        ));
-        assert!(Path::new(&file).exists());
-    }
+        let path = format!("--integrator path --bounces {bounces} --width 48 --height 27 --spp 8 --frame 3");
+        assert!(run(&format!("render street {path} -o {file}")).status.success());
+        std::fs::read(&file).expect("an image")
+    };
+    assert!(image(1) != image(4), "more reflections, another image");
 }
 
 /// A camera of one's own: another picture, mirrored names refused, and half of one refused too.
@@ -54,16 +22,12 @@ fn a_camera_of_ones_own() {
     let image = |options: &str| {
         let file = folder.file("image.exr");
         let output = run(&format!("render street {options} -o {file} {small}"));
-        let said = String::from_utf8_lossy(&output.stdout).into_owned();
         assert!(output.status.success(), "{options}");
-        (std::fs::read(&file).expect("an image"), said)
+        std::fs::read(&file).expect("an image")
     };
-    let own = image("").0;
-    let looked = image("--look-from -6,3,12 --look-at 0,1,-2.5 --fov 30").0;
-    // One that is chosen for what is lit in place of the scene's.
-    let (auto, said) = image("--camera auto");
-    assert!(said.contains("--look-from"), "{said}");
-    assert!(own != looked && own != auto && auto != looked);
+    let own = image("");
+    let looked = image("--look-from -6,3,12 --look-at 0,1,-2.5 --fov 30");
+    assert!(own != looked);
     for wrong in [
         "--look-from 1,2,3",
         "--look-from 1,2 --look-at 1,2,3",
@@ -78,34 +42,4 @@ fn a_camera_of_ones_own() {
         ));
         assert_eq!(output.status.code(), Some(2), "{wrong}");
     }
-}
-
-#[test]
-fn the_exposure_that_is_printed_gives_the_same_picture() {
-    let folder = Folder::new("exposure");
-    let path = model::write(&folder, "bright", &[], |root| {
-        root["materials"][1]["extensions"] = serde_json::json!({
-            "KHR_materials_emissive_strength": { "emissiveStrength": 12345.6 }
-        });
-        root["extensionsUsed"] = serde_json::json!(["KHR_materials_emissive_strength"]);
-    });
-    let (first, again) = (folder.file("first.png"), folder.file("again.png"));
-    let small = "--width 32 --height 24 --spp 4";
-    let output = run(&format!("render {path} {small} -o {first}"));
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
-    let exposure = said
-        .lines()
-        .next()
-        .and_then(|line| line.split_once(", exposure "));
-    let (_, exposure) = exposure.expect("an exposure");
-    assert!(exposure.parse::<f32>().is_ok_and(|x| x < 0.01), "{said}");
-    assert!(
-        run(&format!("render {path} {small} --exposure {exposure} -o {again}"))
-            .status
-            .success()
-    );
-    assert!(
-        std::fs::read(first).expect("a picture") == std::fs::read(again).expect("a picture"),
-        "{exposure}"
-    );
 }

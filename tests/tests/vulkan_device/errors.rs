@@ -19,13 +19,7 @@ fn misuse_that_validation_sees_is_an_error() {
             }
             other => assert!(
                 matches!(
-                    Device::open(
-                        info,
-                        Options {
-                            validation: true,
-                            ..Options::default()
-                        }
-                    ),
+                    Device::open(info, Options { validation: true }),
                     Err(VulkanError::NoValidationLayer)
                 ),
                 "{}: {other:?}",

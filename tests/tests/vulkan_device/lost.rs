@@ -64,10 +64,7 @@ fn assert_follows(what: &str, bvh: &LightBvh, backend: &mut OnDevice<'_>) {
 
 #[test]
 fn where_a_device_is_lost_another_takes_over() {
-    let options = Options {
-        force_staging: true,
-        ..Options::default()
-    };
+    let options = Options::default();
     // The calls are the host's: one device shows them all.
     let list = devices();
     let Some(info) = list.devices.first() else { return };

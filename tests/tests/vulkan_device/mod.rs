@@ -62,15 +62,8 @@ fn values(count: u32) -> Vec<u32> {
         .collect()
 }
 
-/// With and without staging buffers.
 fn on_each(test: impl Fn(&Device)) {
-    for force_staging in [false, true] {
-        let options = Options {
-            force_staging,
-            ..Options::default()
-        };
-        on_each_device(options, &test);
-    }
+    on_each_device(Options::default(), test);
 }
 
 #[test]

@@ -18,27 +18,16 @@ const RUNS: usize = 5;
 /// NVIDIA H100 a fifth of its full ones).
 const WARM: Duration = Duration::from_secs(1);
 
-/// Times of several runs of each pass.
-pub(super) struct Times {
-    pub refit: Vec<Duration>,
-    pub sample: Vec<Duration>,
-    pub pmf: Vec<Duration>,
-}
-
-/// The passes of a backend; `refit` refits all of it, and returns its time.
+/// Times of several runs of refit, sample and pmf on a backend; `refit` refits all of it, and returns its time.
 pub(super) fn passes<B: Backend>(
     backend: &mut B,
     mut refit: impl FnMut(&mut B) -> Result<Duration, BackendError>,
     queries: &[Query],
-) -> Result<Times, HostError> {
-    let mut times = Times {
-        refit: Vec::new(),
-        sample: Vec::new(),
-        pmf: Vec::new(),
-    };
+) -> Result<[Vec<Duration>; 3], HostError> {
+    let mut times: [Vec<Duration>; 3] = Default::default();
     let start = Instant::now();
     let mut is_warm = false;
-    while times.pmf.len() < RUNS {
+    while times[0].len() < RUNS {
         let refit = refit(backend)?;
         let sampled = backend.sample(queries)?;
         let asked: Vec<Query> = queries
@@ -51,9 +40,9 @@ pub(super) fn passes<B: Backend>(
             .collect();
         let pmf = backend.pmf(&asked)?.time;
         if is_warm {
-            times.refit.push(refit);
-            times.sample.push(sampled.time);
-            times.pmf.push(pmf);
+            for (list, time) in times.iter_mut().zip([refit, sampled.time, pmf]) {
+                list.push(time);
+            }
         }
         is_warm |= start.elapsed() >= WARM;
     }

@@ -12,7 +12,7 @@ use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice};
 use serde::Serialize;
 use serde_json::json;
 
-use self::scenes::{Scene, hostile, scenes};
+use self::scenes::{Scene, scenes};
 use super::super::{Context, Outcome, table};
 use crate::backend::Bvh;
 use crate::cli::measure::times::quantiles;
@@ -77,10 +77,7 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
 }
 
 fn measure<C: TriangleChoice<W>, const W: usize>(scene: &Scene) -> Vec<Case> {
-    let mut bvh = Bvh::<C, W>::single_level(&scene.lights, &BuildParams::default());
-    if scene.hostile {
-        hostile(&mut bvh);
-    }
+    let bvh = Bvh::<C, W>::single_level(&scene.lights, &BuildParams::default());
     let tree = bvh.tree();
     let lights = scene.lights.triangles().len() as u32;
     let mut cases = Vec::new();

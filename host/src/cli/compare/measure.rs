@@ -80,10 +80,6 @@ impl<'d> Job<'_, 'd> {
         let is_timed = self.blocks.contains(&block);
         for frame in block * BLOCK..=plan.last().min(block * BLOCK + BLOCK - 1) {
             let shown = plan.frames.iter().position(|&own| own == frame);
-            let idle = shown.is_none() && !is_timed;
-            if idle && frame > 0 && lane.as_ref().is_some_and(|runner| runner.may_skip()) {
-                continue;
-            }
             let arrays = match arrays.entry(frame) {
                 std::collections::btree_map::Entry::Occupied(own) => own.into_mut(),
                 std::collections::btree_map::Entry::Vacant(none) => {

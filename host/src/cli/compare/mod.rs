@@ -11,7 +11,7 @@ use lightbvh::BuildParams;
 use serde_json::json;
 
 use super::measure::reference::Reference;
-use super::{Context, Outcome, devices, progress, table, target};
+use super::{Context, Outcome, devices, progress, table};
 use crate::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler};
 use crate::cli::table::news;
 use crate::error::HostError;
@@ -46,7 +46,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let cpu = (plan.backend != Backends::Vulkan).then_some(Target::Cpu);
     let on_devices = opened.iter().map(|o| Target::Device(&o.device));
     let targets: Vec<Target<'_>> = cpu.into_iter().chain(on_devices).collect();
-    target::folder(&args.out)?;
     if targets.is_empty() {
         return Err(VulkanError::NoDevice {
             notes: "--backend vulkan needs one".to_owned(),
@@ -77,16 +76,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     drop(targets);
     devices::close(opened)?;
 
-    let text = report::markdown(&plan, &report);
-    let mut json = serde_json::to_vec_pretty(&report).map_err(std::io::Error::from)?;
-    json.push(b'\n');
-    for (name, bytes) in [("compare.json", json.as_slice()), ("compare.md", text.as_bytes())] {
-        target::store(&args.out.join(name), bytes)?;
-    }
-    if context.json {
-        table::print_json(&report)?;
-    } else {
-        table::print_text(&text)?;
+    match context.json {
+        true => table::print_json(&report)?,
+        false => report::print(&report)?,
     }
     Ok(Outcome::good_if(report.different == 0))
 }
@@ -101,14 +93,20 @@ fn compare(
 ) -> Result<(), HostError> {
     let references = references(plan, scene, progress)?;
     let mut first = None;
+    let [on_cpu, on_devices] = plan.timed_frames();
     for &target in targets {
+        // Devices show that they render the same, and how fast.
+        let (seeds, timed) = match target {
+            Target::Cpu => (plan.seeds, on_cpu),
+            Target::Device(_) => (1, on_devices),
+        };
         let job = Job {
             plan,
             scene,
             references: &references,
             target,
-            seeds: seeds(plan, &target),
-            blocks: blocks(plan, &target),
+            seeds,
+            blocks: timed_blocks(plan.last(), timed),
             progress,
         };
         let results = job.run()?;
@@ -155,24 +153,4 @@ fn references(plan: &Args, scene: &Scene, progress: &ProgressBar) -> Result<Vec<
         references.push(reference);
     }
     Ok(references)
-}
-
-/// Images of each frame: devices show that they render the same, and how fast.
-fn seeds(plan: &Args, target: &Target<'_>) -> u32 {
-    match target {
-        Target::Cpu => plan.seeds,
-        Target::Device(_) => 1,
-    }
-}
-
-/// The blocks that are timed.
-fn blocks(plan: &Args, target: &Target<'_>) -> Vec<u32> {
-    let [on_cpu, on_devices] = plan.timed_frames();
-    timed_blocks(
-        plan.last(),
-        match target {
-            Target::Cpu => on_cpu,
-            Target::Device(_) => on_devices,
-        },
-    )
 }

@@ -1,7 +1,5 @@
 //! The options of the comparison.
 
-use std::path::PathBuf;
-
 use crate::cli::reading::Reading;
 use crate::method::Method;
 use crate::scene::BUILT_IN;
@@ -44,9 +42,6 @@ pub(in crate::cli) struct Args {
     /// What renders; devices render one image of each frame [with --quick: cpu].
     #[arg(long, value_enum, default_value_t = Backends::All, default_value_if("quick", "true", "cpu"))]
     pub(super) backend: Backends,
-    /// Folder for the tables; made if it is not there.
-    #[arg(long, default_value = "compare", value_name = "DIR")]
-    pub(super) out: PathBuf,
     /// Small images and few frames: a look within a minute. Other options still count.
     #[arg(long)]
     quick: bool,

@@ -300,31 +300,7 @@ pub(super) fn check(
 
 #[cfg(test)]
 mod tests {
-    use lightbvh::requirements::Declared;
-    use lightbvh_kernels::bvh::Node;
-
     use super::*;
-    use crate::cli::measure::{points, tests::room};
-    use crate::workload::lights_at;
-
-    #[test]
-    fn points_without_light_have_no_figure() {
-        for is_lit in [false, true] {
-            let scene = room(is_lit);
-            let lights: Lights = lights_at(&scene, 0).expect("lights");
-            let (bvh, _) =
-                Instances::new::<Node, DefaultImportance, WIDTH>(&scene, 0, BuildParams::default())
-                    .expect("a tree");
-            let requirements = Requirements::of(&bvh, Declared::STATIC);
-            let points = points::on_surfaces(&scene, 0, 16);
-            let found = check(&requirements, &scene, [0; 2], &lights, &points).expect("trees");
-            assert!(found.rows.len() > 1);
-            for row in &found.rows {
-                assert!(row.held);
-                assert_eq!(row.variance.is_some(), is_lit);
-            }
-        }
-    }
 
     #[test]
     fn points_shared_by_both_widen_no_interval() {

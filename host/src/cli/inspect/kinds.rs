@@ -107,7 +107,6 @@ mod tests {
         };
         for (lights, node, said) in [
             (&[point][..], "Lit<MomentNode<8>, PointLight>", "1 point"),
-            (&[spot(0.5, 1.0)], "Lit<SpotMomentNode<8>, SpotLight>", "1 spot"),
             // A cone of a right angle and one without light need no cones.
             (&[spot(0.0, 1.0)], "Lit<MomentNode<8>, SpotLight>", "1 spot"),
             (
@@ -115,12 +114,6 @@ mod tests {
                 "Lit<MomentNode<8>, AnyLight>",
                 "1 point, 1 spot",
             ),
-            (
-                &[spot(0.5, 1.0), spot(0.0, 1.0), point],
-                "Lit<SpotMomentNode<8>, AnyLight>",
-                "1 point, 2 spots",
-            ),
-            (&[], "Lit<MomentNode<8>, AnyLight>", ""),
         ] {
             let kinds = LightKinds::of(lights);
             assert_eq!((kinds.node_type(8).as_str(), kinds.said().as_str()), (node, said));

@@ -198,7 +198,6 @@ fn without_triangles(
     let lights = lights_of::<AnyLight>(scene, frame)?;
     let count = lights.triangles().len();
     let kinds = LightKinds::of(lights.triangles());
-    let has_sky = scene.sun_count() > 0 || scene.data().environment.is_some();
     let tree = (count > 0).then(|| kinds.tree());
     if context.json {
         report["lights"] = count.into();
@@ -218,12 +217,6 @@ fn without_triangles(
         0 => line("lights of a tree", "none; the sky and suns stand next to trees"),
         _ => line("lights of a tree", &kinds.cones()),
     };
-    if has_sky {
-        text += &line(
-            "next to it",
-            "suns and environment maps (lightbvh::light::infinite)",
-        );
-    }
     text += &line("changes", &yes(!changes(&declared).is_empty()));
     text += about;
     if let Some(tree) = tree {
@@ -353,7 +346,6 @@ fn facts(found: &Requirements, surfaces: &Surfaces) -> Vec<Fact> {
         reason,
     };
     let is = |is| if is { "yes" } else { "no" };
-    let orientation = if one_sided > 0 { "present" } else { "absent" };
     let sides = format!(
         "of {triangles} triangles {one_sided} shine from one side, {} from both",
         triangles - one_sided
@@ -363,7 +355,6 @@ fn facts(found: &Requirements, surfaces: &Surfaces) -> Vec<Fact> {
         found.meshes, found.instances, found.most_instances
     );
     vec![
-        fact("orientation", orientation, sides.clone()),
         fact("two-sided only", is(one_sided == 0 && triangles > 0), sides),
         fact("one mesh", is(found.is_one_mesh()), meshes),
         fact(

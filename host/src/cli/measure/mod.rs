@@ -6,6 +6,8 @@ pub(super) mod points;
 pub(super) mod reference;
 pub(super) mod times;
 
+pub(super) use crate::metrics::variance;
+
 use crate::metrics::mean;
 
 /// Said where no figure is known.
@@ -15,55 +17,4 @@ pub(super) const NOT_MEASURED: &str =
 /// The mean; `None` of no values.
 pub(super) fn mean_of(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| mean(values))
-}
-
-/// The relative variance of one sample of lights that send `sent` to a point and have probabilities `pmfs` there: sum of
-/// squares over probabilities, over the squared sum, less 1; `None` if nothing is sent.
-pub(super) fn variance(lights: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
-    let (mut mean, mut square) = (0.0, 0.0);
-    for (sent, pmf) in lights.filter(|(sent, _)| *sent > 0.0) {
-        mean += sent;
-        square += sent * sent / pmf;
-    }
-    // Below zero by rounding only, where one light counts.
-    (mean > 0.0).then(|| (square / (mean * mean) - 1.0).max(0.0))
-}
-
-#[cfg(test)]
-pub(super) mod tests {
-    use crate::scene::{Material, Mesh, Node, Primitive, Scene, SceneData};
-
-    /// A floor that faces +z below a lamp, which shines down on the floor, or up, where nothing is.
-    pub fn room(is_lit: bool) -> Scene {
-        let triangle = |positions: [[f32; 3]; 3], material| Primitive {
-            positions: positions.to_vec(),
-            triangles: vec![[0, 1, 2]],
-            material,
-            ..Primitive::default()
-        };
-        let floor = triangle([[-4.0, -4.0, 0.0], [4.0, -4.0, 0.0], [0.0, 4.0, 0.0]], 0);
-        let mut lamp = triangle([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]], 1);
-        if is_lit {
-            lamp.positions.swap(0, 1);
-        }
-        Scene::new(SceneData {
-            name: String::from("room"),
-            nodes: vec![Node {
-                mesh: Some(0),
-                ..Node::default()
-            }],
-            meshes: vec![Mesh {
-                name: String::new(),
-                primitives: vec![floor, lamp],
-            }],
-            materials: [0.0, 1.0]
-                .map(|radiance| Material {
-                    radiance: [radiance; 3],
-                    ..Material::default()
-                })
-                .to_vec(),
-            ..SceneData::default()
-        })
-        .expect("valid")
-    }
 }

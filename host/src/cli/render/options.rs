@@ -6,7 +6,6 @@ use std::path::PathBuf;
 
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
-use super::view::{CameraName, Up, camera};
 use crate::backend::Integrator;
 use crate::cli::frames;
 use crate::cli::reading::Reading;
@@ -38,9 +37,9 @@ pub struct Args {
     /// Light samples per pixel, 1 to 65536.
     #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub(super) spp: u32,
-    /// Number of the scene's camera, from 0; `auto`: chosen by what is lit.
-    #[arg(long, default_value = "0", value_name = "N|auto", value_parser = camera)]
-    pub(super) camera: CameraName,
+    /// Number of the scene's camera, from 0; in a scene without one it is chosen by what is lit.
+    #[arg(long, default_value_t = 0)]
+    pub(super) camera: usize,
     /// Look from this place, metres, in place of any camera of the scene.
     #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true, requires = "look_at", conflicts_with = "camera")]
     pub(super) look_from: Option<[f32; 3]>,
@@ -53,9 +52,6 @@ pub struct Args {
     /// Animation to show alone, by name or number from 0; may be repeated [default: all that can be].
     #[arg(long, value_name = "NAME|NUMBER")]
     pub(super) animation: Vec<String>,
-    /// Axis of a .obj or .ply file that points up; with z, (x, y, z) of the file lies at (x, z, -y).
-    #[arg(long, value_enum, default_value_t = Up::Y)]
-    pub(super) up: Up,
     /// An environment map that lights the scene: a .hdr or .exr picture by longitude and latitude.
     #[arg(long, value_name = "FILE.hdr|FILE.exr")]
     pub(super) environment: Option<PathBuf>,

@@ -3,28 +3,6 @@
 use crate::error::HostError;
 use crate::scene::Scene;
 
-/// An axis that points up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum Up {
-    Y,
-    Z,
-}
-
-impl Up {
-    /// The scene of a file whose axis this is.
-    pub(super) fn turn(self, scene: Scene) -> Result<Scene, HostError> {
-        let name = scene.name().to_ascii_lowercase();
-        match self {
-            Self::Y => Ok(scene),
-            Self::Z if name.ends_with(".obj") || name.ends_with(".ply") => Ok(scene.from_z_up()?),
-            Self::Z => Err(HostError::Usage {
-                option: "--up z",
-                needs: "a .obj or .ply file; in others it is known which way is up",
-            }),
-        }
-    }
-}
-
 /// The scene with the animations of these names or numbers.
 pub(super) fn playing(scene: Scene, words: &[String]) -> Result<Scene, HostError> {
     let mut data = scene.into_data();
@@ -36,37 +14,12 @@ pub(super) fn playing(scene: Scene, words: &[String]) -> Result<Scene, HostError
     Ok(Scene::new(data)?)
 }
 
-/// A camera of a scene.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum CameraName {
-    /// By its number.
-    Own(usize),
-    /// Chosen by what there is to see.
-    Auto,
-}
-
-pub(super) fn camera(word: &str) -> Result<CameraName, String> {
-    match word {
-        "auto" => Ok(CameraName::Auto),
-        _ => word
-            .parse()
-            .map(CameraName::Own)
-            .map_err(|_| String::from("give a number from 0, or auto")),
-    }
-}
-
-/// The scene as that camera sees it.
-pub(super) fn seen_by(scene: Scene, camera: CameraName) -> Result<Scene, HostError> {
+/// The scene as the camera of this number sees it.
+pub(super) fn seen_by(scene: Scene, camera: usize) -> Result<Scene, HostError> {
     let cameras = scene.data().cameras.len();
-    let camera = match camera {
-        CameraName::Own(0) => return Ok(scene),
-        CameraName::Own(number) => number,
-        CameraName::Auto => {
-            let mut data = scene.into_data();
-            data.cameras.clear();
-            return Ok(Scene::new(data)?);
-        }
-    };
+    if camera == 0 {
+        return Ok(scene);
+    }
     if camera >= cameras {
         let expected = match cameras {
             0 => String::from(

@@ -76,7 +76,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         let sentences = front(&mut points).into_iter();
         all_steps.extend(sentences.map(|sentence| format!("{name}: {sentence}")));
         if let Some(report) = &mut report {
-            report.scene(&args.reading.open(&name)?, args.frame, &points, &judge)?;
+            report.scene(&name, &points, &judge)?;
         }
         all_points.extend(points);
         news!("{name}: {:.1} s", start.elapsed().as_secs_f64());

@@ -136,9 +136,13 @@ impl Config {
             width,
             ..self
         };
-        Ok(Box::new(Built {
-            tree: Followed::<C, W>::new(config, first)?,
-            importance: PhantomData::<I>,
+        let (bvh, instances) = tree::<C, W>(&config, first)?;
+        Ok(Box::new(Followed::<C, I, W> {
+            config,
+            bvh,
+            instances,
+            updates: Updates::default(),
+            importance: PhantomData,
         }))
     }
 }
@@ -188,13 +192,17 @@ pub(super) trait Subject {
     fn render(&self, arrays: &SceneArrays, params: RenderParams) -> Timed<Vec<[f32; 3]>>;
 }
 
-/// A tree by importance `I`: the tree's own type is compiled once for all importances.
-struct Built<C: TriangleChoice<W>, I, const W: usize> {
-    tree: Followed<C, W>,
+/// A tree that follows the animation, and an importance `I` by which lights are chosen.
+struct Followed<C: TriangleChoice<W>, I, const W: usize> {
+    config: Config,
+    bvh: Bvh<C, W>,
+    /// Of two levels.
+    instances: Option<Instances>,
+    updates: Updates,
     importance: PhantomData<I>,
 }
 
-impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W>, const W: usize> Built<C, I, W> {
+impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W>, const W: usize> Followed<C, I, W> {
     /// Calls `take` with the candidates of a sample.
     fn draw<T>(
         &self,
@@ -204,7 +212,7 @@ impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W>, const W: usize> Built
         take: impl FnOnce(&[SampledLight]) -> T,
     ) -> T {
         let (tree, number) = (tree.by::<I>(), number.into());
-        match self.tree.config.candidates {
+        match self.config.candidates {
             1 => take(&[tree.sample(point, number)]),
             2 => take(&tree.sample_many::<_, 2>(point, number)),
             4 => take(&tree.sample_many::<_, 4>(point, number)),
@@ -214,93 +222,25 @@ impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W>, const W: usize> Built
     }
 }
 
-impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize> Subject for Built<C, I, W> {
+impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize> Subject
+    for Followed<C, I, W>
+{
     fn config(&self) -> Config {
-        self.tree.config
+        self.config
     }
 
     fn bytes(&self) -> usize {
-        self.tree.bvh.bytes()
+        self.bvh.bytes()
     }
 
     fn updates(&self) -> &Updates {
-        &self.tree.updates
+        &self.updates
     }
 
     fn build(&self, frame: &Step<'_>) -> Result<Duration, HostError> {
-        let built = Timed::of(|| Followed::<C, W>::new(self.tree.config, frame));
+        let built = Timed::of(|| tree::<C, W>(&self.config, frame));
         black_box(&built.value?);
         Ok(built.time)
-    }
-
-    fn advance(&mut self, frame: &Step<'_>) -> Result<(), HostError> {
-        self.tree.advance(frame)
-    }
-
-    fn sample(&self, points: &[ShadingPoint], first: u32) -> Duration {
-        let tree = self.tree.bvh.tree();
-        let last = |found: &[SampledLight]| found[found.len() - 1].pmf;
-        let timed = Timed::of(|| {
-            let each = points.iter().zip(first..);
-            each.map(|(point, number)| self.draw(&tree, point, hash(number), last))
-                .sum::<f32>()
-        });
-        black_box(timed.value);
-        timed.time
-    }
-
-    fn candidates(&self, point: &ShadingPoint, number: Random64, found: &mut Vec<(u32, f32)>) {
-        found.clear();
-        self.draw(&self.tree.bvh.tree(), point, number, |sampled| {
-            found.extend(sampled.iter().map(|sampled| (sampled.light, sampled.pmf)));
-        });
-    }
-
-    fn pmf(&self, lights: &Lights, point: &ShadingPoint, light: u32) -> f32 {
-        let instance = instance_of(&self.tree.bvh, lights, light);
-        self.tree.bvh.tree().by::<I>().pmf(point, light, instance)
-    }
-
-    fn render(&self, arrays: &SceneArrays, params: RenderParams) -> Timed<Vec<[f32; 3]>> {
-        let tree = self.tree.bvh.tree();
-        let view = arrays.lit_by(Emitters {
-            triangles: self.tree.bvh.triangles(),
-            instances: tree.instances,
-        });
-        let params = RenderParams {
-            candidates: self.tree.config.candidates,
-            ..params
-        };
-        Timed::of(|| render(&view, &arrays.camera, &params, &tree.by::<I>()))
-    }
-}
-
-/// A tree that follows the animation.
-pub(super) struct Followed<C: TriangleChoice<W> = Standard, const W: usize = WIDTH> {
-    config: Config,
-    pub bvh: Bvh<C, W>,
-    /// Of two levels.
-    instances: Option<Instances>,
-    updates: Updates,
-}
-
-impl<C: TriangleChoice<W>, const W: usize> Followed<C, W> {
-    /// The tree of `first`.
-    pub fn new(config: Config, first: &Step<'_>) -> Result<Self, HostError> {
-        let params = config.builder.params();
-        let (bvh, instances) = if config.levels == Sampler::TwoLevel {
-            let (bvh, instances) =
-                Instances::new(first.scene, first.frame, params).map_err(|error| first.refused(error))?;
-            (bvh, Some(instances))
-        } else {
-            (build(first.lights, config.levels, &params), None)
-        };
-        Ok(Self {
-            config,
-            bvh,
-            instances,
-            updates: Updates::default(),
-        })
     }
 
     fn advance(&mut self, frame: &Step<'_>) -> Result<(), HostError> {
@@ -312,8 +252,7 @@ impl<C: TriangleChoice<W>, const W: usize> Followed<C, W> {
             Update::EveryEighth => frame.frame.is_multiple_of(8),
         };
         if rebuilds {
-            let Self { bvh, instances, .. } = Self::new(self.config, frame)?;
-            (self.bvh, self.instances) = (bvh, instances);
+            (self.bvh, self.instances) = tree::<C, W>(&self.config, frame)?;
             self.updates.rebuild.push(ms(start.elapsed()));
             return Ok(());
         }
@@ -334,6 +273,57 @@ impl<C: TriangleChoice<W>, const W: usize> Followed<C, W> {
         self.updates.refit.push(ms(start.elapsed()));
         Ok(())
     }
+
+    fn sample(&self, points: &[ShadingPoint], first: u32) -> Duration {
+        let tree = self.bvh.tree();
+        let last = |found: &[SampledLight]| found[found.len() - 1].pmf;
+        let timed = Timed::of(|| {
+            let each = points.iter().zip(first..);
+            each.map(|(point, number)| self.draw(&tree, point, hash(number), last))
+                .sum::<f32>()
+        });
+        black_box(timed.value);
+        timed.time
+    }
+
+    fn candidates(&self, point: &ShadingPoint, number: Random64, found: &mut Vec<(u32, f32)>) {
+        found.clear();
+        self.draw(&self.bvh.tree(), point, number, |sampled| {
+            found.extend(sampled.iter().map(|sampled| (sampled.light, sampled.pmf)));
+        });
+    }
+
+    fn pmf(&self, lights: &Lights, point: &ShadingPoint, light: u32) -> f32 {
+        let instance = instance_of(&self.bvh, lights, light);
+        self.bvh.tree().by::<I>().pmf(point, light, instance)
+    }
+
+    fn render(&self, arrays: &SceneArrays, params: RenderParams) -> Timed<Vec<[f32; 3]>> {
+        let tree = self.bvh.tree();
+        let view = arrays.lit_by(Emitters {
+            triangles: self.bvh.triangles(),
+            instances: tree.instances,
+        });
+        let params = RenderParams {
+            candidates: self.config.candidates,
+            ..params
+        };
+        Timed::of(|| render(&view, &arrays.camera, &params, &tree.by::<I>()))
+    }
+}
+
+/// The tree of a frame, and where the lights of one of two levels are.
+fn tree<C: TriangleChoice<W>, const W: usize>(
+    config: &Config,
+    frame: &Step<'_>,
+) -> Result<(Bvh<C, W>, Option<Instances>), HostError> {
+    let params = config.builder.params();
+    if config.levels != Sampler::TwoLevel {
+        return Ok((build(frame.lights, config.levels, &params), None));
+    }
+    let made = Instances::new(frame.scene, frame.frame, params);
+    let (bvh, instances) = made.map_err(|error| frame.refused(error))?;
+    Ok((bvh, Some(instances)))
 }
 
 /// Times of the updates of one configuration over the animation, ms.

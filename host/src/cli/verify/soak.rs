@@ -10,11 +10,13 @@ use lightbvh_gpu::Mirror;
 use lightbvh_kernels::bvh::{Node, WIDTH};
 use serde::Serialize;
 
+use super::{Args, DeviceReport};
 use crate::backend::{Bvh, DeviceArrays, DeviceBackend, Follow};
 use crate::cli::devices::Opened;
 use crate::cli::measure::times::{Spread, thread_us};
 use crate::cli::table::{self, say};
 use crate::error::HostError;
+use crate::metrics::mean;
 use crate::stability::random::Random;
 use crate::tally::{Kind, Tally};
 use crate::words::Record;
@@ -34,6 +36,8 @@ const NEAR: f32 = 0.5;
 const GROWTH: f64 = 1.2;
 /// The process has room besides the scene, bytes: lists that keep their capacity, and the allocator's own.
 const ROOM: f64 = 16e6;
+/// Frames from one question for memory to the next: the system takes as long as a frame to answer.
+const ASKED: u32 = 16;
 /// Words of a node.
 const NODE: usize = size_of::<Node>() / 4;
 /// Arrays are compared word by word.
@@ -43,18 +47,6 @@ const WORD: Record = Record {
 };
 /// The parts of a frame, in their order.
 const PHASES: [&str; 4] = ["begin-frame", "apply", "refit", "end-frame"];
-
-/// How much is done.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Plan {
-    pub frames: u32,
-    /// Chooses all edits.
-    pub seed: u32,
-    /// Number of instances about which their count stays.
-    pub instances: u32,
-    /// Triangles of the largest mesh; others have fewer, most of them few.
-    pub mesh_triangles: u32,
-}
 
 /// How often what was done.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
@@ -98,19 +90,11 @@ pub(super) struct Report {
     invalid: Option<String>,
     memory: Means,
     process: Means,
-    devices: Vec<Compared>,
+    devices: Vec<DeviceReport>,
 }
 
-/// The words of a device.
-#[derive(Clone, Debug, Serialize)]
-struct Compared {
-    name: String,
-    #[serde(flatten)]
-    tally: Tally,
-}
-
-pub(super) fn soak(plan: &Plan, opened: &[Opened], is_quiet: bool) -> Result<Report, HostError> {
-    let mut world = World::new(plan);
+pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened], is_quiet: bool) -> Result<Report, HostError> {
+    let mut world = World::new(args);
     // Follows as devices do, and so has the offsets of their links.
     let mut layout = Mirror::default();
     layout.frame(&world.bvh);
@@ -120,49 +104,42 @@ pub(super) fn soak(plan: &Plan, opened: &[Opened], is_quiet: bool) -> Result<Rep
         devices.push((device, Tally::default()));
     }
     // Written once before the first frame, so that memory does not grow by it.
-    let mut times: [Vec<f32>; 4] = std::array::from_fn(|_| vec![f32::MAX; plan.frames as usize]);
-    let [mut memory, mut process] = [Quarters::default(); 2];
+    let mut times: [Vec<f32>; 4] = std::array::from_fn(|_| vec![f32::MAX; frames as usize]);
+    let mut memory: [Vec<f64>; 2] = std::array::from_fn(|_| vec![f64::MAX; frames.div_ceil(ASKED) as usize]);
     let mut counts = Counts::default();
     let mut invalid = None;
-    let bar = super::progress(plan.frames.into(), "frames", is_quiet);
+    let bar = super::progress(frames.into(), "frames", is_quiet);
     let mut rebuilder = Rebuilder::default();
-    for frame in 0..plan.frames {
+    for frame in 0..frames {
         if frame.is_multiple_of(RULED) {
             rebuilder = self::rebuilder(frame / RULED);
         }
         let edits = world.edits(&mut counts);
-        let bvh = &mut world.bvh;
-        let (begin, start) = thread_us(|| rebuilder.begin_frame(bvh));
+        let (begin, start) = thread_us(|| rebuilder.begin_frame(&mut world.bvh));
         let start = start?;
         counts.swapped += u32::from(start.swapped);
         counts.rebuilt += start.meshes;
         counts.waited += u32::from(!start.waited.is_zero());
         counts.inline += u32::from(start.inline);
-        let (apply, added) = thread_us(|| bvh.apply(edits).expect("edits within the domain"));
-        let (refit, ()) = thread_us(|| bvh.refit());
-        let (end, ()) = thread_us(|| rebuilder.end_frame(bvh));
+        let (apply, ()) = thread_us(|| world.apply(edits));
+        let (refit, ()) = thread_us(|| world.bvh.refit());
+        let (end, ()) = thread_us(|| rebuilder.end_frame(&world.bvh));
         for (list, time) in times.iter_mut().zip([begin, apply, refit, end]) {
             list[frame as usize] = time as f32;
         }
         for (device, _) in &mut devices {
-            device.follow(bvh)?;
+            device.follow(&world.bvh)?;
         }
-        layout.frame(bvh);
+        layout.frame(&world.bvh);
         // Whoever keeps numbers of lights over frames replaces those first.
-        bvh.take_removed_lights();
-        let meshes = added.meshes.iter().zip(world.new_mesh.take());
-        world.meshes.extend(meshes.map(|(&id, own)| (id, own)));
-        let new = std::mem::take(&mut world.new_instances);
-        world.instances.extend(added.instances.into_iter().zip(new));
-        let quarter = (u64::from(frame) * 4 / u64::from(plan.frames)) as u32;
-        memory.take(quarter, world.bvh.memory() as f64);
-        // The system is asked seldom: that takes as long as a frame.
-        if frame.is_multiple_of(16)
-            && let Some(usage) = memory_stats::memory_stats()
-        {
-            process.take(quarter, usage.physical_mem as f64);
+        world.bvh.take_removed_lights();
+        if frame.is_multiple_of(ASKED) {
+            let process = memory_stats::memory_stats().map_or(0, |usage| usage.physical_mem);
+            for (list, bytes) in memory.iter_mut().zip([world.bvh.memory(), process]) {
+                list[(frame / ASKED) as usize] = bytes as f64;
+            }
         }
-        if (frame + 1).is_multiple_of(CHECKED) || frame + 1 == plan.frames {
+        if (frame + 1).is_multiple_of(CHECKED) || frame + 1 == frames {
             if let Err(violation) = world.bvh.validate() {
                 invalid = Some(format!("frame {frame}: {violation}"));
                 break;
@@ -177,28 +154,24 @@ pub(super) fn soak(plan: &Plan, opened: &[Opened], is_quiet: bool) -> Result<Rep
     }
     bar.finish_and_clear();
     // Each quarter sees a round of both rules: else they differ by those.
-    let judged = plan.frames >= 4 * 2 * RULED;
+    let judged = frames >= 4 * 2 * RULED;
     let rows = PHASES.into_iter().zip(times).map(|(what, list)| Row {
         what,
         us: Spread::of(list.into_iter().map(f64::from)),
     });
+    let devices = opened.iter().zip(devices);
     Ok(Report {
-        frames: plan.frames,
-        seed: plan.seed,
+        frames,
+        seed: args.seed,
         instances: world.instances.len(),
         lights: world.bvh.light_count(),
         edits: counts,
         rows: rows.collect(),
         invalid,
-        memory: memory.means(0.0, judged),
-        process: process.means(ROOM, judged),
-        devices: opened
-            .iter()
-            .zip(devices)
-            .map(|(o, (_, tally))| Compared {
-                name: o.device.name().to_owned(),
-                tally,
-            })
+        memory: Means::of(&memory[0], 0.0, judged),
+        process: Means::of(&memory[1], ROOM, judged),
+        devices: devices
+            .map(|(o, (_, tally))| DeviceReport::new(o, tally))
             .collect(),
     })
 }
@@ -230,16 +203,16 @@ struct World {
 }
 
 impl World {
-    fn new(plan: &Plan) -> Self {
+    fn new(args: &Args) -> Self {
         let mut world = Self {
             bvh: lightbvh::Bvh::default(),
             meshes: Vec::new(),
             instances: Vec::new(),
             new_instances: Vec::new(),
             new_mesh: None,
-            count: plan.instances as usize,
-            largest: plan.mesh_triangles,
-            random: Random::new(plan.seed),
+            count: args.instances as usize,
+            largest: args.mesh_triangles,
+            random: Random::new(args.seed),
         };
         for number in 0..MESHES {
             // The largest is there from the first.
@@ -249,11 +222,18 @@ impl World {
         }
         let mut edits = Vec::new();
         world.add(world.count, &mut edits);
-        let added = world.bvh.apply(edits).expect("within the domain").instances;
-        let new = std::mem::take(&mut world.new_instances);
-        world.instances.extend(added.into_iter().zip(new));
+        world.apply(edits);
         world.bvh.refit();
         world
+    }
+
+    /// Applies edits, and takes the ids of what they add.
+    fn apply(&mut self, edits: Vec<Edit>) {
+        let added = self.bvh.apply(edits).expect("edits within the domain");
+        self.meshes
+            .extend(added.meshes.into_iter().zip(self.new_mesh.take()));
+        let new = std::mem::take(&mut self.new_instances);
+        self.instances.extend(added.instances.into_iter().zip(new));
     }
 
     fn below(&mut self, count: usize) -> usize {
@@ -429,33 +409,6 @@ impl World {
     }
 }
 
-/// Sums of a quantity over the second and the last quarter.
-#[derive(Clone, Copy, Debug, Default)]
-struct Quarters {
-    sums: [f64; 2],
-    counts: [u32; 2],
-}
-
-impl Quarters {
-    fn take(&mut self, quarter: u32, value: f64) {
-        if let Some(at) = [1, 3].iter().position(|&own| own == quarter) {
-            self.sums[at] += value;
-            self.counts[at] += 1;
-        }
-    }
-
-    fn means(&self, room: f64, judged: bool) -> Means {
-        let [second_quarter, last_quarter] =
-            [0, 1].map(|at| self.sums[at] / f64::from(self.counts[at].max(1)));
-        Means {
-            second_quarter,
-            last_quarter,
-            flat: last_quarter <= second_quarter * GROWTH + room,
-            judged,
-        }
-    }
-}
-
 /// Bytes in the mean over a quarter of the frames.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Means {
@@ -464,6 +417,20 @@ struct Means {
     flat: bool,
     /// Whether there were enough frames to tell.
     judged: bool,
+}
+
+impl Means {
+    fn of(bytes: &[f64], room: f64, judged: bool) -> Self {
+        let quarter = bytes.len() / 4;
+        let (second_quarter, last_quarter) =
+            (mean(&bytes[quarter..2 * quarter]), mean(&bytes[3 * quarter..]));
+        Self {
+            second_quarter,
+            last_quarter,
+            flat: last_quarter <= second_quarter * GROWTH + room,
+            judged,
+        }
+    }
 }
 
 /// Compares all words of a device that are in use.
@@ -477,24 +444,23 @@ fn compare(
     let (tree, all) = (bvh.tree(), bvh.plan_of_everything());
     let (bottom, top) = (all.bottom.nodes(), all.top.nodes());
     let records: Vec<u32> = (0..tree.instances.len() as u32).collect();
-    let live = records.iter().copied();
-    let live: Vec<u32> = live.filter(|&index| bvh.instance_id(index).is_some()).collect();
+    let is_live = |&index: &u32| bvh.instance_id(index).is_some();
+    let live: Vec<u32> = records.iter().copied().filter(is_live).collect();
     let lights: Vec<u32> = live
         .iter()
         .map(|&index| tree.instances[index as usize])
         .flat_map(|own| own.first_triangle..own.first_triangle + own.count)
         .collect();
-    let opened = live
-        .iter()
-        .map(|&index| (index, tree.links.places[index as usize]));
-    let opened = opened.filter(|(_, place)| (OPENED..INVALID).contains(place));
-    let parts: Vec<u32> = opened
-        .flat_map(|(index, place)| {
-            let root = &bvh.nodes()[tree.instances[index as usize].root as usize];
-            let count = (0..WIDTH).filter(|&slot| root.kind(slot) == kind::INNER).count() as u32;
-            place - OPENED..place - OPENED + count
-        })
-        .collect();
+    let subtrees = |&index: &u32| {
+        let place = tree.links.places[index as usize];
+        let root = &bvh.nodes()[tree.instances[index as usize].root as usize];
+        let count = (0..WIDTH).filter(|&slot| root.kind(slot) == kind::INNER).count() as u32;
+        match (OPENED..INVALID).contains(&place) {
+            true => place - OPENED..place - OPENED + count,
+            false => 0..0,
+        }
+    };
+    let parts: Vec<u32> = live.iter().flat_map(subtrees).collect();
     let behind = size_of_val(bvh.nodes()) / 4;
     let [above, places, first] = [words.above, words.places, words.parts].map(|word| word as usize);
     let mut take = |name, words: usize, expected: &[u32], found: &[u32], indices: &[u32]| {
@@ -506,42 +472,16 @@ fn compare(
         let what = format!("frame {frame} {name}");
         tally.take(Kind::Arrays, &what, &WORD, &of(expected), &of(found))
     };
-    let [root, instance, light] = [
-        size_of::<BlasRoot>(),
-        size_of::<Instance>(),
-        size_of::<EmissiveTriangle>(),
-    ]
-    .map(|bytes| bytes / 4);
-    take("nodes", NODE, cast_slice(bvh.nodes()), &found.nodes, bottom)?;
-    take(
-        "top",
-        NODE,
-        cast_slice(bvh.top_nodes()),
-        &found.nodes[behind..],
-        top,
-    )?;
+    let (root, instance) = (size_of::<BlasRoot>() / 4, size_of::<Instance>() / 4);
+    let (light, trail) = (size_of::<EmissiveTriangle>() / 4, tree.trail_words as usize);
+    let (nodes, on_top) = (cast_slice(bvh.nodes()), cast_slice(bvh.top_nodes()));
+    let (instances, triangles) = (cast_slice(tree.instances), cast_slice(bvh.triangles()));
+    take("nodes", NODE, nodes, &found.nodes, bottom)?;
+    take("top", NODE, on_top, &found.nodes[behind..], top)?;
     take("roots", root, cast_slice(bvh.roots()), &found.roots, &all.roots)?;
-    take(
-        "instances",
-        instance,
-        cast_slice(tree.instances),
-        &found.instances,
-        &records,
-    )?;
-    take(
-        "triangles",
-        light,
-        cast_slice(bvh.triangles()),
-        &found.triangles,
-        &lights,
-    )?;
-    take(
-        "trails",
-        tree.trail_words as usize,
-        tree.trails,
-        &found.trails,
-        &lights,
-    )?;
+    take("instances", instance, instances, &found.instances, &records)?;
+    take("triangles", light, triangles, &found.triangles, &lights)?;
+    take("trails", trail, tree.trails, &found.trails, &lights)?;
     take("above", 1, tree.links.above, &found.trails[above..], top)?;
     take("places", 1, tree.links.places, &found.trails[places..], &live)?;
     take("parts", 1, tree.links.parts, &found.trails[first..], &parts)
@@ -583,11 +523,7 @@ pub(super) fn print(report: &Report) -> Result<(), HostError> {
             }
         )?;
     }
-    for Compared { name, tally } in &report.devices {
-        let first = tally.first_difference.as_deref().unwrap_or("");
-        let (compared, different) = (tally.compared, tally.different);
-        say!("{name}: {compared} words compared, {different} different {first}")?;
-    }
+    super::print_devices(&report.devices)?;
     if let Some(invalid) = &report.invalid {
         say!("INVALID: {invalid}")?;
     }
@@ -602,11 +538,8 @@ mod tests {
 
     #[test]
     fn growing_memory_is_not_flat() {
-        let (mut flat, mut grows) = (Quarters::default(), Quarters::default());
-        for frame in 0..400_u32 {
-            flat.take(frame / 100, 1e6 + f64::from(frame % 7));
-            grows.take(frame / 100, 1e6 + 1e4 * f64::from(frame));
-        }
-        assert!(flat.means(0.0, true).flat && !grows.means(0.0, true).flat);
+        let flat: Vec<f64> = (0..400).map(|frame| 1e6 + f64::from(frame % 7)).collect();
+        let grows: Vec<f64> = (0..400).map(|frame| 1e6 + 1e4 * f64::from(frame)).collect();
+        assert!(Means::of(&flat, 0.0, true).flat && !Means::of(&grows, 0.0, true).flat);
     }
 }

@@ -32,10 +32,7 @@ pub fn equal(count: u32) -> Case {
             n: [0.0; 3],
         },
     ];
-    Case {
-        large: true,
-        ..Case::new(format!("{count} equal lights"), (0..count).map(light).collect()).at(points)
-    }
+    Case::new(format!("{count} equal lights"), (0..count).map(light).collect()).at(points)
 }
 
 /// `count` lights anywhere in a box of 1000 m.
@@ -53,10 +50,7 @@ pub fn many(count: u32) -> Case {
             n: [0.0; 3],
         },
     ];
-    Case {
-        large: true,
-        ..Case::new(format!("{count} lights"), lights).at(points)
-    }
+    Case::new(format!("{count} lights"), lights).at(points)
 }
 
 fn small(corner: [f32; 3], mesh: u32) -> EmissiveTriangle {

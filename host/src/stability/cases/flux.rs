@@ -21,17 +21,8 @@ pub(super) fn cases() -> Vec<Case> {
         with("flux from 1e-30 to 1e30", &|i| {
             10f32.powi(i as i32 * 37 % 61 - 30)
         }),
-        with("flux from 1e-30 to 1e30, sorted", &|i| {
-            10f32.powi(i as i32 * 60 / 199 - 30)
-        }),
-        with("one light brighter by 2^40", &|i| {
-            exact::pow2(if i == 77 { 40 } else { 0 })
-        }),
         with("one light brighter by 2^100", &|i| {
             exact::pow2(if i == 77 { 100 } else { 0 })
-        }),
-        with("one light brighter by 2^12", &|i| {
-            exact::pow2(if i == 77 { 12 } else { 0 })
         }),
         with("every third light without flux", &|i| {
             if i.is_multiple_of(3) { 0.0 } else { 1.0 }

@@ -1,4 +1,4 @@
-//! What lights look like: needles, no area, nested boxes, cones of normals, numbers at the ends of f32.
+//! What lights look like: needles, no area, nested boxes, numbers at the ends of f32.
 
 use lightbvh::{EmissiveTriangle, ShadingPoint, exact};
 
@@ -7,26 +7,12 @@ use super::super::random::Random;
 use super::{facing_x, scattered};
 
 pub(super) fn cases() -> Vec<Case> {
-    let mut cases = vec![
+    vec![
         Case::new("needles and triangles without area", needles()),
         Case::new("nested boxes", (0..70).map(nested).collect()),
         subnormal("subnormal coordinates", f32::from_bits(0x0003_0001)),
         subnormal("minus zero", -0.0),
-    ];
-    let (half, third) = (std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_3);
-    for (name, angle) in [
-        ("cone of normals of 0", 0.0),
-        ("cone of normals just over 0", 2e-4),
-        ("cone of normals of 60 degrees", third),
-        ("cone of normals just under pi/2", half - 2e-4),
-        ("cone of normals of pi/2", half),
-        ("cone of normals just over pi/2", half + 2e-4),
-        ("cone of normals just under pi", 2.0 * half - 2e-4),
-        ("cone of normals of pi", 2.0 * half),
-    ] {
-        cases.push(cone(name, angle));
-    }
-    cases
+    ]
 }
 
 /// Lights that differ in width by 2^30, and some of one edge or of one point.
@@ -35,7 +21,7 @@ fn needles() -> Vec<EmissiveTriangle> {
     let mut lights = scattered(240, 23);
     for (i, light) in (0..).zip(&mut lights) {
         let [a, b, c] = light.p;
-        let share = exact::pow2(-random_exponent(random));
+        let share = exact::pow2(-(random.below(31) as i32));
         match i % 6 {
             0 => light.p[2] = std::array::from_fn(|k| a[k] + (c[k] - a[k]) * share),
             1 => light.p[2] = std::array::from_fn(|k| b[k] + (c[k] - b[k]) * share),
@@ -50,10 +36,6 @@ fn needles() -> Vec<EmissiveTriangle> {
         light.p = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, width, 0.0]];
     }
     lights
-}
-
-fn random_exponent(random: &mut Random) -> i32 {
-    random.below(31) as i32
 }
 
 /// A triangle about the origin, half as large as the one before.
@@ -83,45 +65,5 @@ fn subnormal(name: &str, tiny: f32) -> Case {
     let points = points
         .iter()
         .flat_map(|&p| normals.iter().map(move |&n| ShadingPoint { p, n }));
-    Case::new(name, lights).with_points(points)
-}
-
-/// Lights whose normals fill the cone of half-angle `angle` about x; points near the directions where the cone's light ends.
-fn cone(name: &str, angle: f64) -> Case {
-    let random = &mut Random::new(31);
-    let direction = |theta: f64, phi: f64| [theta.cos(), theta.sin() * phi.cos(), theta.sin() * phi.sin()];
-    let light = |i: u32| {
-        let phi = f64::from(i) * 2.4;
-        let theta = if i.is_multiple_of(2) {
-            angle
-        } else {
-            angle * f64::from(random.unit())
-        };
-        let n = glam::DVec3::from(direction(theta, phi));
-        let across = n.any_orthonormal_vector() * 0.1;
-        let corner = glam::DVec3::new(0.0, f64::from(random.unit()), f64::from(random.unit()));
-        let p = [corner, corner + across, corner + n.cross(across)];
-        EmissiveTriangle {
-            p: p.map(|v| v.to_array().map(|x| x as f32)),
-            radiance: [1.0; 3],
-            mesh: i / 8,
-            flags: 0,
-        }
-    };
-    let lights: Vec<_> = (0..64).map(light).collect();
-    let limit = angle + std::f64::consts::FRAC_PI_2;
-    let points = (0..24).map(|i| {
-        let off = [0.0, 1e-4, -1e-4, 1e-3, -1e-3, 0.02][i % 6];
-        let reach = [3.0, 100.0, 1e5, 0.3][i / 6];
-        let d = direction(limit + off, i as f64);
-        ShadingPoint {
-            p: d.map(|x| (x * reach) as f32),
-            n: if i.is_multiple_of(2) {
-                [0.0; 3]
-            } else {
-                d.map(|x| -x as f32)
-            },
-        }
-    });
     Case::new(name, lights).with_points(points)
 }

@@ -58,21 +58,13 @@ pub(super) fn scenes() -> Vec<Scene> {
     vec![
         mix("20 random edits", 1_000, 20),
         mix("50 random edits", 10_000, 50),
-        mix("50 random edits", 100_000, 50),
         mix("50 random edits", 1_000_000, 50),
-        toggle(10_000),
         convoy(),
-        road(5_000, 5),
         walk(10_000, 0.42),
         rings(100_000),
-        jump(10_000),
         scatter(10_000),
-        insert_all(100_000),
-        remove_all(100_000),
         clusters(16),
-        fade(10_000),
         wall(),
-        jump(100_000),
         clusters(64),
     ]
 }
@@ -127,31 +119,6 @@ fn mix(name: &'static str, count: usize, edits: usize) -> Scene {
     Scene::new(name, scattered(count), step)
 }
 
-/// Toggles 20 random lamps among every fiftieth.
-fn toggle(count: usize) -> Scene {
-    let (mut random, mut is_off) = (Random::new(3), vec![false; count]);
-    Scene::new("2 % toggle", scattered(count), move |_, world| {
-        for _ in 0..20 {
-            let lamp = 50 * random.below(count as u32 / 50) as usize;
-            is_off[lamp] ^= true;
-            world.shine(lamp, if is_off[lamp] { 0.0 } else { 1.0 });
-        }
-    })
-}
-
-/// Ten lamps in turn get 10^4 times as bright, and dark again.
-fn fade(count: usize) -> Scene {
-    Scene::new(
-        "fade to 10^4 times as bright",
-        scattered(count),
-        move |frame, world| {
-            let lamp = frame / 14 % 10 * 997 % count;
-            let high = 1.0 - (2.0 * (frame % 14) as f32 / 13.0 - 1.0).abs();
-            world.shine(lamp, 1e4_f32.powf(high));
-        },
-    )
-}
-
 /// 500 drive through 20,000.
 fn convoy() -> Scene {
     let (mut lamps, mut random) = (scattered(20_000), Random::new(4));
@@ -168,24 +135,6 @@ fn convoy() -> Scene {
         }
     };
     Scene::new("convoy of 500 in 20,000", lamps, step).near()
-}
-
-/// Some are removed behind, as many are added in front.
-fn road(count: usize, each: usize) -> Scene {
-    let mut random = Random::new(5);
-    let mut lamp = move |number: usize| {
-        let across = [random.between(3.0, 4.0), random.between(0.0, 8.0)];
-        ([0.8 * number as f32, across[0], across[1]], 1.0)
-    };
-    let lamps = (0..count).map(&mut lamp).collect();
-    let step = move |frame: usize, world: &mut World| {
-        for number in frame * each..(frame + 1) * each {
-            world.remove(number);
-            let (at, radiance) = lamp(count + number);
-            world.add(at, radiance);
-        }
-    };
-    Scene::new("road: 5 removed, 5 added", lamps, step).near()
 }
 
 /// All walk, each its own way.
@@ -237,23 +186,6 @@ fn rings(count: usize) -> Scene {
     }
 }
 
-/// A tenth goes to one place in the third frame that counts.
-fn jump(count: usize) -> Scene {
-    let (mut random, side) = (Random::new(8), side(count));
-    Scene {
-        frames: 30,
-        look: 1,
-        ..Scene::new("10 % jump at once", scattered(count), move |frame, world| {
-            if frame == 22 {
-                for lamp in (0..count).step_by(10) {
-                    let [x, z] = [(); 2].map(|()| side * random.between(0.5, 0.6));
-                    world.place(lamp, [x, 4.0, z]);
-                }
-            }
-        })
-    }
-}
-
 /// Half of all jump in each frame.
 fn scatter(count: usize) -> Scene {
     let (mut random, side) = (Random::new(9), side(count));
@@ -264,36 +196,6 @@ fn scatter(count: usize) -> Scene {
         ..Scene::new("half jump in each frame", scattered(count), move |_, world| {
             for lamp in (0..count).step_by(2) {
                 world.place(lamp, anywhere(&mut random, side));
-            }
-        })
-    }
-}
-
-/// All are added in one batch.
-fn insert_all(count: usize) -> Scene {
-    Scene {
-        frames: 1,
-        warm: 0,
-        look: 1,
-        points: 4,
-        side: Some(side(count)),
-        ..Scene::new("all added in one batch", Vec::new(), move |_, world| {
-            for (at, radiance) in scattered(count) {
-                world.add(at, radiance);
-            }
-        })
-    }
-}
-
-/// All are removed in one batch.
-fn remove_all(count: usize) -> Scene {
-    Scene {
-        frames: 1,
-        warm: 0,
-        look: 1,
-        ..Scene::new("all removed in one batch", scattered(count), move |_, world| {
-            for lamp in 0..count {
-                world.remove(lamp);
             }
         })
     }

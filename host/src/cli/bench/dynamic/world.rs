@@ -64,11 +64,6 @@ impl World {
         self.edits.extend(self.lamps[lamp].map(edit));
     }
 
-    pub fn shine(&mut self, lamp: usize, radiance: f32) {
-        let edit = |instance| Edit::SetRadiance { instance, radiance };
-        self.edits.extend(self.lamps[lamp].map(edit));
-    }
-
     pub fn deform(&mut self, triangles: Vec<EmissiveTriangle>) {
         let mesh = self.mesh;
         self.edits.push(Edit::SetTriangles { mesh, triangles });

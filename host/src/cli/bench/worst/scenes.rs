@@ -1,15 +1,12 @@
 //! Scenes that are hard for walks over bounds: most of the flux is where it cannot arrive.
 
 use lightbvh::exact::{hash, unit_f32};
-use lightbvh::node::kind;
-use lightbvh::{Bvh, EmissiveTriangle, LightNode, Lights, ShadingPoint};
+use lightbvh::{EmissiveTriangle, Lights, ShadingPoint};
 
 /// Lights, and where they are looked at from.
 pub(super) struct Scene {
     pub name: &'static str,
     pub lights: Lights,
-    /// Whether the words of the nodes are overwritten.
-    pub hostile: bool,
     point: fn(u32) -> ShadingPoint,
 }
 
@@ -30,20 +27,14 @@ pub(super) fn scenes() -> Vec<Scene> {
     let scene = |name, triangles, point: fn(u32) -> ShadingPoint| Scene {
         name,
         lights: Lights::new(triangles).expect("the scenes are made within the domain"),
-        hostile: false,
         point,
     };
-    let mut all = vec![
+    vec![
         scene("wall below the horizon", wall(), |r| facing_wall(r, -0.001)),
         scene("wall across the horizon", wall(), |r| facing_wall(r, 0.5)),
         scene("one bright among a million dim", one_bright(), anywhere),
         scene("lights on a line, 2^i apart", exponential(), anywhere),
-    ];
-    all.push(Scene {
-        hostile: true,
-        ..scene("hostile words in a ring", wall(), |r| facing_wall(r, 0.5))
-    });
-    all
+    ]
 }
 
 fn draw(seed: u32, k: u32) -> f32 {
@@ -110,19 +101,4 @@ fn exponential() -> Vec<EmissiveTriangle> {
             })
         })
         .collect()
-}
-
-/// Links every inner child to the next node of a ring, so that no walk would end by itself.
-pub(super) fn hostile<N: LightNode<W>, I, const W: usize>(bvh: &mut Bvh<N, I, W>) {
-    let count = bvh.nodes().len() as u32;
-    for (i, node) in (0u32..).zip(bvh.parts_mut().nodes) {
-        for slot in 0..W {
-            // Summaries stay as they are, so that the children keep their weights.
-            if node.kind(slot) != kind::EMPTY {
-                let summaries = std::array::from_fn(|s| node.summary(s));
-                node.set_child(slot, kind::INNER, (i + 1 + slot as u32) % count);
-                node.set_summaries(&summaries);
-            }
-        }
-    }
 }

@@ -3,32 +3,18 @@
 pub(in crate::cli) mod machine;
 mod page;
 mod pictures;
-mod tree;
 
 use std::path::Path;
 
-use image::ExtendedColorType;
-use lightbvh_kernels::bvh::Standard;
 use serde::Serialize;
 use serde_json::Value;
 
 use self::machine::Made;
-use self::pictures::{Pictures, pictures, png_url};
-use self::tree::{Drawn, drawn};
+use self::pictures::{Pictures, pictures};
 use super::front::Point;
-use super::subject::{Axis, Config, Followed};
-use crate::backend::{Backend, CpuBackend, Integrator, Sampler};
 use crate::cli::target;
 use crate::error::HostError;
-use crate::method::Step;
 use crate::metrics::Judge;
-use crate::render::Film;
-use crate::scene::Scene;
-use crate::workload::{arrays_at, lights_at, render_params};
-
-/// Rows of the picture that a tree is drawn over, and its shadow rays of a pixel.
-const ROWS: u32 = 300;
-const RAYS: u32 = 48;
 
 /// A page in the making.
 pub(super) struct Report {
@@ -41,9 +27,7 @@ pub(super) struct Report {
 #[derive(Debug, Serialize)]
 struct SceneShown {
     name: String,
-    lights: usize,
     pictures: Pictures,
-    tree: Drawn,
 }
 
 impl Report {
@@ -57,31 +41,11 @@ impl Report {
         })
     }
 
-    /// Adds a scene: images of its points beside the reference, the default's tree over its image.
-    pub fn scene(
-        &mut self,
-        scene: &Scene,
-        frame: u32,
-        points: &[Point],
-        judge: &Judge,
-    ) -> Result<(), HostError> {
-        let lights = lights_at(scene, frame)?;
-        let step = Step::new(scene, frame, &lights);
-        let tree: Followed = Followed::new(Config::new(Axis::Default), &step)?;
-        let (width, height) = judge.size();
-        let columns = (ROWS * width / height).clamp(1, 4 * ROWS);
-        let arrays = arrays_at(scene, frame, columns, ROWS)?;
-        let mut backend = CpuBackend::<Standard, 8>::new(tree.bvh);
-        let params = render_params((columns, ROWS), RAYS, 0, scene.frame(frame).background);
-        let image = backend.render(&arrays, &params, Sampler::TwoLevel, Integrator::Direct)?;
-        let film = Film::new(columns, ROWS, image.value)?;
-        let shown = film.shown(judge.exposure());
-        let picture = png_url(&shown, (columns, ROWS), ExtendedColorType::Rgb8)?;
+    /// Adds a scene: images of its points beside the reference.
+    pub fn scene(&mut self, name: &str, points: &[Point], judge: &Judge) -> Result<(), HostError> {
         self.scenes.push(SceneShown {
-            name: scene.name().to_owned(),
-            lights: lights.triangles().len(),
+            name: name.to_owned(),
             pictures: pictures(points, judge, self.scene_count)?,
-            tree: drawn(&backend.bvh().tree(), &arrays.camera, (columns, ROWS), picture),
         });
         Ok(())
     }

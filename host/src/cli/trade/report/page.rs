@@ -3,13 +3,12 @@
 /// The parts in their order; scripts see each other's names.
 const STYLE: &str = include_str!("page/style.css");
 const BODY: &str = include_str!("page/body.html");
-const SCRIPTS: [&str; 7] = [
+const SCRIPTS: [&str; 6] = [
     include_str!("page/data.js"),
     include_str!("page/plot.js"),
     include_str!("page/table.js"),
     include_str!("page/axes.js"),
     include_str!("page/images.js"),
-    include_str!("page/tree.js"),
     include_str!("page/main.js"),
 ];
 

@@ -99,11 +99,7 @@ fn picture(point: &Point, judge: &Judge) -> Result<Picture, HostError> {
 }
 
 /// `data:image/png;base64,…` of 8-bit pixels by rows.
-pub(super) fn png_url(
-    bytes: &[u8],
-    (width, height): (u32, u32),
-    color: ExtendedColorType,
-) -> Result<String, FilmError> {
+fn png_url(bytes: &[u8], (width, height): (u32, u32), color: ExtendedColorType) -> Result<String, FilmError> {
     let mut file = Cursor::new(Vec::new());
     image::write_buffer_with_format(&mut file, bytes, width, height, color, ImageFormat::Png).map_err(
         |source| FilmError::Encode {

@@ -55,7 +55,7 @@ const axisNumber = (axis) => Math.max(0, allAxes.indexOf(axis));
 const color = (axis) => `var(--c${axisNumber(axis)})`;
 
 // What the user chose; a part of the address, so that it can be sent to others.
-const state = { scene: data.scenes[0].name, x: "frame", y: "error", log: true, near: "", point: null, left: null, right: null, view: "image", depth: 2, axis: "", theme: "" };
+const state = { scene: data.scenes[0].name, x: "frame", y: "error", log: true, near: "", point: null, left: null, right: null, view: "image", axis: "", theme: "" };
 for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
   if (key === "scene" && data.scenes.some((scene) => scene.name === value)) state.scene = value;
   if ((key === "x" || key === "y") && Object.hasOwn(measures, value)) state[key] = value;

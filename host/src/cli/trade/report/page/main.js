@@ -6,8 +6,6 @@ const drawScene = () => {
   drawPlot();
   drawAxes();
   drawImages();
-  drawTree();
-  drawDepths();
   drawTables();
 };
 
@@ -64,11 +62,6 @@ const begin = () => {
     });
   }
   byId("slider").addEventListener("input", divide);
-  byId("depth").addEventListener("input", (event) => {
-    state.depth = Number(event.target.value);
-    drawTree();
-  });
-  byId("dim").addEventListener("change", drawTree);
   byId("axis").append(element("option", { value: "" }, "all"), ...axisNames.map((axis) => element("option", { value: axis }, axis)));
   byId("axis").addEventListener("change", (event) => {
     state.axis = event.target.value;
@@ -94,7 +87,6 @@ const begin = () => {
     width = innerWidth;
     drawPlot();
     drawAxes();
-    drawDepths();
   });
 };
 
