@@ -1,9 +1,8 @@
 //! Lights that light some things alone: masks of lights and of receivers.
 //!
 //! `cargo run -p lightbvh --example linked_lights` (seconds). A stage: bit 0 is its floor, bit 1 the actors, bit 2 the
-//! audience. Prints how likely each lamp is for each of them, and checks that no lamp is chosen for what it does not light.
+//! audience. Prints how likely each lamp is for each of them, and checks that it is zero for what the lamp does not light.
 
-use lightbvh::exact::hash;
 use lightbvh::importance::{Leveled, Linked, LinkedPoint};
 use lightbvh::light::LinkedTriangle;
 use lightbvh::node::{LinkedMomentNode, Lit};
@@ -30,13 +29,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut stage = Stage::default();
     // A flood for floor and actors, a key light for the actors, a dim one for all, one that is off.
     let kinds = [
-        ("flood", lamp(FLOOR | ACTORS, 50.0)),
-        ("key", lamp(ACTORS, 400.0)),
-        ("house", lamp(u32::MAX, 1.0)),
-        ("off", lamp(u32::MAX, 0.0)),
+        lamp(FLOOR | ACTORS, 50.0),
+        lamp(ACTORS, 400.0),
+        lamp(u32::MAX, 1.0),
+        lamp(u32::MAX, 0.0),
     ];
     let mut meshes = Vec::new();
-    for (k, (_, lamp)) in (0_u8..).zip(kinds) {
+    for (k, lamp) in (0_u8..).zip(kinds) {
         let mesh = stage.add_mesh(vec![lamp])?;
         for x in 0..5_u8 {
             stage.add_instance(mesh, Transform::at([f32::from(x), 0.0, f32::from(k)]))?;
@@ -66,17 +65,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 assert!(pmf == 0.0 || own.mask & mask != 0);
                 shares[own.light.mesh as usize / 5] += pmf;
             }
-            let shares = kinds.iter().zip(shares);
-            let shares: Vec<_> = shares
-                .map(|((kind, _), share)| format!("{kind} {share:.4}"))
-                .collect();
-            println!("{name:8}: {}", shares.join(", "));
-            for k in 0..1000 {
-                let sampled = stage.sample(&receiver, hash(k));
-                let light = stage.triangle(sampled.light, sampled.instance);
-                assert!(light.is_none_or(|light| light.mask & mask != 0));
-                assert_eq!(light.is_none(), mask == 0, "no lamp lights what has no bit");
-            }
+            let [flood, key, house, off] = shares;
+            println!("{name:8}: flood {flood:.4}, key {key:.4}, house {house:.4}, off {off:.4}");
         }
     };
     report(&stage);

@@ -104,7 +104,7 @@ fn bounds_in_the_world() {
         let local = generate::small_triangles(1, 1, 2.0, 0.5, random.below(4) == 0, random.bits())[0];
         let known = LightBounds::of_triangle(&local);
         let bounds = known.to_world::<lightbvh::EmissiveTriangle>(&instance);
-        let world = instance.triangle(&local, 0);
+        let world = local.in_world(&instance, 0);
         let entries = norm(&matrix(&transform.columns));
         let reach = entries * 8.0 + vector(transform.translation).length();
         let rounding = reach * 2f64.powi(-20) + 2f64.powi(-50);

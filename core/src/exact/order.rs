@@ -128,20 +128,4 @@ mod tests {
             assert_eq!((masked_u32(mask(3), a, b), masked_u32(mask(0), a, b)), (a, b));
         }
     }
-
-    /// Numbers around every integer and every half, and evenly over the words.
-    #[test]
-    fn small_floors_are_floors() {
-        let words = (0..1_u32 << 18).flat_map(|i| {
-            let (n, evenly) = (i << 4 | i >> 14, i.wrapping_mul(4354));
-            let halves = [n as f32, n as f32 + 0.5, f32::from_bits(evenly % 0x4a80_0000)];
-            halves.map(f32::to_bits)
-        });
-        for word in words.flat_map(|word| [word.wrapping_sub(1), word, word + 1]) {
-            let x = f32::from_bits(word);
-            if x < 4_194_304.0 {
-                assert_eq!(floor_small(x), floor_u32(x), "{x}");
-            }
-        }
-    }
 }

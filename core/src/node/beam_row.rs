@@ -9,13 +9,11 @@
 //! | 8 | r / (sin θ · m), in units of the frame, rounded up: 5 bits of exponent, 3 of significand, from 2^-26 on |
 //! | 8 | how much more than a diffuse emitter sends it to a point in the cone, √(0.5 / (1 − cos θ)) − 1, in units of 1/4 |
 
-use glam::Vec3;
-
 use crate::beam::Beam;
 use crate::exact::{self, pow2};
 use crate::moments::LightMoments;
-use crate::vector::{flush3, length_squared};
-use crate::weight::{Lobe, Math, dot_by};
+use crate::vector::{dot, flush3, length_squared};
+use crate::weight::{Lobe, recip};
 
 /// A weight outside of the cone is this part of what it is without one: positive, for whatever the rounding of coordinates may put there.
 const OUTSIDE: f32 = pow2(-16);
@@ -103,22 +101,18 @@ pub(super) fn cone_slack(moved: f32) -> f32 {
 /// The factor on the weight of a child with this word and these moments, its mean normal in units of which one is `m_unit`; lengths are in
 /// units of the scale, of which one of the frame has `unit`; a point counts as in the cone by [`cone_slack`] `slack`.
 #[inline(always)]
-pub(super) fn beam_factor<M: Math>(word: u32, lobe: &Lobe, m_unit: f32, unit: f32, slack: f32) -> f32 {
+pub(super) fn beam_factor(word: u32, lobe: &Lobe, m_unit: f32, unit: f32, slack: f32) -> f32 {
     let (x, m) = (lobe.x, lobe.m);
     let behind = length_of(word) * unit * m_unit;
-    let from_apex = Vec3::new(
-        M::add_product(x.x, -m.x, behind),
-        M::add_product(x.y, -m.y, behind),
-        M::add_product(x.z, -m.z, behind),
-    );
-    let along = M::add_product(slack, dot_by::<M>(m, from_apex), -m_unit);
-    let apex_squared = dot_by::<M>(from_apex, from_apex) + LEAST_SQUARED;
-    let squared = dot_by::<M>(x, x) + LEAST_SQUARED;
+    let from_apex = x - m * behind;
+    let along = slack + dot(m, from_apex) * -m_unit;
+    let apex_squared = dot(from_apex, from_apex) + LEAST_SQUARED;
+    let squared = dot(x, x) + LEAST_SQUARED;
     let cone = (word >> 16) as i32 as f32 * PER_UNIT;
     let inside = (along > 0.0) & (along * along >= cone * apex_squared);
-    let nearer = exact::min(squared, apex_squared) * M::recip(apex_squared);
+    let nearer = exact::min(squared, apex_squared) * recip(apex_squared);
     let gain = (word & 255) as i32 as f32 * GAIN_UNIT;
-    let within = M::add_product(1.0, gain, nearer);
+    let within = 1.0 + gain * nearer;
     let factor = if inside { within } else { OUTSIDE };
     if word == 0 { 1.0 } else { factor }
 }

@@ -8,40 +8,38 @@ use glam::Vec3;
 
 use formula::{FLOOR, HORIZON, Lights, SLACK};
 
-use super::{Random, dot, minus, narrow, normalize, times, wide};
-use crate::importance::{Eq4, ImportanceModel};
-use crate::kit::plain::PlainNode;
-use crate::node::{BoundsNode, CompactNode};
+use super::{Random, minus, narrow, normalize, times, wide};
+use crate::importance::eq4::over_distance;
+use crate::importance::{Cluster, Eq4};
 use crate::point::ShadingPoint;
-use crate::vector::cross;
-use crate::{LightBounds, exact};
+use crate::vector::{cross, length_squared, max3};
+use crate::{LightBounds, Summary, exact};
 
-/// Relative error of two weights' quotient: in each a rough reciprocal, and a rough root in the receiver's cosine.
-const ROUGH: f64 = 2.0 * (3e-3 + 7e-4);
+/// Relative error of a weight: of a rough reciprocal, and of a rough root in the receiver's cosine.
+const ROUGH: f64 = 3e-3 + 7e-4;
 
-/// A point light straight above the point, in the direction that is up in a volume, that shines everywhere: its factor is
-/// 1 + 2^-8.
-fn known(point: &ShadingPoint, distance: f32) -> LightBounds {
-    let n = point.normal();
-    let up = if n == Vec3::ZERO { Vec3::Z } else { n };
-    let at = point.position() + up * distance;
-    LightBounds {
-        min: at,
-        max: at,
-        axis: -up,
-        cos_theta_o: -1.0,
-        phi: 1.0,
+/// The bounds as the importance reads them from a node that quantises nothing.
+fn cluster(bounds: &LightBounds) -> Cluster {
+    let center = bounds.center();
+    // Halves that reach both corners from the rounded centre.
+    let extent = max3(bounds.max - center, center - bounds.min) * (1.0 + exact::pow2(-20));
+    let cosine = bounds.cos_theta_o;
+    Cluster {
+        center,
+        extent,
+        radius_squared: length_squared(extent),
+        axis: bounds.axis,
+        cos_theta_o: cosine,
+        sin_theta_o: exact::sqrt(exact::max(1.0 - cosine * cosine, 0.0)),
+        phi: bounds.phi,
     }
 }
 
-/// Weight of `bounds` over Φ/d² of the known light, its factor taken out.
-fn weight<N: BoundsNode<2>>(bounds: &LightBounds, point: &ShadingPoint, distance: f32) -> f64 {
-    let known = known(point, distance);
-    let mut node = N::EMPTY;
-    node.set_summaries(&[*bounds, known]);
-    let [found, one] = Eq4::weights(&node, point).map(f64::from);
-    let (factor, d) = (1.0 + SLACK, Lights::of(&known, point).d());
-    found / one * factor / (d * d)
+fn weight(bounds: &LightBounds, point: &ShadingPoint) -> f64 {
+    let cluster = cluster(bounds);
+    let (factor, distance_squared) = Eq4::factor(&cluster, point);
+    let scaled = over_distance(&cluster, distance_squared, factor);
+    f64::from(scaled.significand) * 2.0_f64.powi(scaled.exponent)
 }
 
 /// A set of lights, and a point near it or far off, above the horizon, below it, or in a volume.
@@ -89,7 +87,7 @@ fn weights_are_those_of_eq_4() {
         if lights.at_a_step(n, EMITTED) {
             continue;
         }
-        let found = weight::<PlainNode<2>>(&bounds, &point, lights.d() as f32);
+        let found = weight(&bounds, &point);
         let [least, most] = [-EMITTED, EMITTED].map(|e| lights.factor(n, e) * lights.over_distance());
         assert!(
             (least * (1.0 - ROUGH)..=most * (1.0 + ROUGH)).contains(&found),
@@ -102,52 +100,6 @@ fn weights_are_those_of_eq_4() {
     for seen in [cosines, below, behind] {
         assert!(seen > 500, "{cosines} {below} {behind}");
     }
-}
-
-/// What a compact node may have made of `lights`, seen least and most: boxes grow by up to 1/127 of the greatest half extent,
-/// cones by a step of sin(θ_o/2), 1/254, and by 2^-8 for the axis, which is up to 0.0034 short.
-fn packed(lights: &Lights) -> [Lights; 2] {
-    let facing = dot(lights.axis, lights.v) < 0.0;
-    let axis = |shorter: bool| times(lights.axis, if shorter { 0.9966 } else { 1.0 });
-    let greatest = lights.half.iter().fold(0.0, |a: f64, &b| a.max(b));
-    let half_sine = (lights.theta_o / 2.0).sin() + 1.0 / 254.0;
-    let larger = Lights {
-        half: lights.half.map(|h| h + greatest / 127.0),
-        theta_o: 2.0 * half_sine.min(1.0).asin() + 1.0 / 256.0,
-        axis: axis(!facing),
-        ..*lights
-    };
-    let smaller = Lights {
-        axis: axis(facing),
-        ..*lights
-    };
-    [smaller, larger]
-}
-
-#[test]
-fn weights_of_compact_nodes_are_those_of_eq_4() {
-    let random = &mut Random(2);
-    // What is decoded as the sine of θ_o is another 0.002 off.
-    let error = EMITTED + 0.002;
-    let mut narrow = 0;
-    for _ in 0..40_000 {
-        let (bounds, point) = sight(random);
-        let (lights, n) = (Lights::of(&bounds, &point), wide(point.normal()));
-        let [smaller, larger] = packed(&lights);
-        let at_the_sphere = lights.r() < lights.d() && larger.r() >= lights.d();
-        if at_the_sphere || smaller.at_a_step(n, error) || larger.at_a_step(n, error) {
-            continue;
-        }
-        let found = weight::<CompactNode<2>>(&bounds, &point, lights.d() as f32);
-        let least = smaller.factor(n, -error) * larger.over_distance();
-        let most = larger.factor(n, error) * lights.over_distance();
-        assert!(
-            (least * (1.0 - ROUGH)..=most * (1.0 + ROUGH)).contains(&found),
-            "{found}, expected {least} to {most}: {bounds:?} at {point:?}"
-        );
-        narrow += u32::from((0.05..0.95).contains(&lights.factor(n, 0.0)) && most < 1.1 * least);
-    }
-    assert!(narrow > 500, "{narrow}");
 }
 
 /// Point lights of one direction have no angle to subtract, so that the error of the roots is relative: slack and floor, which
@@ -190,7 +142,7 @@ fn slack_and_floor_are_those_stated() {
         }
         let reach = (emitted + SLACK).max(0.0);
         let expected = (incident * reach).max(FLOOR) * f64::from(bounds.phi) / f64::from(distance).powi(2);
-        let found = weight::<PlainNode<2>>(&bounds, &point, distance);
+        let found = weight(&bounds, &point);
         assert!(
             (found / expected - 1.0).abs() < error,
             "{found}, expected {expected}: cosines {received} {emitted}"
