@@ -3,6 +3,7 @@
 
 use glam::DMat3;
 use lightbvh::exact::pow2;
+use lightbvh::light::Light;
 use lightbvh::{Bvh, CompactNode, Instance, LightBounds, ShadingPoint, Summary, Transform};
 use lightbvh_tests::generate::{self, Random};
 use lightbvh_tests::oracle::vector;

@@ -5,7 +5,7 @@ use lightbvh::error::DomainError;
 use lightbvh::{EmissiveTriangle, LightBvh, LightPoint, Random64, SampledLight, ShadingPoint};
 
 use crate::error::{Fault, Status};
-use crate::handle::Handle;
+use crate::held::Handle;
 use crate::ids::CInstance;
 use crate::raw;
 

@@ -19,7 +19,7 @@ use crate::instance::Instance;
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct AnyLight {
     /// A place, then axes, edges, radius and cosines as the kind has them, in the order of its fields; zero where it has fewer.
-    words: [f32; 12],
+    words: [[f32; 3]; 4],
     /// Radiance or intensity, linear RGB.
     emission: [f32; 3],
     /// Index of the mesh light that owns it.
@@ -81,54 +81,16 @@ impl AnyLight {
     fn flags(&self) -> u32 {
         self.kind >> KIND_BITS
     }
-
-    /// Three words from `at` on: 0, 3, 6 or 9. By a choice: rust-gpu inlines whatever has an index that might be out of bounds.
-    #[inline(always)]
-    fn three(&self, at: usize) -> [f32; 3] {
-        let w = &self.words;
-        if at == 0 {
-            [w[0], w[1], w[2]]
-        } else if at == 3 {
-            [w[3], w[4], w[5]]
-        } else if at == 6 {
-            [w[6], w[7], w[8]]
-        } else {
-            [w[9], w[10], w[11]]
-        }
-    }
-
-    #[inline(always)]
-    fn new(kind: u32, flags: u32, mesh: u32, emission: [f32; 3]) -> Self {
-        Self {
-            words: [0.0; 12],
-            emission,
-            mesh,
-            kind: kind | (flags << KIND_BITS),
-        }
-    }
-
-    #[inline(always)]
-    fn with(mut self, at: usize, three: &[f32; 3]) -> Self {
-        let w = &mut self.words;
-        if at == 0 {
-            (w[0], w[1], w[2]) = (three[0], three[1], three[2]);
-        } else if at == 3 {
-            (w[3], w[4], w[5]) = (three[0], three[1], three[2]);
-        } else if at == 6 {
-            (w[6], w[7], w[8]) = (three[0], three[1], three[2]);
-        } else {
-            (w[9], w[10], w[11]) = (three[0], three[1], three[2]);
-        }
-        self
-    }
 }
 
-/// For each kind the light that the words say, by a function of this name, and the words that a light has: its flags, and three of them at
-/// a time.
+/// Words that a kind has not.
+const NONE: [f32; 3] = [0.0; 3];
+
+/// For each kind the light that the words say, by a function of this name, and the flags and words of a light.
 macro_rules! kinds {
     ($any:ident, $own:ident: $($(#[$doc:meta])* $vis:vis $as:ident: $light:ident $kind:ident $emission:ident {
         $($field:ident: $of:expr),*
-    } $flags:expr, [$($at:literal $three:expr),*];)*) => {
+    } $flags:expr, $words:expr;)*) => {
         impl AnyLight {
             $($(#[$doc])*
             #[inline(always)]
@@ -142,7 +104,12 @@ macro_rules! kinds {
         $(impl From<$light> for AnyLight {
             #[inline(always)]
             fn from($own: $light) -> Self {
-                Self::new(Self::$kind, $flags, $own.mesh, $own.$emission)$(.with($at, &$three))*
+                Self {
+                    words: $words,
+                    emission: $own.$emission,
+                    mesh: $own.mesh,
+                    kind: Self::$kind | ($flags << KIND_BITS),
+                }
             }
         }
 
@@ -159,32 +126,32 @@ macro_rules! kinds {
 
 kinds!(any, own:
     triangle: EmissiveTriangle TRIANGLE radiance {
-        p: [any.three(0), any.three(3), any.three(6)], flags: any.flags()
-    } own.flags, [0 own.p[0], 3 own.p[1], 6 own.p[2]];
+        p: [any.words[0], any.words[1], any.words[2]], flags: any.flags()
+    } own.flags, [own.p[0], own.p[1], own.p[2], NONE];
     point: PointLight POINT intensity {
-        p: any.three(0), range: any.words[3]
-    } 0, [0 own.p, 3 [own.range, 0.0, 0.0]];
+        p: any.words[0], range: any.words[1][0]
+    } 0, [own.p, [own.range, 0.0, 0.0], NONE, NONE];
     spot: SpotLight SPOT intensity {
-        p: any.three(0), axis: any.three(3),
-        cos_inner: any.words[6], cos_outer: any.words[7], range: any.words[8]
-    } 0, [0 own.p, 3 own.axis, 6 [own.cos_inner, own.cos_outer, own.range]];
+        p: any.words[0], axis: any.words[1],
+        cos_inner: any.words[2][0], cos_outer: any.words[2][1], range: any.words[2][2]
+    } 0, [own.p, own.axis, [own.cos_inner, own.cos_outer, own.range], NONE];
     sphere: SphereLight SPHERE radiance {
-        p: any.three(0), radius: any.words[3]
-    } 0, [0 own.p, 3 [own.radius, 0.0, 0.0]];
+        p: any.words[0], radius: any.words[1][0]
+    } 0, [own.p, [own.radius, 0.0, 0.0], NONE, NONE];
     rectangle: RectangleLight RECTANGLE radiance {
-        p: any.three(0), half: [any.three(3), any.three(6)], flags: any.flags()
-    } own.flags, [0 own.p, 3 own.half[0], 6 own.half[1]];
+        p: any.words[0], half: [any.words[1], any.words[2]], flags: any.flags()
+    } own.flags, [own.p, own.half[0], own.half[1], NONE];
     disc: DiscLight DISC radiance {
-        p: any.three(0), half: [any.three(3), any.three(6)], flags: any.flags()
-    } own.flags, [0 own.p, 3 own.half[0], 6 own.half[1]];
+        p: any.words[0], half: [any.words[1], any.words[2]], flags: any.flags()
+    } own.flags, [own.p, own.half[0], own.half[1], NONE];
     volume: BoxLight BOX radiance {
-        p: any.three(0), half: [any.three(3), any.three(6), any.three(9)]
-    } 0, [0 own.p, 3 own.half[0], 6 own.half[1], 9 own.half[2]];
+        p: any.words[0], half: [any.words[1], any.words[2], any.words[3]]
+    } 0, [own.p, own.half[0], own.half[1], own.half[2]];
     /// It as a [`ProfileLight`]; numbers that mean nothing where it is of another kind.
     pub profile: ProfileLight PROFILE intensity {
-        p: any.three(0), axis: any.three(3), across: any.three(6),
-        cos_outer: any.words[9], whole: any.words[10], mean_cosine: any.words[11], flags: any.flags()
-    } own.flags, [0 own.p, 3 own.axis, 6 own.across, 9 [own.cos_outer, own.whole, own.mean_cosine]];
+        p: any.words[0], axis: any.words[1], across: any.words[2],
+        cos_outer: any.words[3][0], whole: any.words[3][1], mean_cosine: any.words[3][2], flags: any.flags()
+    } own.flags, [own.p, own.axis, own.across, [own.cos_outer, own.whole, own.mean_cosine]];
 );
 
 /// What `$of` says of the light as what its kind makes it; any kind that is none counts as a point without intensity.
@@ -224,7 +191,7 @@ fn point_on(light: AnyLight, from: Vec3, uv: [f32; 2]) -> LightPoint {
 impl Light for AnyLight {
     const NAME: &'static str = "light of any kind";
     const DARK: Self = Self {
-        words: [0.0; 12],
+        words: [NONE; 4],
         emission: [0.0; 3],
         mesh: INVALID,
         kind: Self::POINT,
@@ -248,7 +215,7 @@ impl Light for AnyLight {
 
     #[inline(always)]
     fn centroid(&self) -> [f32; 3] {
-        by_kind!(self, own => own.centroid(), self.three(0))
+        by_kind!(self, own => own.centroid(), self.words[0])
     }
 
     fn reach(&self) -> f32 {

@@ -8,7 +8,6 @@ use super::environment::start_of;
 use super::*;
 use crate::exact::hash;
 use crate::kit::Random;
-use crate::random::Random64;
 
 /// Of directions and of places there is one each.
 #[test]
@@ -102,13 +101,7 @@ fn each_texel_has_its_share_of_the_numbers() {
             continue;
         }
         for number in [before, before + count / 2, before + count - 1] {
-            let sampled = map.sample(
-                Random64 {
-                    high: number << 1,
-                    low: 0,
-                },
-                [0.5, 0.5],
-            );
+            let sampled = map.sample(u64::from(number) << 33, [0.5, 0.5]);
             assert_eq!((sampled.texel, sampled.pmf), (texel, map.pmf(texel)));
         }
         before += count;
@@ -228,10 +221,7 @@ fn a_split_is_exact() {
                 (before + count / 2, 0.5),
                 (before + count - 1, 1.0),
             ] {
-                let share = split.choose(Random64 {
-                    high: number << 10,
-                    low: 0,
-                });
+                let share = split.choose(u64::from(number) << 42);
                 assert_eq!((share.index, share.pmf), (index, pmf));
                 let rest = f64::from(share.rest.high) / 4_294_967_296.0;
                 assert!((rest - part).abs() <= 1.001 / f64::from(count), "{rest} {part}");
