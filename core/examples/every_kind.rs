@@ -19,89 +19,51 @@ type Room = Bvh<Lit<SpotMomentNode<8>, AnyLight>, Defensive<Moments, 6>, 8>;
 const TRIALS: u32 = 200_000;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let (p, mesh, flags) = ([0.0; 3], 0, 0);
-    let flat = [[0.3, 0.0, 0.0], [0.0, 0.0, 0.2]];
+    let half = [[0.3, 0.0, 0.0], [0.0, 0.0, 0.2]];
+    let radiance = [8.0; 3];
     // Each shines from its own origin downwards, or all around; an instance puts it into the room.
-    let kinds: [(&str, AnyLight); 7] = [
-        (
-            "triangle",
-            EmissiveTriangle {
-                p: [[0.0; 3], [0.4, 0.0, 0.0], [0.0, 0.0, 0.4]],
-                radiance: [20.0; 3],
-                mesh,
-                flags,
-            }
-            .into(),
-        ),
-        (
-            "point",
-            PointLight {
-                p,
-                intensity: [3.0; 3],
-                range: 0.0,
-                mesh,
-            }
-            .into(),
-        ),
-        (
-            "spot",
-            SpotLight {
-                p,
-                intensity: [40.0; 3],
-                range: 6.0,
-                axis: [0.0, -1.0, 0.0],
-                cos_inner: 0.95,
-                cos_outer: 0.9,
-                mesh,
-            }
-            .into(),
-        ),
-        (
-            "sphere",
-            SphereLight {
-                p,
-                radius: 0.1,
-                radiance: [30.0; 3],
-                mesh,
-            }
-            .into(),
-        ),
-        (
-            "rectangle",
-            RectangleLight {
-                p,
-                half: flat,
-                radiance: [8.0; 3],
-                mesh,
-                flags,
-            }
-            .into(),
-        ),
-        (
-            "disc",
-            DiscLight {
-                p,
-                half: flat,
-                radiance: [8.0; 3],
-                mesh,
-                flags,
-            }
-            .into(),
-        ),
-        (
-            "box",
-            BoxLight {
-                p,
-                half: [[0.2, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.0, 0.2]],
-                radiance: [9.0; 3],
-                mesh,
-            }
-            .into(),
-        ),
+    let kinds = [
+        AnyLight::from(EmissiveTriangle {
+            p: [[0.0; 3], [0.4, 0.0, 0.0], [0.0, 0.0, 0.4]],
+            radiance,
+            ..EmissiveTriangle::DARK
+        }),
+        AnyLight::from(PointLight {
+            intensity: [3.0; 3],
+            ..PointLight::DARK
+        }),
+        AnyLight::from(SpotLight {
+            intensity: [40.0; 3],
+            range: 6.0,
+            axis: [0.0, -1.0, 0.0],
+            cos_inner: 0.95,
+            cos_outer: 0.9,
+            ..SpotLight::DARK
+        }),
+        AnyLight::from(SphereLight {
+            radius: 0.1,
+            radiance,
+            ..SphereLight::DARK
+        }),
+        AnyLight::from(RectangleLight {
+            half,
+            radiance,
+            ..RectangleLight::DARK
+        }),
+        AnyLight::from(DiscLight {
+            half,
+            radiance,
+            ..DiscLight::DARK
+        }),
+        AnyLight::from(BoxLight {
+            half: [half[0], half[1], [0.0, 0.2, 0.0]],
+            radiance,
+            ..BoxLight::DARK
+        }),
     ];
 
     let mut room = Room::default();
-    for (k, (_, light)) in (0_u8..).zip(kinds) {
+    for (k, light) in (0_u8..).zip(kinds) {
         // Checked as it enters: cones inside out, radii of 0 and numbers that are none are errors that say which.
         let mesh = room.add_mesh(vec![light])?;
         for row in 0..40_u8 {
@@ -130,7 +92,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         shares[kind] += 1.0 / TRIALS as f32;
         received[kind] += arriving / sampled.pmf / TRIALS as f32;
     }
-    for ((name, _), (share, received)) in kinds.iter().zip(shares.iter().zip(received)) {
+    let names = ["triangle", "point", "spot", "sphere", "rectangle", "disc", "box"];
+    for (name, (share, received)) in names.iter().zip(shares.iter().zip(received)) {
         println!(
             "{name:9}: {:5.1} % of the samples, {received:.4} W/m²",
             100.0 * share

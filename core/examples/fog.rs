@@ -5,7 +5,7 @@
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::importance::{RaySegment, Subtended};
 use lightbvh::light::LightPoint;
-use lightbvh::{Defensive, EmissiveTriangle, LightBvh, Moments, Transform};
+use lightbvh::{Defensive, EmissiveTriangle, LightBvh, Moments, ShadingPoint, Transform};
 
 const TRIALS: u32 = 200_000;
 
@@ -75,17 +75,11 @@ fn equiangular(ray: &RaySegment, p: [f32; 3], u: f32) -> (f32, f64) {
 }
 
 fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {
-    (0..3)
-        .map(|k| (f64::from(a[k]) - f64::from(b[k])).powi(2))
-        .sum::<f64>()
-        .sqrt()
+    let squares = (0..3).map(|k| (f64::from(a[k]) - f64::from(b[k])).powi(2));
+    squares.sum::<f64>().sqrt()
 }
 
 /// What a metre of fog at `p` gets, over the density of the lamp's point: alike in all directions, unattenuated, without shadow.
 fn sent(on: &LightPoint, p: [f32; 3]) -> f64 {
-    let d = distance(on.p, p);
-    let cosine: f64 = (0..3)
-        .map(|k| f64::from(on.normal[k]) * f64::from(p[k] - on.p[k]))
-        .sum();
-    f64::from(on.radiance[0]) * (cosine / d).max(0.0) / (d * d * f64::from(on.density))
+    on.irradiance(&ShadingPoint { p, n: [0.0; 3] })[0].into()
 }

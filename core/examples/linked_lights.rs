@@ -1,10 +1,9 @@
 //! Lights that light some things alone: masks of instances and of receivers.
 //!
 //! `cargo run -p lightbvh --example linked_lights` (seconds). A stage: bit 0 is its floor, bit 1 the actors, bit 2 the
-//! audience. Prints how likely each lamp is for each of them, and checks that no lamp is chosen for what it does not light.
+//! audience. Prints how likely each lamp is for each of them, and checks that it is zero for what the lamp does not light.
 
 use lightbvh::bvh::Edit;
-use lightbvh::exact::hash;
 use lightbvh::importance::LinkedPoint;
 use lightbvh::{EmissiveTriangle, MaskedLights, ShadingPoint, Transform};
 
@@ -23,13 +22,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mesh = stage.add_mesh(vec![lamp.into()])?;
     // A flood for floor and actors, a key light for the actors, a dim one for all, one that is off.
     let kinds = [
-        ("flood", FLOOR | ACTORS, 50.0),
-        ("key", ACTORS, 400.0),
-        ("house", u32::MAX, 1.0),
-        ("off", u32::MAX, 0.0),
+        (FLOOR | ACTORS, 50.0),
+        (ACTORS, 400.0),
+        (u32::MAX, 1.0),
+        (u32::MAX, 0.0),
     ];
     let mut edits = Vec::new();
-    for (z, (_, mask, radiance)) in (0_u8..).zip(kinds) {
+    for (z, (mask, radiance)) in (0_u8..).zip(kinds) {
         edits.extend((0..5_u8).map(|x| Edit::AddInstance {
             mesh,
             transform: Transform::at([f32::from(x), 0.0, f32::from(z)]),
@@ -62,17 +61,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 assert!(pmf == 0.0 || own.mask & mask != 0);
                 shares[lamp.index() as usize / 5] += pmf;
             }
-            let shares = kinds.iter().zip(shares);
-            let shares: Vec<_> = shares
-                .map(|((kind, ..), share)| format!("{kind} {share:.4}"))
-                .collect();
-            println!("{name:8}: {}", shares.join(", "));
-            for k in 0..1000 {
-                let sampled = stage.sample_light(&receiver, hash(k), [0.5; 2]);
-                let own = sampled.map(|sampled| stage.instances()[sampled.instance.index() as usize]);
-                assert!(own.is_none_or(|own| own.mask & mask != 0));
-                assert_eq!(own.is_none(), mask == 0, "no lamp lights what has no bit");
-            }
+            let [flood, key, house, off] = shares;
+            println!("{name:8}: flood {flood:.4}, key {key:.4}, house {house:.4}, off {off:.4}");
         }
     };
     report(&stage);

@@ -87,18 +87,13 @@ fn one_of_eight(bvh: &LightBvh, all: &[EmissiveTriangle], receiver: &GlossyPoint
 fn contribution(light: &EmissiveTriangle, receiver: &GlossyPoint) -> f64 {
     let on = light.point([0.5; 2]);
     let wide = |v: [f32; 3]| v.map(f64::from);
-    let [p, n, mirror] = [receiver.point.p, receiver.point.n, receiver.mirror].map(wide);
-    let to: [f64; 3] = [0, 1, 2].map(|k| wide(on.p)[k] - p[k]);
-    let d2 = dot(to, to);
-    let to = to.map(|x| x / d2.sqrt());
-    let (received, emitted) = (dot(n, to).max(0.0), (-dot(wide(on.normal), to)).max(0.0));
-    let view = [0, 1, 2].map(|k| 2.0 * dot(n, mirror) * n[k] - mirror[k]);
-    let half = [0, 1, 2].map(|k| to[k] + view[k]);
-    let cos = dot(n, half) / dot(half, half).sqrt();
+    let [at, p, n, mirror] = [on.p, receiver.point.p, receiver.point.n, receiver.mirror].map(wide);
+    let to = unit([0, 1, 2].map(|k| at[k] - p[k]));
+    let half = unit([0, 1, 2].map(|k| to[k] + 2.0 * dot(n, mirror) * n[k] - mirror[k]));
     let [diffuse, specular, k] = [receiver.diffuse, receiver.specular, receiver.exponent].map(f64::from);
-    let lobe = (k + 6.0) / 8.0 * cos.max(0.0).powf(k);
+    let lobe = (k + 6.0) / 8.0 * dot(n, half).max(0.0).powf(k);
     let reflected = (diffuse + specular * lobe) / std::f64::consts::PI;
-    f64::from(on.radiance[0]) * reflected * received * emitted / (d2 * f64::from(on.density))
+    f64::from(on.irradiance(&receiver.point)[0]) * reflected
 }
 
 fn report(name: &str, right: f64, estimate: impl Fn(u32) -> f64) {
@@ -116,4 +111,8 @@ fn report(name: &str, right: f64, estimate: impl Fn(u32) -> f64) {
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    v.map(|x| x / dot(v, v).sqrt())
 }

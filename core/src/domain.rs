@@ -79,7 +79,7 @@ impl core::fmt::Display for DomainError {
 
 impl core::error::Error for DomainError {}
 
-/// Coordinates in the domain, of what is named.
+/// Brings the coordinates of `what` into the domain.
 pub(crate) fn checked_place(what: &'static str, mut place: [f32; 3]) -> Result<[f32; 3], DomainError> {
     for axis in 0..3 {
         let value = place[axis];
@@ -98,7 +98,7 @@ pub(crate) fn checked_place(what: &'static str, mut place: [f32; 3]) -> Result<[
     Ok(place)
 }
 
-/// Linear R, G, B in the domain, of what is named.
+/// Brings the linear R, G, B of `what` into the domain.
 pub(crate) fn checked_emission(what: &'static str, mut emission: [f32; 3]) -> Result<[f32; 3], DomainError> {
     for channel in 0..3 {
         let value = emission[channel];

@@ -64,8 +64,7 @@ pub(crate) fn flux_of(a: Vec3, b: Vec3, edge_exponent: i32, luminance: f32, per_
     let squared = dot(normal, normal);
 
     // Φ = significand · 2^exponent, put together once, within the stated range.
-    let faces = per_product;
-    let shine = significand(luminance) * exact::sqrt(squared) * faces;
+    let shine = significand(luminance) * exact::sqrt(squared) * per_product;
     let phi = bounded_phi(
         shine,
         exponent(luminance) + across_exponent + edge_exponent + edge_exponent,

@@ -4,32 +4,29 @@
 use crate::exact;
 use crate::unroll::each;
 
-/// Puts each row's sum, its numbers added by halves, into its slot 0.
+/// Puts each row's numbers, taken together by halves, into its slot 0.
 #[inline(always)]
-pub(crate) fn sums<const ROWS: usize, const W: usize>(rows: &mut [[f32; W]; ROWS]) {
+fn halved<const ROWS: usize, const W: usize>(rows: &mut [[f32; W]; ROWS], both: impl Fn(f32, f32) -> f32) {
     each!(step, 4, {
         let stride = 8 >> step;
         each!(slot, W, {
             if (slot < stride) & (slot + stride < W) {
                 each!(k, ROWS, {
-                    rows[k][slot] += rows[k][slot + stride];
+                    rows[k][slot] = both(rows[k][slot], rows[k][slot + stride]);
                 });
             }
         });
     });
 }
 
+/// Puts each row's sum, its numbers added by halves, into its slot 0.
+#[inline(always)]
+pub(crate) fn sums<const ROWS: usize, const W: usize>(rows: &mut [[f32; W]; ROWS]) {
+    halved(rows, |a, b| a + b);
+}
+
 /// Puts each row's greatest number into its slot 0.
 #[inline(always)]
 pub(crate) fn maxima<const ROWS: usize, const W: usize>(rows: &mut [[f32; W]; ROWS]) {
-    each!(step, 4, {
-        let stride = 8 >> step;
-        each!(slot, W, {
-            if (slot < stride) & (slot + stride < W) {
-                each!(k, ROWS, {
-                    rows[k][slot] = exact::max(rows[k][slot], rows[k][slot + stride]);
-                });
-            }
-        });
-    });
+    halved(rows, exact::max);
 }

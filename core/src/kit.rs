@@ -2,7 +2,6 @@
 
 pub mod lights;
 mod numbers;
-pub mod plain;
 pub mod scenes;
 
 pub use numbers::*;

@@ -43,8 +43,6 @@
 // Device code indexes: iterators over arrays do not survive rust-gpu's pointer rules (no array-to-slice unsizing).
 // `clamp` panics where the bounds cross, and a panic path in a kernel costs registers and inlining.
 #![allow(clippy::needless_range_loop, clippy::manual_clamp)]
-// The device's own root and fused sum for `NativeMath`; its compiler is a nightly one.
-#![cfg_attr(target_arch = "spirv", feature(core_float_math))]
 #[cfg(feature = "alloc")]
 extern crate alloc;
 #[cfg(feature = "std")]

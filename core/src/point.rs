@@ -169,14 +169,9 @@ mod tests {
     fn points_of_the_domain_are_accepted_as_they_are() {
         let far = MAX_COORDINATE;
         let slanted = [0.6, -0.64, 0.48];
+        let [longer, shorter] = [1.003, 0.997].map(|by| slanted.map(|x| x * by));
         for p in [[0.0; 3], [far, -far, far], [MIN_COORDINATE, -MIN_COORDINATE, 1.0]] {
-            for n in [
-                [0.0; 3],
-                UP,
-                slanted,
-                slanted.map(|x| x * 1.003),
-                slanted.map(|x| x * 0.997),
-            ] {
+            for n in [[0.0; 3], UP, slanted, longer, shorter] {
                 let point = ShadingPoint { p, n };
                 assert_eq!(point.checked(), Ok(point));
             }
@@ -186,38 +181,25 @@ mod tests {
     #[test]
     fn tiny_components_and_minus_zero_become_zero() {
         let tiny = MIN_COORDINATE.next_down();
-        let point = ShadingPoint {
-            p: [tiny, -0.0, f32::from_bits(1)],
-            n: [-0.0, 1.0, -tiny],
-        };
-        let words = point.checked().map(bytemuck::cast::<_, [u32; 6]>);
+        let (p, n) = ([tiny, -0.0, f32::from_bits(1)], [-0.0, 1.0, -tiny]);
+        let words = ShadingPoint { p, n }.checked().map(bytemuck::cast::<_, [u32; 6]>);
         assert_eq!(words, Ok([0, 0, 0, 0, 1.0_f32.to_bits(), 0]));
         // A normal of nothing but those is none.
-        let volume = ShadingPoint {
-            p: [1.0; 3],
-            n: [tiny; 3],
-        };
-        assert_eq!(volume.checked().map(|point| point.n), Ok([0.0; 3]));
+        let volume = ShadingPoint { p, n: [tiny; 3] }.checked();
+        assert_eq!(volume.map(|point| point.n), Ok([0.0; 3]));
     }
 
     #[test]
     fn what_is_out_of_the_domain_is_refused_by_name() {
-        for value in [
-            f32::NAN,
-            f32::INFINITY,
-            f32::NEG_INFINITY,
-            MAX_COORDINATE.next_up(),
-            f32::MIN,
-        ] {
-            for axis in 0..3 {
-                let mut p = [1.0; 3];
-                p[axis] = value;
-                let error = ShadingPoint { p, n: UP }
-                    .checked()
-                    .expect_err("out of the domain");
-                let part = ["coordinate x", "coordinate y", "coordinate z"][axis];
-                assert!(std::format!("{error}").starts_with(part), "{error}");
-            }
+        let refused = |p, n, text: &str| {
+            let error = ShadingPoint { p, n }.checked().expect_err("out of the domain");
+            assert!(std::format!("{error}").starts_with(text), "{error}");
+        };
+        let most = MAX_COORDINATE.next_up();
+        for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, most, f32::MIN] {
+            refused([value, 1.0, 1.0], UP, "coordinate x");
+            refused([1.0, value, 1.0], UP, "coordinate y");
+            refused([1.0, 1.0, value], UP, "coordinate z");
         }
         for n in [
             [1.0; 3],
@@ -228,11 +210,7 @@ mod tests {
             [f32::MAX; 3],
             [MIN_COORDINATE; 3],
         ] {
-            let error = ShadingPoint { p: [0.0; 3], n }.checked().expect_err("no normal");
-            assert!(
-                std::format!("{error}").starts_with("the normal of a shading point is ("),
-                "{error}"
-            );
+            refused([0.0; 3], n, "the normal of a shading point is (");
         }
     }
 }

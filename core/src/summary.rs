@@ -9,7 +9,7 @@ use glam::Vec3;
 
 use crate::bounds::LightBounds;
 use crate::instance::Instance;
-use crate::light::{EmissiveTriangle, Light};
+use crate::light::Light;
 use crate::unroll::each;
 
 /// Words of a summary in full, as [`BlasRoot`](crate::refit::BlasRoot) keeps them.
@@ -26,11 +26,6 @@ pub trait Summary: Copy + PartialEq + Debug + Send + Sync + 'static {
     /// Of the lights of a node's slots. A slot without one gets [`EMPTY`](Self::EMPTY), or numbers without flux that mean
     /// nothing.
     fn of_lights<L: Light, const W: usize>(lights: &L::Slots<W>, summaries: &mut Lanes<W>);
-    /// Of one emissive triangle.
-    #[inline(always)]
-    fn of_triangle(triangle: &EmissiveTriangle) -> Self {
-        Self::of_light(triangle)
-    }
     /// Of all the children of a node; the order of the slots is part of the result's bits.
     fn merged<const W: usize>(children: &Lanes<W>) -> Self;
     /// Of the lights, of type `L`, of a bottom level that `instance` puts into the world.

@@ -192,7 +192,7 @@ pub fn node<N: LightNode<W>, const W: usize>(u: &mut Unstructured<'_>) -> Result
 
 /// Whether a light has flux, as nodes of layout `N` know it.
 pub fn shines<N: LightNode<W>, const W: usize>(triangle: &EmissiveTriangle) -> bool {
-    N::Summary::of_triangle(triangle).phi() > 0.0
+    N::Summary::of_light(triangle).phi() > 0.0
 }
 
 /// By how much a sum of pmfs of `lights` may be off 1, where a share of 2^-`halvings` is uniform, if any.

@@ -7,6 +7,7 @@ use std::marker::PhantomData;
 use arbitrary::{Result, Unstructured};
 use lightbvh::device::trail::max_levels;
 use lightbvh::importance::Space;
+use lightbvh::light::Light;
 use lightbvh::{
     CompactNode, Eq4, INVALID, ImportanceModel, Instance, LightNode, LightTree, MomentNode, Moments,
     SampledLight, ShadingPoint, TreeWords, refit,
@@ -105,7 +106,7 @@ pub fn node_words(data: &[u8], forms: Forms) {
                 instance.light_of(light),
                 instance.triangle_of(light),
             );
-            triangles.iter().for_each(|own| _ = instance.triangle(own, light));
+            triangles.iter().for_each(|own| _ = own.in_world(instance, light));
         }
         for i in 0..nodes.len() as u32 {
             let _ = refit::bottom(&nodes, &triangles, i);

@@ -1,11 +1,10 @@
 //! The light BVHs that the kernels are compiled for, and their picker for the renderer.
 
-use lightbvh::importance::{DefaultImportance, NativeMath};
+use lightbvh::importance::DefaultImportance;
 use lightbvh::light::AnyLight;
 use lightbvh::node::{DefaultNode, Holds, Lit, Node as Layout, SpotMomentNode};
 use lightbvh::{
-    CompactNode, Defensive, EmissiveTriangle, Eq4, ImportanceModel, LightTree, Moments, Random64,
-    SampledLight, ShadingPoint,
+    CompactNode, EmissiveTriangle, Eq4, ImportanceModel, LightTree, Random64, SampledLight, ShadingPoint,
 };
 
 use crate::shading::emitter::Emitter;
@@ -52,19 +51,6 @@ impl Choice<WIDTH> for Standard {
     type Node = Node;
     type Importance = DefaultImportance;
     const NAME: &'static str = "moments";
-    const SUFFIX: &'static str = "";
-}
-
-/// The default's trees, chosen from by the processor's own operations, on the CPU alone: what exactness costs is measured
-/// against it.
-#[derive(Clone, Copy, Debug)]
-pub struct Native;
-
-impl Choice<WIDTH> for Native {
-    type Light = EmissiveTriangle;
-    type Node = Node;
-    type Importance = Defensive<Moments<NativeMath>, 6>;
-    const NAME: &'static str = "native moments";
     const SUFFIX: &'static str = "";
 }
 

@@ -1,6 +1,7 @@
 //! Lights and points to test with: seeded, and with the degenerate cases in.
 
 use lightbvh::device::cone::{Cone, normalized};
+use lightbvh::light::Light;
 use lightbvh::{BuildParams, EmissiveTriangle, Heuristic, LightBounds, Lights, ShadingPoint, exact};
 pub use lightbvh_host::stability::random::Random;
 

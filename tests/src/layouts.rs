@@ -5,13 +5,11 @@
 #[macro_export]
 macro_rules! each_layout {
     ($call:ident $arguments:tt) => {{
-        use lightbvh::importance::NativeMath;
         use lightbvh::{CompactNode, Defensive, Eq4, FluxOverDistance, MomentNode, Moments};
         $call::<CompactNode<2>, Eq4, 2> $arguments;
         $call::<CompactNode<16>, FluxOverDistance, 16> $arguments;
         $call::<MomentNode<8>, Moments, 8> $arguments;
         $call::<CompactNode<4>, Defensive<Eq4, 5>, 4> $arguments;
-        $call::<MomentNode<8>, Moments<NativeMath>, 8> $arguments;
     }};
 }
 

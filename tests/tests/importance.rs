@@ -74,7 +74,7 @@ fn weights_are_sound<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     let mut leaf = N::EMPTY;
     for (slot, light) in lights.iter().take(W).enumerate() {
         leaf.set_child(slot, kind::LIGHT, slot as u32);
-        children[slot] = N::Summary::of_triangle(light);
+        children[slot] = N::Summary::of_light(light);
     }
     leaf.set_summaries(&children);
     let mut inner = N::EMPTY;

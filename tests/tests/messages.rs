@@ -4,7 +4,7 @@ use std::error::Error;
 
 use lightbvh::device::point::MAX_REACH;
 use lightbvh::error::{EditError, EditReason};
-use lightbvh::light::{MAX_RADIANCE, TWO_SIDED};
+use lightbvh::light::{Light, MAX_RADIANCE, TWO_SIDED};
 use lightbvh::{
     Bvh, CompactNode, Edit, EmissiveTriangle, Lights, LightsError, RebuildError, ShadingPoint, Transform,
 };

@@ -11,7 +11,7 @@ use lightbvh_tests::oracle::{built, leaves, pmf_of};
 mod several;
 
 fn flux<N: LightNode<W>, const W: usize>(triangle: &EmissiveTriangle) -> f32 {
-    N::Summary::of_triangle(triangle).phi()
+    N::Summary::of_light(triangle).phi()
 }
 
 /// Any 64 bits, as often as not the least or the greatest of those that begin alike.

@@ -4,7 +4,7 @@ use lightbvh::bvh::{EditError, EditReason};
 use lightbvh::{Edit, EmissiveTriangle, Transform};
 
 use crate::error::{Fault, Status};
-use crate::handle::Handle;
+use crate::held::Handle;
 use crate::ids::{CInstance, CMesh};
 use crate::raw;
 

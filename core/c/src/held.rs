@@ -1,6 +1,12 @@
 //! What C holds behind a pointer.
 
+use lightbvh::LightBvh;
+
 use crate::error::{Fault, Status, guard};
+use crate::raw;
+
+/// `lightbvh`.
+pub type Handle = Held<LightBvh>;
 
 /// A value that a panic breaks while it is changed: nothing is known of it then, and it can only be freed.
 pub struct Held<T> {
@@ -59,6 +65,48 @@ impl<T> Held<T> {
         self.broken = false;
         Ok(done)
     }
+}
+
+impl Handle {
+    /// Runs a function that asks.
+    ///
+    /// # Safety
+    /// `bvh` is null or a light BVH that nobody changes meanwhile.
+    pub(crate) unsafe fn ask(
+        bvh: *const Self,
+        question: impl FnOnce(&LightBvh) -> Result<(), Fault>,
+    ) -> Status {
+        // SAFETY: the caller's promise.
+        guard(|| question(unsafe { raw::shared(bvh, "bvh") }?.sound()?))
+    }
+
+    /// Runs a function that changes.
+    ///
+    /// # Safety
+    /// `bvh` is null or a light BVH that nobody else uses meanwhile.
+    pub(crate) unsafe fn change(
+        bvh: *mut Self,
+        edit: impl FnOnce(&mut LightBvh) -> Result<(), Fault>,
+    ) -> Status {
+        // SAFETY: the caller's promise.
+        guard(|| unsafe { raw::exclusive(bvh, "bvh") }?.run(edit)?)
+    }
+}
+
+/// A light BVH without lights.
+#[unsafe(no_mangle)]
+pub extern "C" fn lightbvh_create() -> *mut Handle {
+    Held::create("light BVH", LightBvh::default)
+}
+
+/// Frees it.
+///
+/// # Safety
+/// `bvh` is null, or what `lightbvh_create` gave, and not used any more.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_free(bvh: *mut Handle) {
+    // SAFETY: the caller's promise.
+    unsafe { Held::free(bvh) }
 }
 
 #[cfg(test)]

@@ -3,7 +3,6 @@
 
 mod edit;
 mod error;
-mod handle;
 mod held;
 mod ids;
 mod query;
@@ -12,8 +11,7 @@ mod rebuilder;
 
 pub use edit::*;
 pub use error::{Status, lightbvh_last_error};
-pub use handle::{Handle, lightbvh_create, lightbvh_free};
-pub use held::Held;
+pub use held::{Handle, Held, lightbvh_create, lightbvh_free};
 pub use ids::{CInstance, CMesh};
 pub use query::*;
 pub use rebuilder::*;

@@ -1,18 +1,13 @@
 //! Functions that ask a light BVH.
 
-use std::mem::MaybeUninit;
-
 use lightbvh::bvh::EditReason;
 use lightbvh::error::DomainError;
 use lightbvh::{EmissiveTriangle, LightBvh, LightPoint, Random64, SampledLight, ShadingPoint};
 
 use crate::error::{Fault, Status};
-use crate::handle::Handle;
+use crate::held::Handle;
 use crate::ids::CInstance;
 use crate::raw;
-
-/// Points that are sampled together, held on the stack.
-const BATCH: usize = 64;
 
 fn bad_point(error: DomainError) -> Fault {
     Fault::new(Status::BadPoint, error)
@@ -67,42 +62,19 @@ pub unsafe extern "C" fn lightbvh_sample_batch(
             let randoms = raw::array(randoms, count, "randoms")?;
             let samples = raw::places(samples, count, "samples")?;
             // Nothing is written where one of them is bad.
-            for (index, point) in points.iter().enumerate() {
+            let checked = points.iter().enumerate().map(|(index, point)| {
                 let bad = |error| Fault::new(Status::BadPoint, format!("point {index}: {error}"));
-                point.checked().map_err(bad)?;
-            }
-            let parts = points.chunks(BATCH).zip(randoms.chunks(BATCH));
-            for ((points, randoms), samples) in parts.zip(samples.chunks_mut(BATCH)) {
-                batch(points, randoms, samples, |points, randoms, sampled| {
-                    bvh.sample_batch(points, randoms, sampled);
-                });
+                point.checked().map_err(bad)
+            });
+            let points = checked.collect::<Result<Vec<_>, _>>()?;
+            let randoms: Vec<_> = randoms.iter().map(|&bits| Random64::from(bits)).collect();
+            let mut sampled = vec![SampledLight::NONE; count];
+            bvh.sample_batch(&points, &randoms, &mut sampled);
+            for (place, sampled) in samples.iter_mut().zip(sampled) {
+                place.write(sampled);
             }
             Ok(())
         })
-    }
-}
-
-/// Samples at most [`BATCH`] points, all of them good.
-fn batch(
-    points: &[ShadingPoint],
-    randoms: &[u64],
-    samples: &mut [MaybeUninit<SampledLight>],
-    sample: impl FnOnce(&[ShadingPoint], &[Random64], &mut [SampledLight]),
-) {
-    let count = points.len();
-    let mut flushed = [ShadingPoint {
-        p: [0.0; 3],
-        n: [0.0; 3],
-    }; BATCH];
-    let mut numbers = [Random64::from(0_u64); BATCH];
-    let mut sampled = [SampledLight::NONE; BATCH];
-    for k in 0..count {
-        flushed[k] = points[k].checked().unwrap_or(flushed[k]);
-        numbers[k] = Random64::from(randoms[k]);
-    }
-    sample(&flushed[..count], &numbers[..count], &mut sampled[..count]);
-    for (place, sampled) in samples.iter_mut().zip(sampled) {
-        place.write(sampled);
     }
 }
 

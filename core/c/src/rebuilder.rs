@@ -4,8 +4,7 @@ use lightbvh::bvh::{FrameStart, RebuilderParams, Swap};
 use lightbvh::{MomentNode, Rebuilder};
 
 use crate::error::{Fault, Status};
-use crate::handle::Handle;
-use crate::held::Held;
+use crate::held::{Handle, Held};
 use crate::raw;
 
 /// `lightbvh_rebuilder`.

@@ -184,7 +184,7 @@ fn header_and_library_have_the_same_functions() {
     let source = concat!(
         include_str!("../src/edit.rs"),
         include_str!("../src/error.rs"),
-        include_str!("../src/handle.rs"),
+        include_str!("../src/held.rs"),
         include_str!("../src/query.rs"),
         include_str!("../src/rebuilder.rs"),
     );

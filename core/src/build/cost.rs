@@ -124,28 +124,3 @@ fn arc_cosine(x: f32) -> f32 {
     let series = 1.570_728_8 + x * (-0.212_114_4 + x * (0.074_261 + x * -0.018_729_3));
     y * rsqrt_rough(y) * series
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn orientation_measure_is_that_of_the_paper() {
-        extern crate std;
-        for i in 0..=1000 {
-            let theta_o = f64::from(i) * core::f64::consts::PI / 1000.0;
-            let theta_w = (theta_o + core::f64::consts::FRAC_PI_2).min(core::f64::consts::PI);
-            let expected = 2.0 * core::f64::consts::PI * (1.0 - theta_o.cos())
-                + core::f64::consts::FRAC_PI_2
-                    * (2.0 * theta_w * theta_o.sin()
-                        - (theta_o - 2.0 * theta_w).cos()
-                        - 2.0 * theta_o * theta_o.sin()
-                        + theta_o.cos());
-            let found = f64::from(orientation_measure(theta_o.cos() as f32));
-            assert!(
-                (found - expected).abs() < 2e-3 * expected,
-                "{theta_o}: {found}, expected {expected}"
-            );
-        }
-    }
-}

@@ -11,11 +11,11 @@ use super::{FRACTION, HIDDEN, INFINITY, ONE, SIGN};
 #[inline]
 #[must_use]
 pub fn div(a: f32, b: f32) -> f32 {
-    #[cfg(any(target_arch = "spirv", feature = "emulated"))]
+    #[cfg(target_arch = "spirv")]
     {
         div_emulated(a, b)
     }
-    #[cfg(not(any(target_arch = "spirv", feature = "emulated")))]
+    #[cfg(not(target_arch = "spirv"))]
     {
         // Equal to `div_emulated`, as both round to nearest: but for `rounded_up` no quotient lies close enough below 2^-126 to
         // be rounded up to it. One branch, seldom taken, since quotients of ordinary numbers are larger.
@@ -33,7 +33,7 @@ pub fn div(a: f32, b: f32) -> f32 {
 
 /// Whether `a / b`, which a processor gave as 2^-126, is (2 - 2^-23) 2^-127: below 2^-126 it has one bit less. Only the longest
 /// significand over a power of two is that quotient.
-#[cfg(not(any(target_arch = "spirv", feature = "emulated")))]
+#[cfg(not(target_arch = "spirv"))]
 #[inline]
 fn rounded_up(a: f32, b: f32) -> bool {
     (a.to_bits() & FRACTION == FRACTION) & (b.to_bits() & FRACTION == 0)

@@ -27,7 +27,7 @@ mod scale;
 
 pub use div::{div, div_emulated, recip, recip_rough};
 pub use hash::{hash, unit_f32};
-pub use order::{abs, clamp, floor_small, floor_u32, flush, max, min, order_key};
+pub use order::{abs, clamp, floor_small, floor_u32, flush, max, min};
 pub(crate) use order::{mask, mask_of, masked, masked_u32};
 pub use root::{rsqrt, rsqrt_rough, sqrt, sqrt_emulated};
 pub(crate) use scale::power;

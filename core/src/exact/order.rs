@@ -105,15 +105,6 @@ pub fn floor_small(x: f32) -> u32 {
     }
 }
 
-/// An integer that sorts as `x` does, with -0 just before +0: a total order that no processor can see differently.
-#[inline]
-#[must_use]
-pub fn order_key(x: f32) -> u32 {
-    let bits = x.to_bits();
-    // All ones for a negative number, whose order on bits is reversed; only the sign bit for a positive one.
-    bits ^ (((bits as i32) >> 31) as u32 | SIGN)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -12,11 +12,11 @@ use super::{FRACTION, HIDDEN, ONE};
 #[inline]
 #[must_use]
 pub fn sqrt(x: f32) -> f32 {
-    #[cfg(any(target_arch = "spirv", feature = "emulated", not(feature = "std")))]
+    #[cfg(any(target_arch = "spirv", not(feature = "std")))]
     {
         sqrt_emulated(x)
     }
-    #[cfg(not(any(target_arch = "spirv", feature = "emulated", not(feature = "std"))))]
+    #[cfg(not(any(target_arch = "spirv", not(feature = "std"))))]
     {
         // The one place where the native root is right: IEEE 754 rounds it correctly, and the device does not get here.
         #[allow(clippy::disallowed_methods)]

@@ -100,7 +100,7 @@ impl Eq4 {
 
 /// Φ · factor / (d² + r²/12), exponents apart.
 #[inline(always)]
-fn over_distance(cluster: &Cluster, distance_squared: f32, factor: f32) -> Scaled {
+pub(super) fn over_distance(cluster: &Cluster, distance_squared: f32, factor: f32) -> Scaled {
     let soft = exact::max(
         distance_squared + cluster.radius_squared * SOFTENING,
         MIN_DISTANCE_SQUARED,

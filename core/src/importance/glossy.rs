@@ -46,11 +46,6 @@ impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W,
         }
         weights
     }
-
-    #[inline(always)]
-    fn quotient(a: f32, b: f32) -> f32 {
-        I::quotient(a, b)
-    }
 }
 
 /// Weights are within 2^-120 to 2^120: all that an importance may give, times a lobe, is in a wider range.

@@ -37,9 +37,4 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
         }
         weights
     }
-
-    #[inline(always)]
-    fn quotient(a: f32, b: f32) -> f32 {
-        I::quotient(a, b)
-    }
 }

@@ -84,9 +84,4 @@ impl<N: Node<W>, I: ImportanceModel<N, W, P>, P, const W: usize> ImportanceModel
         }
         weights
     }
-
-    #[inline(always)]
-    fn quotient(a: f32, b: f32) -> f32 {
-        I::quotient(a, b)
-    }
 }

@@ -31,10 +31,6 @@ pub use crate::node::Cluster;
 use crate::point::ShadingPoint;
 #[doc(inline)]
 pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, TransmissivePoint};
-#[cfg(any(feature = "std", target_arch = "spirv"))]
-pub use crate::weight::NativeMath;
-#[doc(hidden)]
-pub use crate::weight::{ExactMath, Math};
 
 /// A measure of what the lights below each child of a node may contribute at a point. A type chooses it, so that kernels
 /// contain one only.
@@ -59,14 +55,6 @@ pub trait ImportanceModel<N, const W: usize, P = ShadingPoint> {
     #[inline(always)]
     fn weights(node: &N, point: &P) -> [f32; W] {
         Self::weights_in(node, point, Space::WORLD)
-    }
-
-    /// The quotient that shares of uniform choice are computed by: correctly rounded, unless the importance takes the processor's own
-    /// operations.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn quotient(a: f32, b: f32) -> f32 {
-        exact::div(a, b)
     }
 }
 
@@ -98,11 +86,6 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
     #[inline(always)]
     fn weights_in(node: &N, point: &P, space: Space) -> [f32; W] {
         I::weights_in(node, point, space)
-    }
-
-    #[inline(always)]
-    fn quotient(a: f32, b: f32) -> f32 {
-        I::quotient(a, b)
     }
 }
 

@@ -37,9 +37,4 @@ impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W, Transmis
         }
         weights
     }
-
-    #[inline(always)]
-    fn quotient(a: f32, b: f32) -> f32 {
-        I::quotient(a, b)
-    }
 }

@@ -230,14 +230,14 @@ fn normals_that_are_lost() {
 /// where the mesh's triangle has no area, though rounding gives it some in the world.
 #[test]
 fn radiance_in_the_world() {
-    use crate::light::{EmissiveTriangle, MAX_RADIANCE, MIN_RADIANCE};
+    use crate::light::{EmissiveTriangle, Light, MAX_RADIANCE, MIN_RADIANCE};
     let of_colors = |radiance: [f32; 3], factor: [f32; 3]| {
         let triangle = EmissiveTriangle {
             radiance,
             ..triangle([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
         };
         let instance = Transform::IDENTITY.instance_by(factor, 2);
-        instance.triangle(&triangle, 7).radiance
+        triangle.in_world(&instance, 7).radiance
     };
     let of = |radiance, factor| of_colors(radiance, [factor; 3]);
     assert_eq!(of([1.0, 0.0, 3.0], 0.5), [0.5, 0.0, 1.5]);
@@ -255,7 +255,7 @@ fn radiance_in_the_world() {
     let mut bent = 0;
     for _ in 0..100 {
         let (columns, _) = map(&mut random, 1.0);
-        let world = placed(columns, random.vector(), 1.0).triangle(&line, 0);
+        let world = line.in_world(&placed(columns, random.vector(), 1.0), 0);
         assert_eq!(world.radiance, [0.0; 3]);
         bent += u32::from(LightBounds::of_triangle(&triangle(world.p)).phi > 0.0);
     }

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{Each, Light, wrong_flags};
+use super::record::{Each, Light, of_mesh};
 use super::{
     BoxLight, DiscLight, EmissiveTriangle, INVALID, LightPoint, PointLight, ProfileLight, RectangleLight,
     SphereLight, SpotLight, TWO_SIDED,
@@ -19,7 +19,7 @@ use crate::instance::Instance;
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct AnyLight {
     /// A place, then axes, edges, radius and cosines as the kind has them, in the order of its fields; zero where it has fewer.
-    words: [f32; 12],
+    words: [[f32; 3]; 4],
     /// Radiance or intensity, linear RGB.
     emission: [f32; 3],
     /// Index of the mesh light that owns it.
@@ -81,166 +81,39 @@ impl AnyLight {
     fn flags(&self) -> u32 {
         self.kind >> KIND_BITS
     }
-
-    /// Three words from `at` on: 0, 3, 6 or 9. By a choice: rust-gpu inlines whatever has an index that might be out of bounds.
-    #[inline(always)]
-    fn three(&self, at: usize) -> [f32; 3] {
-        let w = &self.words;
-        if at == 0 {
-            [w[0], w[1], w[2]]
-        } else if at == 3 {
-            [w[3], w[4], w[5]]
-        } else if at == 6 {
-            [w[6], w[7], w[8]]
-        } else {
-            [w[9], w[10], w[11]]
-        }
-    }
-
-    #[inline(always)]
-    fn new(kind: u32, flags: u32, mesh: u32, emission: [f32; 3]) -> Self {
-        Self {
-            words: [0.0; 12],
-            emission,
-            mesh,
-            kind: kind | (flags << KIND_BITS),
-        }
-    }
-
-    #[inline(always)]
-    fn with(mut self, at: usize, three: &[f32; 3]) -> Self {
-        let w = &mut self.words;
-        if at == 0 {
-            (w[0], w[1], w[2]) = (three[0], three[1], three[2]);
-        } else if at == 3 {
-            (w[3], w[4], w[5]) = (three[0], three[1], three[2]);
-        } else if at == 6 {
-            (w[6], w[7], w[8]) = (three[0], three[1], three[2]);
-        } else {
-            (w[9], w[10], w[11]) = (three[0], three[1], three[2]);
-        }
-        self
-    }
-
-    #[inline(always)]
-    fn triangle(&self) -> EmissiveTriangle {
-        EmissiveTriangle {
-            p: [self.three(0), self.three(3), self.three(6)],
-            radiance: self.emission,
-            mesh: self.mesh,
-            flags: self.flags(),
-        }
-    }
-
-    #[inline(always)]
-    fn point(&self) -> PointLight {
-        PointLight {
-            p: self.three(0),
-            intensity: self.emission,
-            range: self.words[3],
-            mesh: self.mesh,
-        }
-    }
-
-    #[inline(always)]
-    fn spot(&self) -> SpotLight {
-        SpotLight {
-            p: self.three(0),
-            intensity: self.emission,
-            axis: self.three(3),
-            cos_inner: self.words[6],
-            cos_outer: self.words[7],
-            range: self.words[8],
-            mesh: self.mesh,
-        }
-    }
-
-    #[inline(always)]
-    fn sphere(&self) -> SphereLight {
-        SphereLight {
-            p: self.three(0),
-            radius: self.words[3],
-            radiance: self.emission,
-            mesh: self.mesh,
-        }
-    }
-
-    #[inline(always)]
-    fn rectangle(&self) -> RectangleLight {
-        RectangleLight {
-            p: self.three(0),
-            half: [self.three(3), self.three(6)],
-            radiance: self.emission,
-            mesh: self.mesh,
-            flags: self.flags(),
-        }
-    }
-
-    #[inline(always)]
-    fn disc(&self) -> DiscLight {
-        DiscLight {
-            p: self.three(0),
-            half: [self.three(3), self.three(6)],
-            radiance: self.emission,
-            mesh: self.mesh,
-            flags: self.flags(),
-        }
-    }
-
-    #[inline(always)]
-    fn volume(&self) -> BoxLight {
-        BoxLight {
-            p: self.three(0),
-            half: [self.three(3), self.three(6), self.three(9)],
-            radiance: self.emission,
-            mesh: self.mesh,
-        }
-    }
-    /// It as a [`ProfileLight`]; numbers that mean nothing where it is of another kind.
-    #[inline(always)]
-    #[must_use]
-    pub fn profile(&self) -> ProfileLight {
-        let [cos_outer, whole, mean_cosine] = self.three(9);
-        ProfileLight {
-            p: self.three(0),
-            intensity: self.emission,
-            axis: self.three(3),
-            across: self.three(6),
-            cos_outer,
-            whole,
-            mean_cosine,
-            mesh: self.mesh,
-            flags: self.flags(),
-        }
-    }
 }
 
-macro_rules! into_any {
-    ($($light:ident: $own:ident $kind:ident, $flags:expr, $emission:ident, [$($at:literal $three:expr),*];)*) => {
-        $(impl From<$own> for AnyLight {
+/// Words that a kind has not.
+const NONE: [f32; 3] = [0.0; 3];
+
+/// For each kind the light that the words say, by a function of this name, and the flags and words of a light.
+macro_rules! kinds {
+    ($any:ident, $own:ident: $($(#[$doc:meta])* $vis:vis $as:ident: $light:ident $kind:ident $emission:ident {
+        $($field:ident: $of:expr),*
+    } $flags:expr, $words:expr;)*) => {
+        impl AnyLight {
+            $($(#[$doc])*
             #[inline(always)]
-            fn from($light: $own) -> Self {
-                Self::new(Self::$kind, $flags, $light.mesh, $light.$emission)$(.with($at, &$three))*
+            #[must_use]
+            $vis fn $as(&self) -> $light {
+                let $any = self;
+                $light { $emission: $any.emission, mesh: $any.mesh, $($field: $of),* }
+            })*
+        }
+
+        $(impl From<$light> for AnyLight {
+            #[inline(always)]
+            fn from($own: $light) -> Self {
+                Self {
+                    words: $words,
+                    emission: $own.$emission,
+                    mesh: $own.mesh,
+                    kind: Self::$kind | ($flags << KIND_BITS),
+                }
             }
-        })*
-    };
-}
+        }
 
-into_any!(
-    own: EmissiveTriangle TRIANGLE, own.flags, radiance, [0 own.p[0], 3 own.p[1], 6 own.p[2]];
-    own: PointLight POINT, 0, intensity, [0 own.p, 3 [own.range, 0.0, 0.0]];
-    own: SpotLight SPOT, 0, intensity, [0 own.p, 3 own.axis, 6 [own.cos_inner, own.cos_outer, own.range]];
-    own: SphereLight SPHERE, 0, radiance, [0 own.p, 3 [own.radius, 0.0, 0.0]];
-    own: RectangleLight RECTANGLE, own.flags, radiance, [0 own.p, 3 own.half[0], 6 own.half[1]];
-    own: DiscLight DISC, own.flags, radiance, [0 own.p, 3 own.half[0], 6 own.half[1]];
-    own: BoxLight BOX, 0, radiance, [0 own.p, 3 own.half[0], 6 own.half[1], 9 own.half[2]];
-    own: ProfileLight PROFILE, own.flags, intensity,
-        [0 own.p, 3 own.axis, 6 own.across, 9 [own.cos_outer, own.whole, own.mean_cosine]];
-);
-
-macro_rules! back {
-    ($($own:ident $kind:ident $as:ident),*) => {
-        $(impl TryFrom<AnyLight> for $own {
+        impl TryFrom<AnyLight> for $light {
             type Error = AnyLight;
 
             /// The light itself where it is of another kind.
@@ -251,15 +124,34 @@ macro_rules! back {
     };
 }
 
-back!(
-    EmissiveTriangle TRIANGLE triangle,
-    PointLight POINT point,
-    SpotLight SPOT spot,
-    SphereLight SPHERE sphere,
-    RectangleLight RECTANGLE rectangle,
-    DiscLight DISC disc,
-    BoxLight BOX volume,
-    ProfileLight PROFILE profile
+kinds!(any, own:
+    triangle: EmissiveTriangle TRIANGLE radiance {
+        p: [any.words[0], any.words[1], any.words[2]], flags: any.flags()
+    } own.flags, [own.p[0], own.p[1], own.p[2], NONE];
+    point: PointLight POINT intensity {
+        p: any.words[0], range: any.words[1][0]
+    } 0, [own.p, [own.range, 0.0, 0.0], NONE, NONE];
+    spot: SpotLight SPOT intensity {
+        p: any.words[0], axis: any.words[1],
+        cos_inner: any.words[2][0], cos_outer: any.words[2][1], range: any.words[2][2]
+    } 0, [own.p, own.axis, [own.cos_inner, own.cos_outer, own.range], NONE];
+    sphere: SphereLight SPHERE radiance {
+        p: any.words[0], radius: any.words[1][0]
+    } 0, [own.p, [own.radius, 0.0, 0.0], NONE, NONE];
+    rectangle: RectangleLight RECTANGLE radiance {
+        p: any.words[0], half: [any.words[1], any.words[2]], flags: any.flags()
+    } own.flags, [own.p, own.half[0], own.half[1], NONE];
+    disc: DiscLight DISC radiance {
+        p: any.words[0], half: [any.words[1], any.words[2]], flags: any.flags()
+    } own.flags, [own.p, own.half[0], own.half[1], NONE];
+    volume: BoxLight BOX radiance {
+        p: any.words[0], half: [any.words[1], any.words[2], any.words[3]]
+    } 0, [own.p, own.half[0], own.half[1], own.half[2]];
+    /// It as a [`ProfileLight`]; numbers that mean nothing where it is of another kind.
+    pub profile: ProfileLight PROFILE intensity {
+        p: any.words[0], axis: any.words[1], across: any.words[2],
+        cos_outer: any.words[3][0], whole: any.words[3][1], mean_cosine: any.words[3][2], flags: any.flags()
+    } own.flags, [own.p, own.axis, own.across, [own.cos_outer, own.whole, own.mean_cosine]];
 );
 
 /// What `$of` says of the light as what its kind makes it; any kind that is none counts as a point without intensity.
@@ -299,42 +191,31 @@ fn point_on(light: AnyLight, from: Vec3, uv: [f32; 2]) -> LightPoint {
 impl Light for AnyLight {
     const NAME: &'static str = "light of any kind";
     const DARK: Self = Self {
-        words: [0.0; 12],
+        words: [NONE; 4],
         emission: [0.0; 3],
         mesh: INVALID,
         kind: Self::POINT,
     };
-    const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+    of_mesh!();
     const HAS_FLUX_POWERS: bool = true;
     type Slots<const W: usize> = Each<Self, W>;
 
     fn checked(self) -> Result<Self, DomainError> {
-        let known = match self.kind() {
-            Self::TRIANGLE | Self::RECTANGLE | Self::DISC => TWO_SIDED,
-            Self::PROFILE => ProfileLight::MIRRORED,
-            _ => 0,
-        };
-        if self.flags() & !known != 0 {
-            return Err(wrong_flags(self.flags()));
+        let unknown = "one of AnyLight's; make it by `AnyLight::from`";
+        let light: Self = by_kind!(self, own => own.checked()?.into(), {
+            return Err(DomainError::bits("the kind of a light", self.kind(), unknown));
+        });
+        // A kind without flags has left them out.
+        if light.kind != self.kind {
+            let expected = "0 for a light of this kind; clear all bits";
+            return Err(DomainError::bits("the word of flags", self.flags(), expected));
         }
-        by_kind!(self, own => Ok(own.checked()?.into()), Err(DomainError::bits(
-            "the kind of a light", self.kind(), "one of AnyLight's; make it by `AnyLight::from`"
-        )))
-    }
-
-    #[inline(always)]
-    fn mesh(&self) -> u32 {
-        self.mesh
-    }
-
-    #[inline(always)]
-    fn of_mesh(self, mesh: u32) -> Self {
-        Self { mesh, ..self }
+        Ok(light)
     }
 
     #[inline(always)]
     fn centroid(&self) -> [f32; 3] {
-        by_kind!(self, own => own.centroid(), self.three(0))
+        by_kind!(self, own => own.centroid(), self.words[0])
     }
 
     fn reach(&self) -> f32 {

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{Each, Light, bounds, greatest, of_mesh_at_place, shining, wrong_flags};
+use super::record::{Each, Light, bounds, checked_sides, greatest, of_mesh_at_place, shining};
 use super::round::disc;
 use super::{INVALID, LightPoint, MIN_OFFSET, TWO_SIDED};
 use crate::bounds::{LightBounds, LightMoments};
@@ -12,28 +12,9 @@ use crate::domain::{DomainError, checked_emission, checked_place};
 use crate::emission::{Emission, flux_of, luminance_of};
 use crate::exact::{self, pow2};
 use crate::instance::Instance;
-use crate::light::point::MAX_DENSITY;
 use crate::vector::{abs3, dot, flush3, greatest_exponent, max3, vector};
 
-/// What a rectangle and a disc share: a centre and two half axes. Area 0 has no flux.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-struct Flat {
-    p: [f32; 3],
-    half: [[f32; 3]; 2],
-    radiance: [f32; 3],
-    mesh: u32,
-    flags: u32,
-}
-
-/// What messages call a shape's parts.
-struct Names {
-    place: &'static str,
-    edge: &'static str,
-    radiance: &'static str,
-}
-
-/// What tells the two shapes apart. By value and without texts: rust-gpu has no constants that hold pointers.
+/// What tells the two shapes apart.
 #[derive(Clone, Copy)]
 struct Shape {
     /// The inverse of area over the length of the half axes' product.
@@ -46,22 +27,10 @@ struct Shape {
 
 const PI: f32 = core::f32::consts::PI;
 
-const RECTANGLE_NAMES: Names = Names {
-    place: "centre of a rectangle",
-    edge: "half axis of a rectangle",
-    radiance: "radiance of a rectangle",
-};
-
 const RECTANGLE: Shape = Shape {
     per_area: 0.25,
     flux: 4.0 * PI,
     half_variance: 1.0 / 6.0,
-};
-
-const DISC_NAMES: Names = Names {
-    place: "centre of a disc",
-    edge: "half axis of a disc",
-    radiance: "radiance of a disc",
 };
 
 const DISC: Shape = Shape {
@@ -74,6 +43,10 @@ const DISC: Shape = Shape {
 const LEAST_EXPONENT: i32 = -100;
 /// Exponent of the least cross product, in units of the longest axis squared, that has a direction.
 const LEAST_CROSS: i32 = -60;
+/// The normal of axes whose product is less than this part of the longer one squared may be turned by rounding: its cone is all directions.
+const LEAST_NORMAL: i32 = -16;
+/// What rounding turns the normal of others by at most, 2^-5 rad: half its square.
+const TURN: f32 = pow2(-11);
 
 /// The axes by a power of two, so that no product of theirs leaves the range; and the light's emission.
 struct Scaled {
@@ -83,140 +56,16 @@ struct Scaled {
     emission: Emission,
 }
 
-impl Flat {
-    // By a choice: rust-gpu inlines whatever has an index that might be out of bounds.
-    #[inline(always)]
-    fn axis(&self, k: usize) -> Vec3 {
-        let half = if k == 0 { self.half[0] } else { self.half[1] };
-        vector(&half)
-    }
-
-    #[inline(always)]
-    fn is_two_sided(&self) -> bool {
-        self.flags & TWO_SIDED != 0
-    }
-
-    #[inline(always)]
-    fn scaled(&self, shape: Shape) -> Scaled {
-        let (a, b) = (self.axis(0), self.axis(1));
-        let e = greatest_exponent(max3(abs3(a), abs3(b)), LEAST_EXPONENT);
-        let to_one = exact::power(-e);
-        let (a, b) = (a * to_one, b * to_one);
-        let sides = if self.is_two_sided() { 2.0 } else { 1.0 };
-        let emission = flux_of(a, b, e, luminance_of(&self.radiance), shape.flux * sides);
-        Scaled { a, b, e, emission }
-    }
-
-    fn checked(mut self, names: &Names) -> Result<Self, DomainError> {
-        self.p = checked_place(names.place, self.p)?;
-        for k in 0..2 {
-            self.half[k] = checked_place(names.edge, self.half[k])?;
-        }
-        self.radiance = checked_emission(names.radiance, self.radiance)?;
-        if self.flags & !TWO_SIDED != 0 {
-            return Err(wrong_flags(self.flags));
-        }
-        Ok(self)
-    }
-
-    fn reach(&self) -> f32 {
-        let edges = greatest(&self.half[0]) + greatest(&self.half[1]);
-        exact::min(greatest(&self.p) + edges, super::MAX_COORDINATE)
-    }
-
-    #[inline(always)]
-    fn bounds(&self, shape: Shape, half: Vec3) -> LightBounds {
-        let own = self.scaled(shape);
-        let directed = !self.is_two_sided() & (own.emission.exponent >= LEAST_NORMAL);
-        let cone = if directed {
-            Cone {
-                axis: normalized(own.emission.normal),
-                cos_theta_o: 1.0 - TURN,
-            }
-        } else {
-            Cone::SPHERE
-        };
-        bounds(&self.p, half, cone, own.emission.phi)
-    }
-
-    #[inline(always)]
-    fn moments(&self, shape: Shape, half: Vec3) -> LightMoments {
-        let own = self.scaled(shape);
-        let sum = dot(own.a, own.a) + dot(own.b, own.b);
-        let across = exact::sqrt(sum * shape.half_variance) * exact::power(own.e);
-        let directed = !self.is_two_sided() & (own.emission.exponent >= LEAST_CROSS);
-        let directed = exact::mask_of(directed);
-        LightMoments {
-            phi: own.emission.phi,
-            c: vector(&self.p),
-            across,
-            along: exact::masked(!directed, across),
-            m: own.emission.normal * exact::masked(directed, exact::rsqrt(own.emission.squared)),
-            h: half,
-        }
-    }
-
-    #[inline(always)]
-    fn has_flux(&self, shape: Shape) -> bool {
-        self.scaled(shape).emission.phi > 0.0
-    }
-
-    #[inline(always)]
-    fn in_world(&self, shape: Shape, instance: &Instance, index: u32) -> Self {
-        let a = instance.edge_to_world(self.axis(0));
-        let b = instance.edge_to_world(self.axis(1));
-        // Where the map mirrors, the axes change places, so that the front stays in front.
-        let mirrored = instance.mirrors();
-        let (first, second) = if mirrored { (b, a) } else { (a, b) };
-        Self {
-            p: instance.vertex(self.p),
-            half: [[first.x, first.y, first.z], [second.x, second.y, second.z]],
-            radiance: shining(&self.radiance, &instance.radiance, self.has_flux(shape)),
-            mesh: index,
-            flags: self.flags,
-        }
-    }
-
-    /// The point at `x` and `y` half axes from the centre.
-    #[inline(always)]
-    fn point(&self, shape: Shape, [x, y]: [f32; 2]) -> LightPoint {
-        let own = self.scaled(shape);
-        let has_area = own.emission.exponent >= -100;
-        let per_length = exact::div(1.0, exact::sqrt(own.emission.squared));
-        let exponent = own.emission.exponent + own.e + own.e;
-        let density = (per_length * shape.per_area) * pow2(-exponent);
-        let offset = flush3(self.axis(0) * x, MIN_OFFSET) + flush3(self.axis(1) * y, MIN_OFFSET);
-        let p = vector(&self.p) + offset;
-        let n = own.emission.normal * per_length;
-        LightPoint {
-            p: [p.x, p.y, p.z],
-            density: if has_area {
-                exact::min(density, MAX_DENSITY)
-            } else {
-                0.0
-            },
-            normal: if has_area { [n.x, n.y, n.z] } else { [0.0; 3] },
-            flags: self.flags,
-            radiance: self.radiance,
-        }
-    }
-}
-
-/// The normal of axes whose product is less than this part of the longer one squared may be turned by rounding: its cone is all directions.
-const LEAST_NORMAL: i32 = -16;
-/// What rounding turns the normal of others by at most, 2^-5 rad: half its square.
-const TURN: f32 = pow2(-11);
-
 /// Half extents of a rectangle: the sums of its axes' magnitudes.
 #[inline(always)]
-fn box_of(flat: &Flat) -> Vec3 {
-    abs3(flat.axis(0)) + abs3(flat.axis(1))
+fn box_of(a: Vec3, b: Vec3) -> Vec3 {
+    abs3(a) + abs3(b)
 }
 
 /// Half extents of an ellipse with these half axes.
 #[inline(always)]
-fn ellipse_of(flat: &Flat) -> Vec3 {
-    let (a, b) = (abs3(flat.axis(0)), abs3(flat.axis(1)));
+fn ellipse_of(a: Vec3, b: Vec3) -> Vec3 {
+    let (a, b) = (abs3(a), abs3(b));
     let e = greatest_exponent(max3(a, b), LEAST_EXPONENT);
     let (to_one, unit) = (exact::power(-e), exact::power(e));
     let half = |a: f32, b: f32| {
@@ -230,7 +79,7 @@ fn ellipse_of(flat: &Flat) -> Vec3 {
 }
 
 macro_rules! flat_light {
-    ($(#[$doc:meta])* $name:ident, $text:expr, $names:expr, $shape:expr, $half:expr, $place:expr) => {
+    ($(#[$doc:meta])* $name:ident, $text:literal, $shape:expr, $half:expr, $place:expr) => {
         $(#[$doc])*
         #[repr(C)]
         #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -249,25 +98,25 @@ macro_rules! flat_light {
 
         impl $name {
             #[inline(always)]
-            fn flat(&self) -> Flat {
-                Flat {
-                    p: self.p,
-                    half: self.half,
-                    radiance: self.radiance,
-                    mesh: self.mesh,
-                    flags: self.flags,
-                }
+            fn is_two_sided(&self) -> bool {
+                self.flags & TWO_SIDED != 0
             }
 
             #[inline(always)]
-            fn of(flat: &Flat) -> Self {
-                Self {
-                    p: flat.p,
-                    half: flat.half,
-                    radiance: flat.radiance,
-                    mesh: flat.mesh,
-                    flags: flat.flags,
-                }
+            fn scaled(&self) -> Scaled {
+                let (a, b) = (vector(&self.half[0]), vector(&self.half[1]));
+                let e = greatest_exponent(max3(abs3(a), abs3(b)), LEAST_EXPONENT);
+                let to_one = exact::power(-e);
+                let (a, b) = (a * to_one, b * to_one);
+                let sides = if self.is_two_sided() { 2.0 } else { 1.0 };
+                let emission = flux_of(a, b, e, luminance_of(&self.radiance), $shape.flux * sides);
+                Scaled { a, b, e, emission }
+            }
+
+            /// Half extents.
+            #[inline(always)]
+            fn extent(&self) -> Vec3 {
+                $half(vector(&self.half[0]), vector(&self.half[1]))
             }
         }
 
@@ -283,39 +132,86 @@ macro_rules! flat_light {
             of_mesh_at_place!();
             type Slots<const W: usize> = Each<Self, W>;
 
-            fn checked(self) -> Result<Self, DomainError> {
-                Ok(Self::of(&self.flat().checked(&$names)?))
+            fn checked(mut self) -> Result<Self, DomainError> {
+                self.p = checked_place(concat!("centre of a ", $text), self.p)?;
+                for k in 0..2 {
+                    self.half[k] = checked_place(concat!("half axis of a ", $text), self.half[k])?;
+                }
+                self.radiance = checked_emission(concat!("radiance of a ", $text), self.radiance)?;
+                checked_sides(self.flags)?;
+                Ok(self)
             }
 
             fn reach(&self) -> f32 {
-                self.flat().reach()
+                let edges = greatest(&self.half[0]) + greatest(&self.half[1]);
+                exact::min(greatest(&self.p) + edges, super::MAX_COORDINATE)
             }
 
             #[inline(always)]
             fn has_flux(&self) -> bool {
-                self.flat().has_flux($shape)
+                self.scaled().emission.phi > 0.0
             }
 
             #[inline(always)]
             fn bounds(&self) -> LightBounds {
-                let flat = self.flat();
-                flat.bounds($shape, $half(&flat))
+                let own = self.scaled();
+                let directed = !self.is_two_sided() & (own.emission.exponent >= LEAST_NORMAL);
+                let cone = if directed {
+                    Cone {
+                        axis: normalized(own.emission.normal),
+                        cos_theta_o: 1.0 - TURN,
+                    }
+                } else {
+                    Cone::SPHERE
+                };
+                bounds(&self.p, self.extent(), cone, own.emission.phi)
             }
 
             #[inline(always)]
             fn moments(&self) -> LightMoments {
-                let flat = self.flat();
-                flat.moments($shape, $half(&flat))
+                let own = self.scaled();
+                let sum = dot(own.a, own.a) + dot(own.b, own.b);
+                let across = exact::sqrt(sum * $shape.half_variance) * exact::power(own.e);
+                let directed = !self.is_two_sided() & (own.emission.exponent >= LEAST_CROSS);
+                let directed = exact::mask_of(directed);
+                LightMoments {
+                    phi: own.emission.phi,
+                    c: vector(&self.p),
+                    across,
+                    along: exact::masked(!directed, across),
+                    m: own.emission.normal * exact::masked(directed, exact::rsqrt(own.emission.squared)),
+                    h: self.extent(),
+                }
             }
 
+            /// Where the map mirrors, the axes change places, so that the front stays in front.
             #[inline(always)]
             fn in_world(&self, instance: &Instance, index: u32) -> Self {
-                Self::of(&self.flat().in_world($shape, instance, index))
+                let a = instance.edge_to_world(vector(&self.half[0]));
+                let b = instance.edge_to_world(vector(&self.half[1]));
+                let mirrored = instance.mirrors();
+                let (first, second) = if mirrored { (b, a) } else { (a, b) };
+                Self {
+                    p: instance.vertex(self.p),
+                    half: [[first.x, first.y, first.z], [second.x, second.y, second.z]],
+                    radiance: shining(&self.radiance, &instance.radiance, self.has_flux()),
+                    mesh: index,
+                    flags: self.flags,
+                }
             }
 
             #[inline(always)]
             fn point_for(&self, _from: Vec3, uv: [f32; 2]) -> LightPoint {
-                self.flat().point($shape, $place(uv))
+                let own = self.scaled();
+                let [x, y] = $place(uv);
+                let has_area = own.emission.exponent >= -100;
+                let per_length = exact::div(1.0, exact::sqrt(own.emission.squared));
+                let exponent = own.emission.exponent + own.e + own.e;
+                let density = (per_length * $shape.per_area) * pow2(-exponent);
+                let along = flush3(vector(&self.half[0]) * x, MIN_OFFSET);
+                let p = vector(&self.p) + (along + flush3(vector(&self.half[1]) * y, MIN_OFFSET));
+                let n = own.emission.normal * per_length;
+                LightPoint::on_surface((p, n), has_area, density, self.flags, self.radiance)
             }
         }
     };
@@ -331,7 +227,6 @@ flat_light!(
     /// front side (or of both sides).
     RectangleLight,
     "rectangle",
-    RECTANGLE_NAMES,
     RECTANGLE,
     box_of,
     square
@@ -342,7 +237,6 @@ flat_light!(
     /// of its front side (or of both sides).
     DiscLight,
     "disc",
-    DISC_NAMES,
     DISC,
     ellipse_of,
     disc

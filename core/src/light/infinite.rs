@@ -40,5 +40,5 @@ pub use distant::DistantLight;
 pub use environment::{EnvironmentMap, EnvironmentSample, MAX_LEVELS};
 pub use octahedron::{direction_at, place_of};
 #[cfg(feature = "alloc")]
-pub use owned::{Environment, EnvironmentError};
+pub use owned::Environment;
 pub use split::{Share, Split};

@@ -42,6 +42,25 @@ impl LightPoint {
     /// there is no cosine at the light.
     pub const IS_VOLUME: u32 = 4;
 
+    /// The point `p` of a surface of the normal `n`; without density and normal where the light has no area.
+    #[inline(always)]
+    pub(super) fn on_surface(
+        (p, n): (Vec3, Vec3),
+        has_area: bool,
+        density: f32,
+        flags: u32,
+        radiance: [f32; 3],
+    ) -> Self {
+        let density = exact::min(density, MAX_DENSITY);
+        Self {
+            p: [p.x, p.y, p.z],
+            density: if has_area { density } else { 0.0 },
+            normal: if has_area { [n.x, n.y, n.z] } else { [0.0; 3] },
+            flags,
+            radiance,
+        }
+    }
+
     /// What the light sends to a point, W/m², one estimate: radiance times both cosines over squared distance and density, nothing between
     /// them. At a point in a volume the receiver's cosine is 1. Zero where it lies within 2^-50 m, and where it is below 2^-120, for radiance 1
     /// too.
@@ -161,7 +180,7 @@ impl LightPoint {
 }
 
 /// Greatest density over area, 1/m².
-pub(super) const MAX_DENSITY: f32 = exact::pow2(120);
+const MAX_DENSITY: f32 = exact::pow2(120);
 
 /// A uniformly distributed point on the triangle at `p0` with edges `e1` and `e2`, from two numbers in [0, 1): a point of the
 /// parallelogram, folded over its diagonal (G. Turk, "Generating random points in triangles", Graphics Gems, 1990). No root,

@@ -103,7 +103,7 @@ impl Light for ProfileLight {
         self.axis = checked_axis(self.axis)?;
         self.across = checked_axis(self.across)?;
         if exact::abs(dot(vector(&self.axis), vector(&self.across))) > NORMAL_TOLERANCE {
-            let expected = "a direction at right angles to the axis; take out what is along it";
+            let expected = "a direction at right angles to the axis; subtract its part along the axis";
             return Err(DomainError::vector(
                 "the direction across a profile",
                 self.across,

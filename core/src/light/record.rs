@@ -5,7 +5,7 @@ use core::fmt::Debug;
 use bytemuck::Pod;
 use glam::Vec3;
 
-use super::{INVALID, LightPoint, MAX_RADIANCE, MIN_RADIANCE};
+use super::{INVALID, LightPoint, MAX_RADIANCE, MIN_RADIANCE, TWO_SIDED};
 use crate::beam::{Beam, Limits};
 use crate::bounds::{LightBounds, LightMoments};
 use crate::cone::Cone;
@@ -164,13 +164,13 @@ pub(super) fn greatest(coordinates: &[f32]) -> f32 {
         .fold(0.0, |most, &x| exact::max(most, exact::abs(x)))
 }
 
-/// Why flags of a light with sides are refused.
-pub(super) fn wrong_flags(flags: u32) -> DomainError {
-    DomainError::bits(
-        "the word of flags",
-        flags,
-        "0 or TWO_SIDED (1); clear the other bits",
-    )
+/// Refuses flags of a light with sides that are no [`TWO_SIDED`].
+pub(super) fn checked_sides(flags: u32) -> Result<(), DomainError> {
+    if flags & !TWO_SIDED == 0 {
+        return Ok(());
+    }
+    let expected = "0 or TWO_SIDED (1); clear the other bits";
+    Err(DomainError::bits("the word of flags", flags, expected))
 }
 
 /// A direction of length 1, up to [`NORMAL_TOLERANCE`], at length 1.
@@ -243,8 +243,8 @@ pub(super) fn towards(p: Vec3, q: Vec3) -> Vec3 {
     scaled * exact::rsqrt(exact::max(length_squared(scaled), pow2(-60)))
 }
 
-/// What all kinds with a place `p` and a `mesh` have alike.
-macro_rules! of_mesh_at_place {
+/// What all kinds with a `mesh` have alike.
+macro_rules! of_mesh {
     () => {
         const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
 
@@ -257,6 +257,13 @@ macro_rules! of_mesh_at_place {
         fn of_mesh(self, mesh: u32) -> Self {
             Self { mesh, ..self }
         }
+    };
+}
+
+/// What all kinds with a place `p` and a `mesh` have alike.
+macro_rules! of_mesh_at_place {
+    () => {
+        $crate::light::record::of_mesh!();
 
         #[inline(always)]
         fn centroid(&self) -> [f32; 3] {
@@ -265,4 +272,4 @@ macro_rules! of_mesh_at_place {
     };
 }
 
-pub(super) use of_mesh_at_place;
+pub(super) use {of_mesh, of_mesh_at_place};

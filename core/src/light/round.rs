@@ -60,23 +60,4 @@ mod tests {
             );
         }
     }
-
-    /// Equal areas: means of squares, and of a quarter.
-    #[test]
-    fn the_disc_is_evenly_filled() {
-        let n = 512;
-        let (mut quarter, mut squares, mut inner) = (0, 0.0, 0);
-        for i in 0..n * n {
-            let [x, y] = disc([i % n, i / n].map(|k| (k as f32 + 0.5) / n as f32)).map(f64::from);
-            let squared = x * x + y * y;
-            assert!(squared <= 1.0 + 1e-6);
-            quarter += u32::from(x > 0.0 && y > 0.0);
-            inner += u32::from(squared < 0.25);
-            squares += squared;
-        }
-        let share = |count: u32| f64::from(count) / f64::from(n * n);
-        assert!((share(quarter) - 0.25).abs() < 2e-3, "{quarter}");
-        assert!((share(inner) - 0.25).abs() < 2e-3, "{inner}");
-        assert!((squares / f64::from(n * n) - 0.5).abs() < 1e-3, "{squares}");
-    }
 }

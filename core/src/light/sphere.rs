@@ -12,7 +12,6 @@ use crate::domain::{DomainError, checked_emission, checked_place};
 use crate::emission::{bounded_phi, luminance_of};
 use crate::exact::{self, exponent, flush, pow2, significand};
 use crate::instance::Instance;
-use crate::light::point::MAX_DENSITY;
 use crate::vector::{flush3, greatest_exponent, length_squared, vector};
 
 /// A sphere whose surface emits the same radiance in every direction outward.
@@ -144,17 +143,7 @@ impl Light for SphereLight {
         let own = significand(self.radius);
         let exponent = exponent(self.radius);
         let density = exact::div(INV_TWO_PI, own * own * gap) * pow2(-(exponent + exponent));
-        LightPoint {
-            p: [p.x, p.y, p.z],
-            density: if sees {
-                exact::min(density, MAX_DENSITY)
-            } else {
-                0.0
-            },
-            normal: if sees { [n.x, n.y, n.z] } else { [0.0; 3] },
-            flags: 0,
-            radiance: self.radiance,
-        }
+        LightPoint::on_surface((p, n), sees, density, 0, self.radiance)
     }
 
     #[inline(always)]

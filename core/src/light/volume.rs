@@ -12,7 +12,6 @@ use crate::domain::{DomainError, checked_emission, checked_place};
 use crate::emission::{bounded_phi, luminance_of};
 use crate::exact::{self, exponent, hash, pow2, significand, unit_f32};
 use crate::instance::Instance;
-use crate::light::point::MAX_DENSITY;
 use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, max3, vector};
 
 /// A box of glowing matter, which sends the same light from every place within it in every direction: fire, plasma. A parallelepiped
@@ -47,26 +46,23 @@ struct Scaled {
 
 impl BoxLight {
     #[inline(always)]
-    fn axis(&self, k: usize) -> Vec3 {
-        // By a choice, as of `Flat`.
-        let half = if k == 0 {
-            self.half[0]
-        } else if k == 1 {
-            self.half[1]
-        } else {
-            self.half[2]
-        };
-        vector(&half)
+    fn axes(&self) -> [Vec3; 3] {
+        [
+            vector(&self.half[0]),
+            vector(&self.half[1]),
+            vector(&self.half[2]),
+        ]
     }
 
     #[inline(always)]
     fn half(&self) -> Vec3 {
-        (abs3(self.axis(0)) + abs3(self.axis(1))) + abs3(self.axis(2))
+        let [a, b, c] = self.axes();
+        (abs3(a) + abs3(b)) + abs3(c)
     }
 
     #[inline(always)]
     fn scaled(&self) -> Scaled {
-        let (a, b, c) = (self.axis(0), self.axis(1), self.axis(2));
+        let [a, b, c] = self.axes();
         let e = greatest_exponent(max3(abs3(a), max3(abs3(b), abs3(c))), -100);
         let to_one = exact::power(-e);
         let (a, b, c) = (
@@ -152,13 +148,14 @@ impl Light for BoxLight {
 
     #[inline(always)]
     fn in_world(&self, instance: &Instance, index: u32) -> Self {
-        let edge = |k: usize| {
-            let v = instance.edge_to_world(self.axis(k));
+        let edge = |axis: Vec3| {
+            let v = instance.edge_to_world(axis);
             [v.x, v.y, v.z]
         };
+        let [a, b, c] = self.axes();
         Self {
             p: instance.vertex(self.p),
-            half: [edge(0), edge(1), edge(2)],
+            half: [edge(a), edge(b), edge(c)],
             radiance: shining(&self.radiance, &instance.radiance, self.has_flux()),
             mesh: index,
         }
@@ -180,19 +177,11 @@ impl Light for BoxLight {
             e
         };
         let third = unit_f32(hash(uv[0].to_bits() ^ hash(uv[1].to_bits())));
-        let along = |k: usize, u: f32| flush3(self.axis(k) * (2.0 * u - 1.0), MIN_OFFSET);
-        let p = vector(&self.p) + ((along(0, uv[0]) + along(1, uv[1])) + along(2, third));
-        LightPoint {
-            p: [p.x, p.y, p.z],
-            density: if has_volume {
-                exact::min(density * pow2(e), MAX_DENSITY)
-            } else {
-                0.0
-            },
-            normal: [0.0; 3],
-            flags: LightPoint::IS_VOLUME,
-            radiance: self.radiance,
-        }
+        let along = |axis: Vec3, u: f32| flush3(axis * (2.0 * u - 1.0), MIN_OFFSET);
+        let [a, b, c] = self.axes();
+        let p = vector(&self.p) + ((along(a, uv[0]) + along(b, uv[1])) + along(c, third));
+        let (n, flags) = (Vec3::ZERO, LightPoint::IS_VOLUME);
+        LightPoint::on_surface((p, n), has_volume, density * pow2(e), flags, self.radiance)
     }
 }
 

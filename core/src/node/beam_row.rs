@@ -17,8 +17,8 @@ use super::codes::{EXTENT_RANGE, SQRT_2};
 use crate::beam::{Beam, Limits, Space, rounding_at};
 use crate::exact::{self, pow2};
 use crate::moments::LightMoments;
-use crate::vector::{abs3, flush3, length_squared, max3};
-use crate::weight::{Lobe, Math, dot_by};
+use crate::vector::{abs3, dot, flush3, length_squared, max3};
+use crate::weight::{Lobe, recip};
 
 /// A weight outside of the cone, or beyond the end, is this part of what it is without: positive, for whatever the rounding of coordinates may put
 /// there.
@@ -155,12 +155,12 @@ impl Near {
     /// frame is `unit` of the scale. Of the windows 1 − (d / end)⁴ of the nearest and the farthest of the box and of its centre, the square of the mean:
     /// most ends are nearer than the farthest, which is known. `docs/walk.md` has what was measured.
     #[inline(always)]
-    pub fn within<M: Math>(&self, end: u32, lobe: &Lobe, h: Vec3, unit: f32) -> f32 {
+    pub fn within(&self, end: u32, lobe: &Lobe, h: Vec3, unit: f32) -> f32 {
         let (x, h) = (abs3(lobe.x), h * lobe.breadth + widened(lobe.breadth, unit));
         let nearest = length_squared(flush3(max3(x - h, Vec3::new(0.0, 0.0, 0.0)), LEAST_AWAY));
         let reached = exact::min(f32::from_bits(end) * self.per_world, MOST_REACH) * self.per_metre;
         let most = exact::min(reached + self.slack, ALL_OF_SPACE);
-        let per_square = M::recip(most * most + LEAST_SQUARED);
+        let per_square = recip(most * most + LEAST_SQUARED);
         let window = |squared: f32| {
             let q = exact::min(squared * per_square, 1.0);
             1.0 - q * q
@@ -178,22 +178,18 @@ impl Near {
 /// The factor on the weight of a child with this word and these moments, its mean normal in units of which one is `m_unit`; lengths are in
 /// units of the scale, of which one of the frame has `unit`; a point counts as in the cone by [`Near::slack`] `slack`.
 #[inline(always)]
-pub(super) fn beam_factor<M: Math>(word: u32, lobe: &Lobe, m_unit: f32, unit: f32, slack: f32) -> f32 {
+pub(super) fn beam_factor(word: u32, lobe: &Lobe, m_unit: f32, unit: f32, slack: f32) -> f32 {
     let (x, m) = (lobe.x, lobe.m);
     let behind = length_of(word) * unit * m_unit;
-    let from_apex = Vec3::new(
-        M::add_product(x.x, -m.x, behind),
-        M::add_product(x.y, -m.y, behind),
-        M::add_product(x.z, -m.z, behind),
-    );
-    let along = M::add_product(slack, dot_by::<M>(m, from_apex), -m_unit);
-    let apex_squared = dot_by::<M>(from_apex, from_apex) + LEAST_SQUARED;
-    let squared = dot_by::<M>(x, x) + LEAST_SQUARED;
+    let from_apex = x - m * behind;
+    let along = slack + dot(m, from_apex) * -m_unit;
+    let apex_squared = dot(from_apex, from_apex) + LEAST_SQUARED;
+    let squared = dot(x, x) + LEAST_SQUARED;
     let cone = (word >> 16) as i32 as f32 * PER_UNIT;
     let inside = (along > 0.0) & (along * along >= cone * apex_squared);
-    let nearer = exact::min(squared, apex_squared) * M::recip(apex_squared);
+    let nearer = exact::min(squared, apex_squared) * recip(apex_squared);
     let gain = (word & 255) as i32 as f32 * GAIN_UNIT;
-    let within = M::add_product(1.0, gain, nearer);
+    let within = 1.0 + gain * nearer;
     let factor = if inside { within } else { OUTSIDE };
     if word == 0 { 1.0 } else { factor }
 }

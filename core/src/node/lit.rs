@@ -9,7 +9,6 @@ use super::{BoundsNode, Cluster, Holds, MomentLayout, Node};
 use crate::beam::{Beam, Limits, Space};
 use crate::light::Light;
 use crate::summary::Lanes;
-use crate::weight::Math;
 
 /// A node of layout `N` in a tree whose leaves are lights `L`: the same words, the same weights.
 ///
@@ -98,8 +97,8 @@ impl<N: Node<W>, L: Light, const W: usize> Node<W> for Lit<N, L> {
 
 impl<N: MomentLayout<W>, L: Light, const W: usize> MomentLayout<W> for Lit<N, L> {
     #[inline(always)]
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, space: Space) -> [f32; W] {
-        self.node.moment_weights::<M>(p, n, space)
+    fn moment_weights(&self, p: Vec3, n: Vec3, space: Space) -> [f32; W] {
+        self.node.moment_weights(p, n, space)
     }
 }
 

@@ -27,7 +27,6 @@ pub use crate::moments::LightMoments;
 use crate::summary::Lanes;
 #[doc(hidden)]
 pub use crate::summary::Summary;
-use crate::weight::Math;
 
 /// The node of `LightBvh`.
 pub type DefaultNode = MomentNode<8>;
@@ -178,5 +177,5 @@ pub trait BoundsNode<const W: usize>: Node<W, Summary = LightBounds> {
 pub trait MomentLayout<const W: usize>: Node<W, Summary = LightMoments> {
     /// The weights of the children at the point `p` with the normal `n`, in the node's space, by the operations `M`; see
     /// [`ImportanceModel::weights`](crate::ImportanceModel::weights). `space` is [`Instance::space`](crate::Instance::space).
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, space: Space) -> [f32; W];
+    fn moment_weights(&self, p: Vec3, n: Vec3, space: Space) -> [f32; W];
 }

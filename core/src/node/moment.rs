@@ -17,8 +17,8 @@ use crate::light::EmissiveTriangle;
 use crate::moments::{Frame, Framed, LEAST_LENGTH, LightMoments, row};
 use crate::summary::{Lanes, SUMMARY_WORDS};
 use crate::unroll::each;
-use crate::vector::{abs3, flush3};
-use crate::weight::{Lobe, Math, dot_by, frame, side, weight};
+use crate::vector::{abs3, dot, flush3};
+use crate::weight::{Lobe, frame, side, weight};
 
 /// Words of a node: row 0 is the header (origin x, y, z, exponents), the others hold a word of each child. After the first ones come its
 /// box and its link; a row of normals stands before them, two rows of beams and one of masks after them, where there are any.
@@ -389,7 +389,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> MomentLayout<W>
     for PackedMomentNode<W, ROWS, BEAMS>
 {
     #[inline(always)]
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, space: Space) -> [f32; W] {
+    fn moment_weights(&self, p: Vec3, n: Vec3, space: Space) -> [f32; W] {
         let frame = frame(self.origin(), self.unit_exponent(), p);
         let side = side(n, WORD_UNIT);
         let word_unit = frame.unit * WORD_UNIT;
@@ -408,25 +408,19 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> MomentLayout<W>
             );
             let lobe = Lobe {
                 phi: f32::from_bits((w1 & PHI_MASK) << PHI_SHIFT),
-                x: Vec3::new(
-                    M::add_product(frame.x.x, fraction(w0, 0), word_unit),
-                    M::add_product(frame.x.y, fraction(w0, 15), word_unit),
-                    M::add_product(frame.x.z, fraction(w1, 0), word_unit),
-                ),
+                x: frame.x + Vec3::new(fraction(w0, 0), fraction(w0, 15), fraction(w1, 0)) * word_unit,
                 breadth: f32::from_bits(((w3 << BREADTH_SHIFT) & BREADTH_MASK).wrapping_add(breadth_bias)),
                 less: fraction(w1, 15) * WORD_UNIT,
                 m: Vec3::new(fraction(w2, 0), fraction(w2, 8), fraction(w2, 16)),
                 spread: (w2 & 255) as i32 as f32 * SPREAD_UNIT,
-                reach: up_sum
-                    + dot_by::<M>(up, Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16))),
+                reach: up_sum + dot(up, Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16))),
             };
-            weights[i] = weight::<M>(&lobe, &side);
+            weights[i] = weight(&lobe, &side);
             if BEAMS {
-                let mut factor =
-                    beam_factor::<M>(self.0[Self::BEAM][i], &lobe, WORD_UNIT, frame.unit, near.slack);
+                let mut factor = beam_factor(self.0[Self::BEAM][i], &lobe, WORD_UNIT, frame.unit, near.slack);
                 let h = Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16)) * WORD_UNIT
                     + Vec3::new(1.0, 1.0, 1.0);
-                factor *= near.within::<M>(self.0[Self::END][i], &lobe, h * EXTENT_RANGE, frame.unit);
+                factor *= near.within(self.0[Self::END][i], &lobe, h * EXTENT_RANGE, frame.unit);
                 weights[i] *= if space.slack >= 0.0 { factor } else { 1.0 };
             }
         }

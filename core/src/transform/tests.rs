@@ -3,7 +3,8 @@
 extern crate std;
 
 use super::*;
-use crate::exact::{self, hash, pow2, unit_f32};
+use crate::exact::{self, hash, pow2};
+use crate::kit::Random;
 use crate::light::EmissiveTriangle;
 use crate::vector::length_squared;
 
@@ -13,15 +14,9 @@ fn map(columns: [[f32; 3]; 3], translation: [f32; 3]) -> Transform {
 
 /// Entries from −2 to 2, translation from −20 to 20.
 fn random(seed: u32) -> Transform {
-    let mut state = hash(seed);
-    let mut unit = || {
-        state = hash(state);
-        4.0 * unit_f32(state) - 2.0
-    };
-    map(
-        [0; 3].map(|_| [0; 3].map(|_| unit())),
-        [0; 3].map(|_| 10.0 * unit()),
-    )
+    let random = &mut Random(hash(seed));
+    let columns = [0; 3].map(|_| (random.vector() * 2.0).to_array());
+    map(columns, (random.vector() * 20.0).to_array())
 }
 
 fn diagonal(x: f32, y: f32, z: f32) -> Transform {

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 
 use super::walk::{Walk, uniform_numbers};
 use crate::choose::FULL_BITS;
-use crate::exact;
+use crate::exact::{self, div};
 use crate::importance::ImportanceModel;
 use crate::node::Node;
 use crate::point::{Receiver, ShadingPoint};
@@ -189,7 +189,7 @@ fn uniform_probability<N: Node<W>, I: ImportanceModel<N, W, P>, P, const W: usiz
             tree.lights
         };
         let share = taken as i32 as f32 * exact::pow2(-(FULL_BITS as i32));
-        probability = I::quotient(I::quotient(share, at_least_one(own)), at_least_one(tree.live));
+        probability = div(div(share, at_least_one(own)), at_least_one(tree.live));
     }
     probability
 }

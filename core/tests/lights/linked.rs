@@ -282,7 +282,7 @@ fn two_levels_go_on_by_edits() {
             check(&fixed.tree(), &all, &receiver, random, &mut seen);
         }
         let words = bvh.to_words();
-        let read = Both::from_words(&words).expect("what was written");
+        let read = Both::from_words(&words).expect("the words just written");
         assert!(read.to_words() == words);
         check_all(&read, 4, random, &mut seen);
         assert!(Bvh::<Lit<MomentNode<8>, AnyLight>, Moments, 8>::from_words(&words).is_err());

@@ -74,7 +74,7 @@ fn run<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(frames: u32) -
     }
     let words = bvh.to_words();
     digest = words.iter().fold(digest, |all, &word| hash(all ^ word));
-    let again = Bvh::<N, I, W>::from_words(&words).expect("what was written");
+    let again = Bvh::<N, I, W>::from_words(&words).expect("the words just written");
     queries(&again, random, digest)
 }
 

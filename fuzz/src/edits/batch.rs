@@ -5,6 +5,7 @@ mod staged;
 use arbitrary::{Result, Unstructured};
 use lightbvh::bvh::Added;
 use lightbvh::exact::hash;
+use lightbvh::light::Light;
 use lightbvh::{Bvh, Edit, EmissiveTriangle, InstanceId, LightNode, MeshId, Transform};
 
 use super::model::{Mesh, Model, Placed, reach, within};

@@ -93,7 +93,8 @@ pub fn moving_scene(
         .map(|&(mesh, transform, radiance)| Edit::AddInstance {
             mesh: ids[mesh],
             transform,
-            radiance,
+            radiance: [radiance; 3],
+            mask: u32::MAX,
         });
     scene.apply(edits.collect()).map_err(refused)?;
     scene.refit();

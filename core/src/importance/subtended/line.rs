@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 
-use crate::exact::{self, pow2};
-use crate::importance::Math;
+use crate::exact::{self, pow2, rsqrt_rough};
 use crate::point::RaySegment;
 use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, length_squared, max3, vector};
+use crate::weight::recip;
 
 /// What the arc of the tangent x is taken as, up to 1: x/(1 + BEND x²).
 const BEND: f32 = 0.28;
@@ -44,21 +44,21 @@ impl Line {
 
     /// The mean over the segment of 1/(d² + `s_squared`): θ/(D L).
     #[inline(always)]
-    pub fn mean<M: Math>(&self, s_squared: f32) -> f32 {
+    pub fn mean(&self, s_squared: f32) -> f32 {
         let (a, b) = (self.a, self.b);
-        let ends = root::<M>(length_squared(a) + s_squared) * root::<M>(length_squared(b) + s_squared);
+        let ends = root(length_squared(a) + s_squared) * root(length_squared(b) + s_squared);
         let cosine = exact::max(ends + (dot(a, b) + s_squared), pow2(-40));
         let chord = flush3(b - a, LEAST);
         // D L: D is across the segment. Of a short segment far away it is about zero, and so is its arc.
-        let sine = root::<M>(exact::max(
+        let sine = root(exact::max(
             length_squared(flush3(cross(a, chord), LEAST)) + s_squared * length_squared(chord),
             pow2(-100),
         ));
         let is_narrow = cosine >= sine;
         let greater = if is_narrow { cosine } else { sine };
-        let inverse = M::recip(greater);
+        let inverse = recip(greater);
         let x = if is_narrow { sine } else { cosine } * inverse;
-        let bend = M::recip(M::add_product(1.0, BEND, x * x));
+        let bend = recip(1.0 + BEND * (x * x));
         let narrow = 2.0 * bend;
         let wide = core::f32::consts::PI - 2.0 * (x * bend);
         (if is_narrow { narrow } else { wide }) * inverse
@@ -66,10 +66,10 @@ impl Line {
 
     /// Where a quarter and three quarters of the angle lie before.
     #[inline(always)]
-    pub fn quarters<M: Math>(&self, s_squared: f32) -> [Vec3; 2] {
-        let distance = |p: Vec3| root::<M>(length_squared(p) + s_squared);
+    pub fn quarters(&self, s_squared: f32) -> [Vec3; 2] {
+        let distance = |p: Vec3| root(length_squared(p) + s_squared);
         let between =
-            |p: Vec3, q: Vec3, from_p: f32, from_q: f32| p + (q - p) * (from_p * M::recip(from_p + from_q));
+            |p: Vec3, q: Vec3, from_p: f32, from_q: f32| p + (q - p) * (from_p * recip(from_p + from_q));
         let (from_a, from_b) = (distance(self.a), distance(self.b));
         let middle = between(self.a, self.b, from_a, from_b);
         let from_middle = distance(middle);
@@ -82,6 +82,6 @@ impl Line {
 
 /// The root of a positive normal number.
 #[inline(always)]
-fn root<M: Math>(x: f32) -> f32 {
-    x * M::rsqrt(x)
+fn root(x: f32) -> f32 {
+    x * rsqrt_rough(x)
 }

@@ -10,39 +10,37 @@ use glam::Vec3;
 use formula::{FLOOR, HORIZON, Lights, SLACK};
 
 use super::{Random, minus, narrow, normalize, times, wide};
-use crate::importance::{Eq4, ImportanceModel};
-use crate::kit::plain::PlainNode;
-use crate::node::Node;
+use crate::importance::eq4::over_distance;
+use crate::importance::{Cluster, Eq4};
 use crate::point::ShadingPoint;
-use crate::vector::cross;
-use crate::{LightBounds, exact};
+use crate::vector::{cross, length_squared, max3};
+use crate::{LightBounds, Summary, exact};
 
-/// Relative error of two weights' quotient: in each a rough reciprocal, and a rough root in the receiver's cosine.
-const ROUGH: f64 = 2.0 * (3e-3 + 7e-4);
+/// Relative error of a weight: of a rough reciprocal, and of a rough root in the receiver's cosine.
+const ROUGH: f64 = 3e-3 + 7e-4;
 
-/// A point light straight above the point, in the direction that is up in a volume, that shines everywhere: its factor is
-/// 1 + 2^-8.
-fn known(point: &ShadingPoint, distance: f32) -> LightBounds {
-    let n = point.normal();
-    let up = if n == Vec3::ZERO { Vec3::Z } else { n };
-    let at = point.position() + up * distance;
-    LightBounds {
-        min: at,
-        max: at,
-        axis: -up,
-        cos_theta_o: -1.0,
-        phi: 1.0,
+/// The bounds as the importance reads them from a node that quantises nothing.
+fn cluster(bounds: &LightBounds) -> Cluster {
+    let center = bounds.center();
+    // Halves that reach both corners from the rounded centre.
+    let extent = max3(bounds.max - center, center - bounds.min) * (1.0 + exact::pow2(-20));
+    let cosine = bounds.cos_theta_o;
+    Cluster {
+        center,
+        extent,
+        radius_squared: length_squared(extent),
+        axis: bounds.axis,
+        cos_theta_o: cosine,
+        sin_theta_o: exact::sqrt(exact::max(1.0 - cosine * cosine, 0.0)),
+        phi: bounds.phi,
     }
 }
 
-/// Weight of `bounds` over Φ/d² of the known light, its factor taken out.
-fn weight(bounds: &LightBounds, point: &ShadingPoint, distance: f32) -> f64 {
-    let known = known(point, distance);
-    let mut node = PlainNode::<2>::EMPTY;
-    node.set_summaries(&[*bounds, known]);
-    let [found, one] = Eq4::weights(&node, point).map(f64::from);
-    let (factor, d) = (1.0 + SLACK, Lights::of(&known, point).d());
-    found / one * factor / (d * d)
+fn weight(bounds: &LightBounds, point: &ShadingPoint) -> f64 {
+    let cluster = cluster(bounds);
+    let (factor, distance_squared) = Eq4::factor(&cluster, point);
+    let scaled = over_distance(&cluster, distance_squared, factor);
+    f64::from(scaled.significand) * 2.0_f64.powi(scaled.exponent)
 }
 
 /// A set of lights, and a point near it or far off, above the horizon, below it, or in a volume.
@@ -90,7 +88,7 @@ fn weights_are_those_of_eq_4() {
         if lights.at_a_step(n, EMITTED) {
             continue;
         }
-        let found = weight(&bounds, &point, lights.d() as f32);
+        let found = weight(&bounds, &point);
         let [least, most] = [-EMITTED, EMITTED].map(|e| lights.factor(n, e) * lights.over_distance());
         assert!(
             (least * (1.0 - ROUGH)..=most * (1.0 + ROUGH)).contains(&found),
@@ -145,7 +143,7 @@ fn slack_and_floor_are_those_stated() {
         }
         let reach = (emitted + SLACK).max(0.0);
         let expected = (incident * reach).max(FLOOR) * f64::from(bounds.phi) / f64::from(distance).powi(2);
-        let found = weight(&bounds, &point, distance);
+        let found = weight(&bounds, &point);
         assert!(
             (found / expected - 1.0).abs() < error,
             "{found}, expected {expected}: cosines {received} {emitted}"

@@ -3,9 +3,7 @@
 use glam::Vec3;
 
 use super::{Random, Wide, dot, minus, narrow, normalize, top, wide};
-#[cfg(feature = "std")]
-use crate::importance::NativeMath;
-use crate::importance::{ExactMath, ImportanceModel, Math, Moments};
+use crate::importance::{ImportanceModel, Moments};
 use crate::node::{MomentNode, Node};
 use crate::point::ShadingPoint;
 use crate::{LightMoments, exact, vector};
@@ -137,8 +135,9 @@ fn known(point: &ShadingPoint, size: f32) -> LightMoments {
 
 /// Weights are, within [`ROUGH`], those of the words as they are read; and within a twentieth, in the mean, those of the words as they
 /// were given.
-fn check<M: Math>(seed: u32) {
-    let random = &mut Random(seed);
+#[test]
+fn weights_are_the_table_s() {
+    let random = &mut Random(2);
     let (mut seen, mut off, mut high) = ([0; 6], 0.0, 0);
     for _ in 0..20_000 {
         let scale = random.power(-20, 20);
@@ -156,7 +155,7 @@ fn check<M: Math>(seed: u32) {
             sets[slot] = set(random, &point, size);
         }
         let node: MomentNode<4> = crate::kit::node(&sets);
-        let weights = Moments::<M>::weights(&node, &point).map(f64::from);
+        let weights = Moments::weights(&node, &point).map(f64::from);
         let children = [0, 1, 2, 3].map(|i| {
             // Packed in units of 1/255.
             let q = (spread(sets[i].m) * 255.0).round() / 255.0;
@@ -189,17 +188,6 @@ fn check<M: Math>(seed: u32) {
     off /= f64::from(high);
     assert!(off < 0.05, "{off} from the given value");
     assert!(seen.iter().all(|&count| count >= 500), "{seen:?}");
-}
-
-#[test]
-fn weights_are_the_table_s() {
-    check::<ExactMath>(2);
-}
-
-#[test]
-#[cfg(feature = "std")]
-fn native_weights_are_the_table_s() {
-    check::<NativeMath>(5);
 }
 
 /// Down to 2^-40 of the distance a frame's unit is what it is.

@@ -1,13 +1,13 @@
 //! An environment map that owns its words.
 
 use alloc::vec::Vec;
-use core::fmt;
 
 use super::counts::counts_of;
 use super::environment::{EnvironmentMap, MAX_LEVELS, start_of};
 use super::octahedron::direction_at;
-use crate::domain::Number;
+use crate::domain::DomainError;
 use crate::emission::luminance_of;
+use crate::exact::{abs, max};
 use crate::light::{MAX_RADIANCE, MIN_RADIANCE};
 
 /// Places of a texel, in each direction, by whose mean it is known.
@@ -21,63 +21,20 @@ pub struct Environment {
     radiance: Vec<[f32; 3]>,
 }
 
-/// Why there is no such environment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum EnvironmentError {
-    /// A number of texels that is no power of two from 1 to 2048.
-    Size {
-        /// What was found.
-        found: u32,
-    },
-    /// A radiance is NaN, infinite, negative or above [`MAX_RADIANCE`].
-    Radiance {
-        /// In which direction.
-        direction: [f32; 3],
-        /// Which channel: R, G, B as 0, 1, 2.
-        channel: usize,
-        /// What was found.
-        value: f32,
-    },
-}
-
-impl fmt::Display for EnvironmentError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Size { found } => write!(
-                f,
-                "an environment of {found} texels each way, expected a power of two from 1 to {}; take the next one",
-                1_u32 << MAX_LEVELS
-            ),
-            Self::Radiance {
-                direction: [x, y, z],
-                channel,
-                value,
-            } => write!(
-                f,
-                "{} radiance from direction ({x}, {y}, {z}) is {}, expected 0 or a number up to 2^100 (1.3e30); repair the picture",
-                ["red", "green", "blue"][channel],
-                Number(value)
-            ),
-        }
-    }
-}
-
-impl core::error::Error for EnvironmentError {}
-
 impl Environment {
     /// One of `size` × `size` texels, a power of two from 1 to 2048, of the radiance (W/(m² sr), linear RGB) that `radiance`
     /// gives for unit directions, y up: asked at 16 places of each texel, whose mean it keeps. What is below [`MIN_RADIANCE`]
     /// counts as none. Probabilities go with luminance, and reach every texel that is not black.
     ///
     /// # Errors
-    /// [`EnvironmentError`]: the size, or the first radiance that is none.
-    pub fn from_fn(
-        size: u32,
-        mut radiance: impl FnMut([f32; 3]) -> [f32; 3],
-    ) -> Result<Self, EnvironmentError> {
+    /// [`DomainError`]: the size, or the first radiance that is NaN, infinite, negative or above [`MAX_RADIANCE`].
+    pub fn from_fn(size: u32, mut radiance: impl FnMut([f32; 3]) -> [f32; 3]) -> Result<Self, DomainError> {
         if !size.is_power_of_two() || size > 1 << MAX_LEVELS {
-            return Err(EnvironmentError::Size { found: size });
+            let (what, expected) = (
+                "the size of an environment",
+                "a power of two up to 2048; take the next one",
+            );
+            return Err(DomainError::number(what, size as f32, expected));
         }
         let levels = size.trailing_zeros();
         let texels = 1_u32 << (2 * levels);
@@ -94,19 +51,18 @@ impl Environment {
                 };
                 let direction = direction_at([at(column, place % PLACES), at(row, place / PLACES)]);
                 let found = radiance(direction);
-                let sum: f64 = direction.iter().map(|&x| f64::from(crate::exact::abs(x))).sum();
-                // Solid angle of the place, but for a factor.
-                let share = sum * sum * sum;
+                if !found.iter().all(|value| (0.0..=MAX_RADIANCE).contains(value)) {
+                    let expected = "0 or numbers up to 2^100 (1.3e30); repair the picture";
+                    return Err(DomainError::vector(
+                        "the radiance of an environment",
+                        found,
+                        expected,
+                    ));
+                }
+                let share = solid_angle(direction);
                 angle += share;
-                for (channel, &value) in found.iter().enumerate() {
-                    if !(0.0..=MAX_RADIANCE).contains(&value) {
-                        return Err(EnvironmentError::Radiance {
-                            direction,
-                            channel,
-                            value,
-                        });
-                    }
-                    mean[channel] += share * f64::from(value);
+                for channel in 0..3 {
+                    mean[channel] += share * f64::from(found[channel]);
                 }
             }
             let own = mean.map(|sum| {
@@ -114,7 +70,7 @@ impl Environment {
                 if value < MIN_RADIANCE { 0.0 } else { value }
             });
             // A channel that luminance hardly sees is light all the same.
-            let luminance = crate::exact::max(luminance_of(&own), own.iter().sum::<f32>() * 0.01);
+            let luminance = max(luminance_of(&own), own.iter().sum::<f32>() * 0.01);
             weights.push(f64::from(luminance) * angle);
             all.push(own);
         }
@@ -145,13 +101,18 @@ impl Environment {
             let [column, row] = [texel, texel >> 1].map(every_other_bit);
             let at = |first: u32| ((f64::from(first) + 0.5) * 2.0 / f64::from(size) - 1.0) as f32;
             let direction = direction_at([at(column), at(row)]);
-            let sum_of: f64 = direction.iter().map(|&x| f64::from(crate::exact::abs(x))).sum();
-            let angle = sum_of * sum_of * sum_of;
+            let angle = solid_angle(direction);
             sum += angle * f64::from(luminance_of(radiance));
             angles += angle;
         }
         (sum / angles) as f32
     }
+}
+
+/// Solid angle of a place of the map, but for a factor.
+fn solid_angle(direction: [f32; 3]) -> f64 {
+    let sum: f64 = direction.iter().map(|&x| f64::from(abs(x))).sum();
+    sum * sum * sum
 }
 
 /// Bits 0, 2, 4 … as one number.

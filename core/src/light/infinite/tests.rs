@@ -8,7 +8,6 @@ use super::environment::start_of;
 use super::*;
 use crate::exact::hash;
 use crate::kit::Random;
-use crate::random::Random64;
 
 /// Of directions and of places there is one each.
 #[test]
@@ -30,18 +29,6 @@ fn places_and_directions_undo_each_other() {
     assert_eq!(direction_at([0.0, 0.0]), [0.0, 1.0, 0.0]);
     assert_eq!(direction_at([1.0, 1.0]), [0.0, -1.0, 0.0]);
     assert_eq!(direction_at([0.0, -1.0]), [0.0, 0.0, -1.0]);
-}
-
-/// The sphere has 4 pi steradians, and each texel its share.
-#[test]
-fn densities_are_those_over_solid_angle() {
-    let n = 512;
-    let mut all = 0.0_f64;
-    for k in 0..n * n {
-        let place = [k % n, k / n].map(|x| (x as f32 + 0.5) * 2.0 / n as f32 - 1.0);
-        all += 4.0 / f64::from(n * n) / f64::from(octahedron::cubed_distance(direction_at(place)));
-    }
-    assert!((all / (4.0 * core::f64::consts::PI) - 1.0).abs() < 1e-4, "{all}");
 }
 
 /// A receiver in a volume has no cosine.
@@ -114,13 +101,7 @@ fn each_texel_has_its_share_of_the_numbers() {
             continue;
         }
         for number in [before, before + count / 2, before + count - 1] {
-            let sampled = map.sample(
-                Random64 {
-                    high: number << 1,
-                    low: 0,
-                },
-                [0.5, 0.5],
-            );
+            let sampled = map.sample(u64::from(number) << 33, [0.5, 0.5]);
             assert_eq!((sampled.texel, sampled.pmf), (texel, map.pmf(texel)));
         }
         before += count;
@@ -154,16 +135,13 @@ fn samples_and_queries_agree() {
 #[test]
 fn bad_input_is_refused_and_black_is_none() {
     for found in [0, 3, 4096, u32::MAX] {
-        assert_eq!(
-            Environment::from_fn(found, |_| [1.0; 3]),
-            Err(EnvironmentError::Size { found })
-        );
+        let error = Environment::from_fn(found, |_| [1.0; 3]).expect_err("no power of two");
+        assert!(std::format!("{error}").starts_with("the size of an environment is "));
     }
     for value in [f32::NAN, -1.0, f32::INFINITY, 1e35] {
         let error = Environment::from_fn(4, |[x, ..]| if x > 0.5 { [1.0, value, 1.0] } else { [1.0; 3] });
-        let error = error.expect_err("refused");
-        assert!(matches!(error, EnvironmentError::Radiance { channel: 1, .. }));
-        assert!(std::format!("{error}").contains("green"));
+        let error = std::format!("{}", error.expect_err("refused"));
+        assert!(error.contains("environment is (1, "), "{error}");
     }
     let black = Environment::from_fn(8, |_| [0.0; 3]).expect("no light is no error");
     let sampled = black.map().sample(7_u32, [0.5; 2]);
@@ -243,10 +221,7 @@ fn a_split_is_exact() {
                 (before + count / 2, 0.5),
                 (before + count - 1, 1.0),
             ] {
-                let share = split.choose(Random64 {
-                    high: number << 10,
-                    low: 0,
-                });
+                let share = split.choose(u64::from(number) << 42);
                 assert_eq!((share.index, share.pmf), (index, pmf));
                 let rest = f64::from(share.rest.high) / 4_294_967_296.0;
                 assert!((rest - part).abs() <= 1.001 / f64::from(count), "{rest} {part}");

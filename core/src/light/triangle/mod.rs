@@ -8,13 +8,12 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use self::slots::Triangles;
-use self::summaries::has_flux;
-use super::record::{Light, shining, wrong_flags};
+use self::summaries::{has_flux, moments};
+use super::record::{Light, checked_sides, greatest, of_mesh, shining};
 use super::{INVALID, LightPoint, TWO_SIDED};
 use crate::bounds::{LightBounds, LightMoments};
 use crate::domain::{DomainError, checked_emission, checked_place};
 use crate::emission::luminance_of;
-use crate::exact;
 use crate::instance::Instance;
 use crate::vector::vector;
 
@@ -69,24 +68,6 @@ impl EmissiveTriangle {
     pub fn luminance(&self) -> f32 {
         luminance_of(&self.radiance)
     }
-
-    /// Brings the triangle into the domain of this crate, or says why it cannot be.
-    ///
-    /// Coordinates smaller than [`MIN_COORDINATE`](super::MIN_COORDINATE) become zero (with the sign of zero dropped); nothing else changes.
-    ///
-    /// # Errors
-    /// [`DomainError`] for a coordinate or radiance that is not finite or out of range, for negative radiance, and for flags that mean
-    /// nothing.
-    pub fn checked(mut self) -> Result<Self, DomainError> {
-        self.p[0] = checked_place("first vertex of a triangle", self.p[0])?;
-        self.p[1] = checked_place("second vertex of a triangle", self.p[1])?;
-        self.p[2] = checked_place("third vertex of a triangle", self.p[2])?;
-        self.radiance = checked_emission("radiance of a triangle", self.radiance)?;
-        if self.flags & !TWO_SIDED != 0 {
-            return Err(wrong_flags(self.flags));
-        }
-        Ok(self)
-    }
 }
 
 impl Light for EmissiveTriangle {
@@ -97,21 +78,16 @@ impl Light for EmissiveTriangle {
         mesh: INVALID,
         flags: 0,
     };
-    const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+    of_mesh!();
     type Slots<const W: usize> = Triangles<W>;
 
-    fn checked(self) -> Result<Self, DomainError> {
-        Self::checked(self)
-    }
-
-    #[inline(always)]
-    fn mesh(&self) -> u32 {
-        self.mesh
-    }
-
-    #[inline(always)]
-    fn of_mesh(self, mesh: u32) -> Self {
-        Self { mesh, ..self }
+    fn checked(mut self) -> Result<Self, DomainError> {
+        self.p[0] = checked_place("first vertex of a triangle", self.p[0])?;
+        self.p[1] = checked_place("second vertex of a triangle", self.p[1])?;
+        self.p[2] = checked_place("third vertex of a triangle", self.p[2])?;
+        self.radiance = checked_emission("radiance of a triangle", self.radiance)?;
+        checked_sides(self.flags)?;
+        Ok(self)
     }
 
     #[inline(always)]
@@ -122,8 +98,7 @@ impl Light for EmissiveTriangle {
     }
 
     fn reach(&self) -> f32 {
-        let coordinates = self.p.iter().flatten();
-        coordinates.fold(0.0, |most, &x| exact::max(most, exact::abs(x)))
+        greatest(self.p.as_flattened())
     }
 
     #[inline(always)]
@@ -138,38 +113,26 @@ impl Light for EmissiveTriangle {
 
     #[inline(always)]
     fn moments(&self) -> LightMoments {
-        LightMoments::of_triangle(self)
+        moments(self)
     }
 
+    /// Where the map mirrors, two vertices are swapped, so that the front stays in front. A triangle without flux in the mesh, having no
+    /// area there, has no radiance in the world, whatever area rounding may give it: no tree holds it.
     #[inline(always)]
     fn in_world(&self, instance: &Instance, index: u32) -> Self {
-        instance.triangle(self, index)
+        let [a, b, c] = self.p;
+        let (a, b, c) = (instance.vertex(a), instance.vertex(b), instance.vertex(c));
+        let mirrored = instance.mirrors();
+        Self {
+            p: [a, if mirrored { c } else { b }, if mirrored { b } else { c }],
+            radiance: shining(&self.radiance, &instance.radiance, has_flux(self)),
+            mesh: index,
+            flags: self.flags,
+        }
     }
 
     #[inline(always)]
     fn point_for(&self, _from: Vec3, uv: [f32; 2]) -> LightPoint {
         self.point(uv)
-    }
-}
-
-impl Instance {
-    /// Triangle `local` of the mesh as it stands in the world, as part of mesh light `index`. Where the map mirrors, two
-    /// vertices are swapped, so that the front stays in front. A triangle without flux in the mesh, having no area there, has
-    /// no radiance in the world, whatever area rounding may give it: no tree holds it.
-    #[inline]
-    #[must_use]
-    pub fn triangle(&self, local: &EmissiveTriangle, index: u32) -> EmissiveTriangle {
-        let (a, b, c) = (
-            self.vertex(local.p[0]),
-            self.vertex(local.p[1]),
-            self.vertex(local.p[2]),
-        );
-        let mirrored = self.mirrors();
-        EmissiveTriangle {
-            p: [a, if mirrored { c } else { b }, if mirrored { b } else { c }],
-            radiance: shining(&local.radiance, &self.radiance, has_flux(local)),
-            mesh: index,
-            flags: local.flags,
-        }
     }
 }

@@ -3,7 +3,7 @@
 use super::EmissiveTriangle;
 use super::summaries::flux;
 use crate::exact;
-use crate::light::point::{LightPoint, MAX_DENSITY, uniform_point};
+use crate::light::point::{LightPoint, uniform_point};
 use crate::vector::{abs3, greatest_exponent, max3};
 
 impl EmissiveTriangle {
@@ -24,16 +24,6 @@ impl EmissiveTriangle {
         let density = (per_length + per_length) * exact::pow2(-exponent);
         let p = uniform_point(p0, e1, e2, uv[0], uv[1]);
         let n = emission.normal * per_length;
-        LightPoint {
-            p: [p.x, p.y, p.z],
-            density: if has_area {
-                exact::min(density, MAX_DENSITY)
-            } else {
-                0.0
-            },
-            normal: if has_area { [n.x, n.y, n.z] } else { [0.0; 3] },
-            flags: self.flags,
-            radiance: self.radiance,
-        }
+        LightPoint::on_surface((p, n), has_area, density, self.flags, self.radiance)
     }
 }

@@ -1,8 +1,8 @@
-//! The configurations that are measured: by importance, builder, levels, update, candidates and arithmetic, one
+//! The configurations that are measured: by importance, builder, levels, update and candidates, one
 //! axis at a time from the default.
 
-use lightbvh::importance::{DefaultImportance, NativeMath};
-use lightbvh::{Defensive, Eq4, Flux, FluxOverDistance, Moments};
+use lightbvh::importance::DefaultImportance;
+use lightbvh::{Eq4, Flux, FluxOverDistance, Moments};
 use lightbvh_peers::{Falcor, Pbrt};
 
 use super::subject::{Axis, Config, Subject, Update};
@@ -16,7 +16,6 @@ pub(super) fn all(
     is_wanted: impl Fn(Axis) -> bool,
 ) -> Result<Vec<Box<dyn Subject>>, HostError> {
     use Axis as A;
-    type Native = Defensive<Moments<NativeMath>, 6>;
     let (one, two) = (Sampler::SingleLevel, Sampler::TwoLevel);
     let default = |config: Config| config.of::<DefaultImportance>(config.importance, first);
     let levels = |axis, levels| Config {
@@ -65,9 +64,6 @@ pub(super) fn all(
             let own = Config::new(A::Candidates);
             subjects.push(default(Config { candidates, ..own })?);
         }
-    }
-    if is_wanted(A::Arithmetic) {
-        subjects.push(Config::new(A::Arithmetic).of::<Native>("moments+1/64, native", first)?);
     }
     Ok(subjects)
 }

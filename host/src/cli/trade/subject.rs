@@ -55,8 +55,6 @@ pub(super) enum Axis {
     Update,
     /// Candidates of a sample.
     Candidates,
-    /// Operations that every processor computes alike, or its own.
-    Arithmetic,
 }
 
 /// The update of a tree between two frames.
@@ -159,7 +157,6 @@ impl fmt::Display for Config {
             Axis::Builder => write!(f, "built by {builder}"),
             Axis::Levels => write!(f, "{levels}, {importance}"),
             Axis::Update => write!(f, "{levels}, {update}"),
-            Axis::Arithmetic => write!(f, "native operations"),
             Axis::Candidates => write!(f, "1 of {} candidates", self.candidates),
         }
     }

@@ -354,7 +354,8 @@ impl World {
             edits.push(Edit::AddInstance {
                 mesh,
                 transform,
-                radiance: 1.0,
+                radiance: [1.0; 3],
+                mask: u32::MAX,
             });
         }
     }

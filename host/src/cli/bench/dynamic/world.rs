@@ -48,7 +48,8 @@ impl World {
         self.edits.push(Edit::AddInstance {
             mesh: self.mesh,
             transform: Transform::at(at),
-            radiance,
+            radiance: [radiance; 3],
+            mask: u32::MAX,
         });
     }
 

@@ -49,7 +49,7 @@ const measures = {
 };
 
 // The same colours and shapes in every report, whichever axes it has.
-const allAxes = ["default", "importance", "builder", "levels", "update", "candidates", "arithmetic"];
+const allAxes = ["default", "importance", "builder", "levels", "update", "candidates"];
 const axisNames = allAxes.filter((axis) => data.points.some((point) => point.config.axis === axis));
 const axisNumber = (axis) => Math.max(0, allAxes.indexOf(axis));
 const color = (axis) => `var(--c${axisNumber(axis)})`;

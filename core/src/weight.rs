@@ -1,19 +1,13 @@
 //! The weight of a child that is known by its moments.
 
-mod math;
-
 use glam::Vec3;
 
-#[cfg(any(feature = "std", target_arch = "spirv"))]
-pub use math::NativeMath;
-pub use math::{ExactMath, Math};
-
-use crate::exact::{self, pow2};
-use crate::vector::greatest_exponent;
+use crate::exact::{self, pow2, rsqrt_rough};
+use crate::vector::{dot, greatest_exponent};
 
 /// Least cosine that the soft ones are spread by: no light is ever quite out of sight. Its square is the ε of the tables.
 pub(crate) const SOFT: f32 = 0.031_622_78;
-/// What the height of a box above the horizon counts as at least: what is left of a set all below it.
+/// Least height of a box above the horizon, for sets entirely below it.
 const FLOOR: f32 = 1.0e-4;
 /// Variance of all three axes in squared breadths: 1 for a flat set, 1.5 for a round one.
 const FAR: f32 = 1.25;
@@ -90,42 +84,40 @@ pub(crate) struct Lobe {
 /// root and without its cancellation. As numerator and denominator, for one reciprocal serves both cosines and the
 /// distance; `a` comes doubled.
 #[inline(always)]
-pub(crate) fn soft<M: Math>(doubled: f32, s: f32, cut: f32) -> (f32, f32) {
+pub(crate) fn soft(doubled: f32, s: f32, cut: f32) -> (f32, f32) {
     let below = exact::abs(doubled) + s;
-    (M::add_product(exact::max(doubled, 0.0) * below, s, cut), below)
+    (exact::max(doubled, 0.0) * below + s * cut, below)
 }
 
-/// `(ax bx + ay by) + az bz`.
+/// [`recip_rough`](exact::recip_rough) of a positive number, whose sign need not be kept.
 #[inline(always)]
-pub(crate) fn dot_by<M: Math>(a: Vec3, b: Vec3) -> f32 {
-    M::add_product(M::add_product(a.x * b.x, a.y, b.y), a.z, b.z)
+pub(crate) fn recip(x: f32) -> f32 {
+    let seed = f32::from_bits(0x7ef3_11c7_u32.wrapping_sub(x.to_bits()));
+    seed * (2.0 - x * seed)
 }
 
 /// Φ · soft cos θ · soft cos θ' / distance², positive for any positive Φ.
 #[inline(always)]
-pub(crate) fn weight<M: Math>(l: &Lobe, side: &Side) -> f32 {
+pub(crate) fn weight(l: &Lobe, side: &Side) -> f32 {
     let squared = l.breadth * l.breadth;
-    let d_squared = dot_by::<M>(l.x, l.x) + LEAST_DISTANCE;
-    let near = M::add_product(d_squared, NEAR, squared);
-    let inverse = M::rsqrt(M::add_product(d_squared, FAR, squared));
+    let d_squared = dot(l.x, l.x) + LEAST_DISTANCE;
+    let near = d_squared + NEAR * squared;
+    let inverse = rsqrt_rough(d_squared + FAR * squared);
     let u = l.breadth * inverse;
 
     // The receiver's side. The spread along its normal is the breadth, but less where that runs along the mean normal.
-    let turn = dot_by::<M>(side.for_m, l.m);
-    let incident_spread = M::add_product(SOFT, u, M::add_product(1.0, l.less, turn * turn));
-    let incident = dot_by::<M>(side.n, l.x) * inverse;
+    let turn = dot(side.for_m, l.m);
+    let incident_spread = SOFT + u * (1.0 + l.less * (turn * turn));
+    let incident = dot(side.n, l.x) * inverse;
     // What lies above the horizon is no more than the box allows: its top, where it is low, cuts the tail.
-    let cut = exact::min(
-        exact::max(M::add_product(incident, l.reach, u), FLOOR),
-        incident_spread,
-    );
-    let (n1, d1) = soft::<M>(incident, incident_spread, cut);
+    let cut = exact::min(exact::max(incident + l.reach * u, FLOOR), incident_spread);
+    let (n1, d1) = soft(incident, incident_spread, cut);
 
     // The emitters' side: spread by the depth of the set along its normal, and by the spread of the normals.
-    let depth = M::add_product(u, u, l.less);
-    let emitted_spread = M::add_product(SOFT + depth, l.spread, 0.5 - depth);
-    let emitted = dot_by::<M>(l.m, l.x) * (side.m_unit * inverse);
-    let (n2, d2) = soft::<M>(emitted, emitted_spread, emitted_spread);
+    let depth = u + u * l.less;
+    let emitted_spread = (SOFT + depth) + l.spread * (0.5 - depth);
+    let emitted = dot(l.m, l.x) * (side.m_unit * inverse);
+    let (n2, d2) = soft(emitted, emitted_spread, emitted_spread);
 
-    (l.phi * (n1 * n2)) * M::recip((d1 * d2) * near)
+    (l.phi * (n1 * n2)) * recip((d1 * d2) * near)
 }
