@@ -23,8 +23,6 @@ pub struct Scene {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     pub triangles: usize,
-    /// Of clear glass that does not emit.
-    pub clear: usize,
     pub emissive: usize,
     pub mesh_lights: usize,
     pub analytic: usize,

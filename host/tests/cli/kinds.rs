@@ -1,4 +1,4 @@
-//! Scenes without emissive triangles: points and spots alone, suns alone, glass alone.
+//! Scenes without emissive triangles: points and spots alone, suns alone.
 
 use serde_json::{Value, json};
 
@@ -8,7 +8,7 @@ use crate::program::{Folder, json_on_cpu as report, refused, run};
 const NAME: &str = "KHR_lights_punctual";
 
 /// A floor, and lights of these kinds over it that shine down.
-fn stage(folder: &Folder, name: &str, lights: &[Value], material: Value) -> String {
+fn stage(folder: &Folder, name: &str, lights: &[Value]) -> String {
     model::write(folder, name, &[], |root| {
         let nodes = root["nodes"].as_array_mut().expect("a list");
         let mut shown = vec![json!(FLOOR)];
@@ -22,25 +22,24 @@ fn stage(folder: &Folder, name: &str, lights: &[Value], material: Value) -> Stri
             }));
         }
         root["scenes"][0]["nodes"] = json!(shown);
-        root["materials"][0] = material;
-        root["extensionsUsed"] = json!([NAME, "KHR_materials_transmission"]);
+        root["extensionsUsed"] = json!([NAME]);
         root["extensions"] = json!({ NAME: { "lights": lights } });
     })
 }
 
-fn points(folder: &Folder, name: &str, material: Value) -> String {
+fn points(folder: &Folder, name: &str) -> String {
     let lights = [
         json!({ "type": "point", "intensity": 5 }),
         json!({ "type": "point", "intensity": 2 }),
         json!({ "type": "spot", "intensity": 9, "spot": { "outerConeAngle": 0.5 } }),
     ];
-    stage(folder, name, &lights, material)
+    stage(folder, name, &lights)
 }
 
 #[test]
 fn scenes_of_points_and_spots_are_verified_and_inspected() {
     let folder = Folder::new("kinds");
-    let path = points(&folder, "points", json!({}));
+    let path = points(&folder, "points");
     let found = report(&format!(
         "verify --scene {path} --queries 64 --frames 0..1 --json"
     ));
@@ -58,7 +57,7 @@ fn scenes_of_points_and_spots_are_verified_and_inspected() {
 fn suns_alone_leave_trees_empty() {
     let folder = Folder::new("sun");
     let sun = json!({ "type": "directional", "intensity": 3 });
-    let path = stage(&folder, "sun", &[sun], json!({}));
+    let path = stage(&folder, "sun", &[sun]);
     let found = report(&format!(
         "verify --scene {path} --queries 64 --frames 0..1 --json"
     ));
@@ -80,7 +79,7 @@ fn suns_alone_leave_trees_empty() {
 #[test]
 fn commands_for_triangles_say_which_commands_take_other_lights() {
     let folder = Folder::new("refused-kinds");
-    let path = points(&folder, "points", json!({}));
+    let path = points(&folder, "points");
     let out = folder.file("out");
     for command in [
         format!("trade --quick --scene {path}"),
@@ -90,31 +89,5 @@ fn commands_for_triangles_say_which_commands_take_other_lights() {
         for part in ["3 lights of other kinds", "`lightbvh render`", "`inspect`"] {
             assert!(said.contains(part), "{command}: {said}");
         }
-    }
-}
-
-/// Glass alone is shown: a tint before the sky, or nothing but a note.
-#[test]
-fn glass_alone_is_rendered() {
-    let folder = Folder::new("glass");
-    let glass = |color: Value| {
-        json!({
-            "pbrMetallicRoughness": { "baseColorFactor": color },
-            "extensions": { "KHR_materials_transmission": { "transmissionFactor": 1 } }
-        })
-    };
-    let veil =
-        json!({ "alphaMode": "BLEND", "pbrMetallicRoughness": { "baseColorFactor": [1, 0.2, 0.2, 0.12] } });
-    for (name, material) in [
-        ("clear", glass(json!([1, 1, 1, 1]))),
-        ("tinted", glass(json!([1, 0.2, 0.2, 1]))),
-        ("veil", veil),
-    ] {
-        let path = points(&folder, name, material);
-        let image = folder.file(&format!("{name}.png"));
-        let output = run(&format!("render {path} --width 16 --height 9 --spp 1 -o {image}"));
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.success(), "{name}: {said}");
-        assert!(std::path::Path::new(&image).exists(), "{name}");
     }
 }
