@@ -50,9 +50,6 @@ pub struct Args {
     /// Vertical field of view with --look-from, degrees, 1 to 170.
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=170), requires = "look_from")]
     pub(super) fov: u32,
-    /// Animation to show alone, by name or number from 0; may be repeated [default: all that can be].
-    #[arg(long, value_name = "NAME|NUMBER")]
-    pub(super) animation: Vec<String>,
     /// Axis of a .obj or .ply file that points up; with z, (x, y, z) of the file lies at (x, z, -y).
     #[arg(long, value_enum, default_value_t = Up::Y)]
     pub(super) up: Up,
@@ -62,7 +59,7 @@ pub struct Args {
     /// Factor on the environment map's radiance.
     #[arg(long, default_value_t = 1.0, value_parser = positive::<f32>, requires = "environment")]
     pub(super) environment_scale: f32,
-    /// Show the mean of each texture, and neither glass nor cut-outs.
+    /// Show the mean of each texture, and no cut-outs.
     #[arg(long)]
     pub(super) no_textures: bool,
     /// How lights are chosen.

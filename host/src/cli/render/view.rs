@@ -25,17 +25,6 @@ impl Up {
     }
 }
 
-/// The scene with the animations of these names or numbers.
-pub(super) fn playing(scene: Scene, words: &[String]) -> Result<Scene, HostError> {
-    let mut data = scene.into_data();
-    data.play(words).map_err(|none| HostError::Refused {
-        option: "--animation",
-        value: format!("{:?}", none.word),
-        problem: format!("names nothing that moves: expected {}", none.expected),
-    })?;
-    Ok(Scene::new(data)?)
-}
-
 /// A camera of a scene.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum CameraName {
