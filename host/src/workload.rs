@@ -64,11 +64,8 @@ pub fn arrays_lit_by<L: SceneLight>(
     width: u32,
     height: u32,
 ) -> Result<SceneArrays<L>, HostError> {
-    let mut data = scene.frame(frame);
+    let data = scene.frame(frame);
     let lights = listed(scene, frame, data.lights())?;
-    if L::IS_ANY {
-        data.triangles.append(&mut data.clear);
-    }
     let rays =
         RayBvh::build(&data.triangles).map_err(|error| HostError::in_frame(scene.name(), frame, error))?;
     let skin = if L::IS_ANY {
@@ -137,7 +134,7 @@ fn query<L: SceneLight>(
     let pick = |k: u32, n: usize| ((draw(k) * n as f32) as usize).min(n - 1);
     let kind = draw(0);
     let lights = scene.lights.triangles();
-    // A scene may be lit by its sky alone, and may have no surface but glass that is not shown.
+    // A scene may be lit by its sky alone.
     let is_empty = lights.is_empty() && surfaces.is_empty();
     let (mut p, mut n) = if !(0.75..0.98).contains(&kind) && !is_empty {
         let on_surface = (kind < 0.75 && !surfaces.is_empty()) || lights.is_empty();

@@ -149,7 +149,6 @@ pub fn seen(point: ShadingPoint, wo: Vec3) -> Seen {
             triangle: NONE,
             at: [0.0; 2],
         },
-        tint: Vec3::ONE,
     }
 }
 

@@ -3,18 +3,16 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DVec3};
 
 use super::analytic::AnalyticLight;
 use super::model::{Channel, Interpolation, Property, SceneData};
-use super::transform::{Transform, normalized, of_unit_columns, slerp};
+use super::transform::{Transform, normalized, slerp};
 
 /// Where everything is at a time.
 pub(super) struct Pose {
     /// From each node's space to the world.
     pub world: Vec<DAffine3>,
-    /// From each node's space to its parent's.
-    locals: Vec<Transform>,
     /// Weights of morph targets, of the nodes where they are animated.
     weights: BTreeMap<usize, Vec<f64>>,
 }
@@ -44,41 +42,30 @@ impl Pose {
                 .map_or(DAffine3::IDENTITY, |parent| world[parent as usize]);
             world.push(parent * local.affine());
         }
-        Self {
-            world,
-            locals,
-            weights,
-        }
+        Self { world, weights }
     }
 
     /// The place of a node that carries what has directions and no size: a camera, a sun, a point, a spot. Scales do not change
-    /// such things (glTF 2.0, section 3.10; `KHR_lights_punctual`): where they are so small or so large that directions are
-    /// lost, the rotations alone count.
-    pub fn unscaled(&self, data: &SceneData, node: u32) -> DAffine3 {
-        let mut world = self.world[node as usize];
+    /// such things (glTF 2.0, section 3.10; `KHR_lights_punctual`), but where they are so small or so large that directions are
+    /// lost, these are the world's.
+    pub fn unscaled(&self, node: u32) -> DAffine3 {
+        let world = self.world[node as usize];
         // Their directions are exact in `f32`, and within the domain of a light BVH's transforms.
         let largest = (1_u64 << 40) as f64;
         let m = &world.matrix3;
         let mut lengths = [m.x_axis, m.y_axis, m.z_axis].into_iter().map(DVec3::length);
-        if lengths.all(|length| (1.0 / largest..=largest).contains(&length)) {
-            return world;
+        match lengths.all(|length| (1.0 / largest..=largest).contains(&length)) {
+            true => world,
+            false => DAffine3::from_translation(world.translation),
         }
-        let mut turned = DMat3::IDENTITY;
-        let mut at = Some(node);
-        while let Some(node) = at {
-            turned = of_unit_columns(&(self.locals[node as usize].turn() * turned));
-            at = data.nodes[node as usize].parent;
-        }
-        world.matrix3 = turned;
-        world
     }
 
     /// The place of a light by formula.
-    pub fn place_of(&self, data: &SceneData, light: &AnalyticLight) -> DAffine3 {
+    pub fn place_of(&self, light: &AnalyticLight) -> DAffine3 {
         if light.kind.extent().is_some() {
             self.world[light.node as usize]
         } else {
-            self.unscaled(data, light.node)
+            self.unscaled(light.node)
         }
     }
 

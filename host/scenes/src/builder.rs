@@ -42,6 +42,13 @@ impl SceneBuilder {
         })
     }
 
+    /// A surface that is metal in part.
+    pub fn metal(&mut self, name: &str, base_color: [f32; 3], metallic: f32, roughness: f32) -> u32 {
+        let index = self.matte(name, base_color, roughness);
+        self.data.materials[index as usize].metallic = metallic;
+        index
+    }
+
     /// A surface that shines, W/(m² sr).
     pub fn glow(&mut self, name: &str, radiance: [f32; 3]) -> u32 {
         let base_color = [0.5; 3];
@@ -53,7 +60,7 @@ impl SceneBuilder {
         })
     }
 
-    pub fn material(&mut self, material: Material) -> u32 {
+    fn material(&mut self, material: Material) -> u32 {
         self.data.materials.push(material);
         self.data.materials.len() as u32 - 1
     }

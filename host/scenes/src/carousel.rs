@@ -11,7 +11,6 @@ mod wheel;
 
 use super::builder::SceneBuilder;
 use super::error::SceneError;
-use super::model::Material;
 use super::random::Random;
 use super::scene::Scene;
 use super::shapes::{Shape, on_circle};
@@ -39,13 +38,7 @@ pub(super) fn carousel() -> Result<Scene, SceneError> {
         [30.0, 3.5, 34.0],
     ];
     let palette = Palette {
-        steel: b.material(Material {
-            name: String::from("steel"),
-            base_color: [0.35, 0.36, 0.38],
-            metallic: 0.6,
-            roughness: 0.35,
-            ..Material::default()
-        }),
+        steel: b.metal("steel", [0.35, 0.36, 0.38], 0.6, 0.35),
         red: b.matte("red paint", [0.55, 0.07, 0.06], 0.5),
         cream: b.matte("cream paint", [0.65, 0.58, 0.42], 0.6),
         wood: b.matte("wood", [0.30, 0.19, 0.11], 0.8),

@@ -12,15 +12,12 @@ use super::deform::is_skinned;
 use super::error::{SceneError, malformed};
 use super::flush::flush_tiny;
 use super::model::{Channel, Interpolation, Material, Mesh, Node, Primitive, Property, SceneData, emits};
-use super::paint::{MAX_SIDE, Opacity, Paint, Picture};
+use super::paint::{MAX_SIDE, Paint, Picture};
 use super::scene::{Counts, Scene};
 use super::transform::Transform;
 
 /// Most triangles of a frame, over all instances: 2^26, some 3 GiB of records, well inside 32-bit indices.
 pub const MAX_TRIANGLES: u64 = 1 << 26;
-
-/// Greatest factor on how far normals bend.
-const MAX_BUMP: f32 = 1024.0;
 
 const FINITE: RangeInclusive<f32> = f32::MIN..=f32::MAX;
 const IS_FINITE: &str = "expected a finite number; repair the model and export it again";
@@ -135,19 +132,9 @@ impl Check<'_> {
     fn material(&self, index: usize, material: &Material) -> Result<(), SceneError> {
         let name = |what: &str| format!("{what} of material {index} `{}`", material.name);
         self.color(|| name("radiance"), material.radiance)?;
-        let factors = [material.metallic, material.roughness, material.transmission];
-        self.shares(&name, &material.base_color, factors)
-    }
-
-    fn shares(
-        &self,
-        name: &impl Fn(&str) -> String,
-        base: &[f32],
-        factors: [f32; 3],
-    ) -> Result<(), SceneError> {
-        self.within(|| name("base colour or opacity"), base, 0.0..=1.0, IS_SHARE)?;
-        let mut all = ["metallic", "roughness", "transmission"].into_iter().zip(factors);
-        all.try_for_each(|(what, factor)| self.within(|| name(what), &[factor], 0.0..=1.0, IS_SHARE))
+        self.within(|| name("base colour"), &material.base_color, 0.0..=1.0, IS_SHARE)?;
+        self.within(|| name("metallic"), &[material.metallic], 0.0..=1.0, IS_SHARE)?;
+        self.within(|| name("roughness"), &[material.roughness], 0.0..=1.0, IS_SHARE)
     }
 
     fn picture(&self, index: usize, picture: &Picture) -> Result<(), SceneError> {
@@ -162,14 +149,13 @@ impl Check<'_> {
     fn paint(&self, index: usize, paint: &Paint, pictures: usize) -> Result<(), SceneError> {
         let name = |what: &str| format!("{what} of the paint of material {index}");
         self.color(|| name("radiance"), paint.radiance)?;
-        let factors = [paint.metallic, paint.roughness, paint.transmission];
-        self.shares(&name, &paint.base, factors)?;
-        let bump = || name("factor of normals");
-        let expected = "expected at most 2^10 in magnitude";
-        self.within(bump, &[paint.bump], -MAX_BUMP..=MAX_BUMP, expected)?;
-        if let Opacity::Cut(cutoff) = paint.opacity {
-            self.finite(|| name("cutoff"), &[cutoff])?;
-        }
+        self.within(
+            || name("base colour or opacity"),
+            &paint.base,
+            0.0..=1.0,
+            IS_SHARE,
+        )?;
+        self.finite(|| name("cutoff"), &[paint.cutoff])?;
         for (what, texture) in paint.textures() {
             let picture = || name(&format!("picture of the {what}"));
             self.index(picture, texture.picture, pictures)?;
@@ -366,32 +352,27 @@ impl Check<'_> {
 
     /// Sizes of every frame, and whether 32-bit indices and memory can hold them.
     fn count(&self, data: &SceneData) -> Result<Counts, SceneError> {
-        let add = |a: [usize; 4], b: [usize; 4]| [0, 1, 2, 3].map(|k| a[k].saturating_add(b[k]));
+        let add = |a: [usize; 3], b: [usize; 3]| [0, 1, 2].map(|k| a[k].saturating_add(b[k]));
         let of_primitive = |primitive: &Primitive| {
             let material = &data.materials[primitive.material as usize];
-            let of_triangle = |t: usize| {
-                let emits = usize::from(emits(primitive.triangle_radiance(t, material.radiance)));
-                let shown = usize::from(primitive.is_shown(t, material));
-                [shown, 1 - shown, emits, 0]
-            };
-            let mut all = (0..primitive.triangles.len()).map(of_triangle).fold([0; 4], add);
-            all[3] = usize::from(all[2] > 0);
-            all
+            let triangles = primitive.triangles.len();
+            let is_lit = |&t: &usize| emits(primitive.triangle_radiance(t, material.radiance));
+            let emissive = (0..triangles).filter(is_lit).count();
+            [triangles, emissive, usize::from(emissive > 0)]
         };
-        let sums = |mesh: &Mesh| mesh.primitives.iter().map(of_primitive).fold([0; 4], add);
-        let per_mesh: Vec<[usize; 4]> = data.meshes.iter().map(sums).collect();
+        let sums = |mesh: &Mesh| mesh.primitives.iter().map(of_primitive).fold([0; 3], add);
+        let per_mesh: Vec<[usize; 3]> = data.meshes.iter().map(sums).collect();
         let placed = data.nodes.iter().filter_map(|node| node.mesh);
-        let total = placed.map(|mesh| per_mesh[mesh as usize]).fold([0; 4], add);
-        let [mut triangles, clear, emissive, mesh_lights] = total;
+        let total = placed.map(|mesh| per_mesh[mesh as usize]).fold([0; 3], add);
+        let [mut triangles, emissive, mesh_lights] = total;
         for light in &data.analytic {
             triangles = triangles.saturating_add(light.facets());
         }
         let is_sun = |light: &&AnalyticLight| light.kind == AnalyticKind::Directional;
         let suns = data.analytic.iter().filter(is_sun).count();
         self.limit("suns", suns, MAX_SUNS as u64)?;
-        let all = triangles.saturating_add(clear);
-        self.limit("triangles over all instances", all, MAX_TRIANGLES)?;
-        if all == 0 {
+        self.limit("triangles over all instances", triangles, MAX_TRIANGLES)?;
+        if triangles == 0 {
             let mut left_out = data.warnings.join("\n  - ");
             if !left_out.is_empty() {
                 left_out.insert_str(0, ". What was left out:\n  - ");
@@ -400,7 +381,6 @@ impl Check<'_> {
         }
         Ok(Counts {
             triangles,
-            clear,
             emissive,
             mesh_lights,
             analytic: data.analytic.len() - suns,

@@ -55,12 +55,7 @@ pub(super) fn flush_tiny(data: &mut SceneData) {
         if let Some(paint) = &mut material.paint {
             flush_all(&mut paint.radiance, MIN_RADIANCE);
             flush_all(&mut paint.base, SMALLEST_FACTOR);
-            let [a, b, c, d] = [paint.metallic, paint.roughness, paint.bump, paint.transmission]
-                .map(|factor| flush(factor, SMALLEST_FACTOR));
-            (paint.metallic, paint.roughness) = (a, b);
-            (paint.bump, paint.transmission) = (c, d);
-            let (base, rough) = (&mut paint.base_texture, &mut paint.rough_texture);
-            let textures = [base, rough, &mut paint.bump_texture, &mut paint.glow_texture];
+            let textures = [&mut paint.base_texture, &mut paint.glow_texture];
             for texture in textures.into_iter().flatten() {
                 place_all(texture.transform.as_flattened_mut());
             }

@@ -30,7 +30,7 @@ pub struct MeshRange {
 /// A scene at one time. Lengths and order are the same in every frame of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// Every triangle, emissive or not, but for those of clear glass.
+    /// Every triangle, emissive or not.
     pub triangles: Vec<SurfaceTriangle>,
     /// Triangles with radiance above zero, those of zero area included.
     pub emissive: Vec<EmissiveTriangle>,
@@ -40,10 +40,8 @@ pub struct Frame {
     pub others: Vec<AnyLight>,
     /// What is beyond all surfaces, but for the background.
     pub sky: Sky,
-    /// Triangles of clear glass, which passes over all kinds of light know, and no others.
-    pub clear: Vec<SurfaceTriangle>,
-    /// Where `triangles`, then those of `clear`, then `emissive` lie on textures; empty where nothing is painted.
-    pub corners: [Vec<Corner>; 3],
+    /// Where `triangles`, then `emissive` lie on textures; empty where nothing is painted.
+    pub corners: [Vec<Corner>; 2],
     /// [`SkinArrays::words`](super::SkinArrays); empty where nothing is painted.
     pub paint: Arc<Vec<u32>>,
     /// By [`SurfaceTriangle::material`]; the last one of lights by formula, where there are any.
@@ -55,26 +53,16 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// What is painted on the triangles that `rays` are of: those of glass after the others.
+    /// What is painted on the triangles that `rays` are of.
     pub fn skin(&self, rays: &RayBvh) -> SkinArrays {
         if self.paint.is_empty() {
             return SkinArrays::default();
         }
-        let [opaque, clear, lights] = &self.corners;
-        let of = |&source: &u32| {
-            let source = source as usize;
-            let own = opaque
-                .get(source)
-                .or_else(|| clear.get(source.wrapping_sub(opaque.len())));
-            own.copied().unwrap_or(UNPAINTED)
-        };
+        let [surfaces, lights] = &self.corners;
+        let of = |&source: &u32| surfaces.get(source as usize).copied().unwrap_or(UNPAINTED);
+        let surfaces = rays.sources().iter().map(of);
         SkinArrays {
-            corners: rays
-                .sources()
-                .iter()
-                .map(of)
-                .chain(lights.iter().copied())
-                .collect(),
+            corners: surfaces.chain(lights.iter().copied()).collect(),
             words: Arc::clone(&self.paint),
         }
     }

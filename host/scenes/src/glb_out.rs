@@ -86,7 +86,7 @@ impl Writer {
         let materials: Vec<Value> = data.materials.iter().map(|own| textures.material(own)).collect();
         let profiles: Vec<Value> = data.profiles.iter().map(|own| self.profile(own)).collect();
         let lights: Vec<Value> = data.analytic.iter().filter_map(light).collect();
-        let mut used = vec!["KHR_materials_emissive_strength", "KHR_materials_transmission"];
+        let mut used = vec!["KHR_materials_emissive_strength"];
         let mut extensions = json!({});
         for (name, lights) in [("KHR_lights_punctual", lights), (IES, profiles)] {
             if !lights.is_empty() {

@@ -153,7 +153,7 @@ impl Source {
     /// Where the mesh's space is; joints take vertices to the world by themselves.
     fn place(self, data: &SceneData, pose: &Pose) -> DAffine3 {
         match self {
-            Self::Light(number) => pose.place_of(data, &data.analytic[number]),
+            Self::Light(number) => pose.place_of(&data.analytic[number]),
             Self::Primitive(node, at) if is_skinned(data, node, primitive(data, at)) => DAffine3::IDENTITY,
             Self::Primitive(node, _) => pose.world[node],
         }

@@ -40,7 +40,7 @@ pub(super) fn place(data: &SceneData, pose: &Pose, out: &mut Frame) {
     let lamps = data.analytic.iter().filter_map(|own| Some((own, own.light()?)));
     for (k, (own, local)) in (0..).zip(lamps) {
         let (mesh, light) = (out.mesh_lights.len() as u32 + k, out.emissive.len() as u32 + k);
-        let world = to_light_bvh(&pose.place_of(data, own)).place(&local, mesh);
+        let world = to_light_bvh(&pose.place_of(own)).place(&local, mesh);
         out.others.push(world);
         let shown = shown(world).into_iter().map(|p| SurfaceTriangle {
             p: p.map(rounded),

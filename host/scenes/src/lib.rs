@@ -73,7 +73,6 @@ pub mod vector;
 pub use analytic::{AnalyticKind, AnalyticLight};
 pub use camera::View;
 pub use check::MAX_TRIANGLES;
-pub use clips::NoClip;
 pub use environment::read_environment;
 pub use error::SceneError;
 pub use files::Limits;
@@ -85,7 +84,7 @@ pub use model::{
     Animation, Camera, Channel, Influence, Interpolation, Material, Mesh, Node, Primitive, Property,
     SceneData, Skin,
 };
-pub use paint::{IN_PLACE, MAX_SIDE, Opacity, Paint, Picture, Texture, Wrap};
+pub use paint::{IN_PLACE, MAX_SIDE, Paint, Picture, Texture, Wrap};
 pub use profile::{Profile, Sent};
 pub use ray_bvh::{RayBvh, RayBvhError};
 pub use scene::Scene;

@@ -20,9 +20,7 @@ impl Scene {
             parts.push(format!("{} are {are}", self.other_lights()));
         }
         if self.data().is_painted() {
-            parts.push(String::from(
-                "textures are shown by their means here, and glass is left out",
-            ));
+            parts.push(String::from("textures are shown by their means here"));
         }
         (!parts.is_empty()).then(|| format!("{}; `lightbvh render` and `verify` know them", parts.join("; ")))
     }

@@ -72,7 +72,7 @@ impl Scene {
     /// Checks what a loader made, and that there is memory for its frames.
     pub(super) fn loaded(data: SceneData, load: &Load) -> Result<Self, SceneError> {
         let scene = Self::new(data)?;
-        let triangles = size_of::<SurfaceTriangle>() * (scene.counts.triangles + scene.counts.clear);
+        let triangles = size_of::<SurfaceTriangle>() * scene.counts.triangles;
         let lights = size_of::<EmissiveTriangle>() * scene.counts.emissive;
         load.take(
             scene.name(),

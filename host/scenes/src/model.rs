@@ -23,7 +23,7 @@ pub struct SceneData {
     pub materials: Vec<Material>,
     /// All animations run at once, each looping over its own duration.
     pub animations: Vec<Animation>,
-    /// Animations that move what those do, and are left out: [`play`](Self::play) brings one in.
+    /// Animations that move what those do, and are left out.
     pub clips: Vec<Animation>,
     /// Animations that move nothing of the scene, and are left out: their places in the file, and their names.
     pub idle: Vec<(u32, String)>,
@@ -132,12 +132,8 @@ pub struct Material {
     pub metallic: f32,
     /// Perceptual roughness in [0, 1].
     pub roughness: f32,
-    /// Whether alpha cuts parts of the surface out; where the reference renderer shows no [`paint`](Self::paint), it takes it
-    /// as opaque.
-    pub masked: bool,
-    /// Share of light that goes straight through, in [0, 1]; see [`is_clear`](Self::is_clear).
-    pub transmission: f32,
-    /// What is painted on it, of which all that stands above is the mean.
+    /// What is painted on it, of which all that stands above is the mean. Where the reference renderer does not show it, the
+    /// surface is opaque.
     pub paint: Option<Paint>,
 }
 
@@ -150,20 +146,12 @@ impl Default for Material {
             double_sided: false,
             metallic: 0.0,
             roughness: 1.0,
-            masked: false,
-            transmission: 0.0,
             paint: None,
         }
     }
 }
 
 impl Material {
-    /// Whether more light goes through than not. Where the reference renderer shows no [`paint`](Self::paint), it has no glass:
-    /// surfaces of such a material that do not emit are left out, so that lamps behind them are not hidden.
-    pub fn is_clear(&self) -> bool {
-        self.transmission >= 0.5
-    }
-
     /// The reference renderer's two lobes.
     pub fn surface(&self) -> SurfaceMaterial {
         SurfaceMaterial::of(self.base_color, self.metallic, self.roughness)
@@ -173,7 +161,7 @@ impl Material {
 /// Channels that share a clock.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Animation {
-    /// For messages, and to choose it by.
+    /// For messages.
     pub name: String,
     /// Its place in the file, from 0.
     pub place: u32,
@@ -253,11 +241,6 @@ pub struct Camera {
 }
 
 impl Primitive {
-    /// Whether triangle `index` is in frames; those of clear materials are not unless they emit.
-    pub(super) fn is_shown(&self, index: usize, material: &Material) -> bool {
-        !material.is_clear() || emits(self.triangle_radiance(index, material.radiance))
-    }
-
     /// Whether triangle `index` emits, given its material's radiance.
     pub(super) fn triangle_radiance(&self, index: usize, of_material: [f32; 3]) -> [f32; 3] {
         self.radiance

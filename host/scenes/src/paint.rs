@@ -5,7 +5,7 @@ use std::sync::Arc;
 /// Largest width or height of a picture.
 pub const MAX_SIDE: u32 = 1 << 14;
 
-/// A picture: red, green, blue and opacity, a byte each, by rows from the top.
+/// A picture: red, green and blue, encoded (IEC 61966-2-1), and opacity, a byte each, by rows from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     /// Columns, from 1 to [`MAX_SIDE`].
@@ -33,8 +33,6 @@ pub enum Wrap {
 pub struct Texture {
     /// Index into [`SceneData::pictures`](super::SceneData::pictures).
     pub picture: u32,
-    /// Whether its colours are encoded (IEC 61966-2-1), as those of colours are; opacities never.
-    pub is_color: bool,
     /// Whether each point shows the nearest texel, and not a mean of four.
     pub is_nearest: bool,
     /// Beyond its edges, along columns and along rows.
@@ -46,69 +44,36 @@ pub struct Texture {
 /// No change of coordinates.
 pub const IN_PLACE: [[f32; 2]; 3] = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]];
 
-/// What of a surface is there.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Opacity {
-    /// All of it.
-    #[default]
-    Opaque,
-    /// Where the opacity is not below this.
-    Cut(f32),
-    /// Each point covers the part of what is behind it that its opacity says.
-    Blended,
-}
-
 /// What is painted on a material: factors, and the textures that they multiply. The reference renderer shows it where it shows
 /// all kinds of light; where it shows triangles alone, the means in [`Material`](super::Material) stand for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paint {
     /// Base colour, linear RGB, and opacity, each in [0, 1].
     pub base: [f32; 4],
-    /// In [0, 1].
-    pub metallic: f32,
-    /// In [0, 1].
-    pub roughness: f32,
-    /// Factor on how far normals bend.
-    pub bump: f32,
     /// Radiance, W/(m² sr).
     pub radiance: [f32; 3],
     /// Of the base colour and the opacity.
     pub base_texture: Option<Texture>,
-    /// Of metallic (blue) and roughness (green).
-    pub rough_texture: Option<Texture>,
-    /// Of normals, in the space that glTF 2.0, section 3.9.3, says.
-    pub bump_texture: Option<Texture>,
     /// Of the radiance.
     pub glow_texture: Option<Texture>,
-    /// What of the surface is there.
-    pub opacity: Opacity,
-    /// What of the light that falls on the surface goes straight through, times its base colour; in [0, 1]. From a half on, the
-    /// surface is clear glass, which is not seen itself.
-    pub transmission: f32,
+    /// Opacity below which the surface is not there; 0 where it is there everywhere.
+    pub cutoff: f32,
 }
 
 impl Paint {
-    /// White, rough, opaque, without a texture.
+    /// White, opaque, without a texture.
     pub const PLAIN: Self = Self {
         base: [1.0; 4],
-        metallic: 0.0,
-        roughness: 1.0,
-        bump: 0.0,
         radiance: [0.0; 3],
         base_texture: None,
-        rough_texture: None,
-        bump_texture: None,
         glow_texture: None,
-        opacity: Opacity::Opaque,
-        transmission: 0.0,
+        cutoff: 0.0,
     };
 
     /// All of its textures, with their names.
     pub fn textures(&self) -> impl Iterator<Item = (&'static str, Texture)> {
         [
             ("base colour", self.base_texture),
-            ("metallic-roughness", self.rough_texture),
-            ("normal", self.bump_texture),
             ("emission", self.glow_texture),
         ]
         .into_iter()
@@ -117,11 +82,6 @@ impl Paint {
 
     /// Whether it shows anything that means do not.
     pub fn is_seen(&self) -> bool {
-        self.textures().next().is_some() || self.opacity != Opacity::Opaque || self.is_clear()
-    }
-
-    /// Whether light goes through it as through glass.
-    pub fn is_clear(&self) -> bool {
-        self.transmission >= 0.5
+        self.textures().next().is_some() || self.cutoff > 0.0
     }
 }

@@ -80,11 +80,8 @@ impl From<RgbaImage> for Picture {
 }
 
 /// Mean of each channel of a picture, colours made linear.
-pub(super) fn mean_of(picture: &Picture, is_color: bool) -> [f32; 4] {
-    let linear: [f64; 256] = std::array::from_fn(|encoded| match is_color {
-        true => f64::from(linear_from_srgb(encoded as u8)),
-        false => encoded as f64 / 255.0,
-    });
+pub(super) fn mean_of(picture: &Picture) -> [f32; 4] {
+    let linear: [f64; 256] = std::array::from_fn(|encoded| f64::from(linear_from_srgb(encoded as u8)));
     let mut sum = [0.0_f64; 4];
     for &[r, g, b, alpha] in picture.texels.as_chunks::<4>().0 {
         let [r, g, b] = [r, g, b].map(|channel| linear[usize::from(channel)]);

@@ -29,8 +29,7 @@ impl Scene {
             mesh_lights: Vec::with_capacity(self.counts.mesh_lights),
             others: Vec::with_capacity(self.counts.analytic),
             sky: Sky::new(data.environment.clone(), suns(data, &pose)),
-            clear: Vec::new(),
-            corners: [const { Vec::new() }; 3],
+            corners: [const { Vec::new() }; 2],
             paint: self.paint_words(),
             materials: data.materials.iter().map(Material::surface).collect(),
             // Until the frame's triangles are there to look at.
@@ -45,7 +44,7 @@ impl Scene {
             if !data.profiles.is_empty() {
                 let trees = data.analytic.iter().filter(|own| own.light().is_some());
                 let first = data.materials.len() as u32;
-                out.corners[2].extend(trees.map(|own| match own.kind {
+                out.corners[1].extend(trees.map(|own| match own.kind {
                     AnalyticKind::Profile { profile, .. } => Corner {
                         uv: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
                         material: first + profile,
@@ -55,7 +54,7 @@ impl Scene {
             }
         }
         out.camera = match data.cameras.first() {
-            Some(camera) => view_of_node(&pose.unscaled(data, camera.node), camera.yfov),
+            Some(camera) => view_of_node(&pose.unscaled(camera.node), camera.yfov),
             // The same in every frame.
             None => match self.default_camera.get() {
                 Some(camera) => *camera,
@@ -74,7 +73,7 @@ fn suns(data: &SceneData, pose: &Pose) -> Vec<DistantLight> {
         .iter()
         .filter(|light| light.kind == AnalyticKind::Directional);
     suns.map(|sun| DistantLight {
-        direction: unit_or(pose.place_of(data, sun).matrix3.z_axis.into(), [0.0, 1.0, 0.0]).map(|x| x as f32),
+        direction: unit_or(pose.place_of(sun).matrix3.z_axis.into(), [0.0, 1.0, 0.0]).map(|x| x as f32),
         irradiance: sun.emission(),
     })
     .collect()
@@ -108,18 +107,6 @@ fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
                     uv: uv.map_or([[0.0; 2]; 3], |uv| [a, b, c].map(|vertex| uv[vertex as usize])),
                     material: if lies { primitive.material } else { NONE },
                 };
-                if !primitive.is_shown(triangle, material) {
-                    if lies {
-                        out.clear.push(SurfaceTriangle {
-                            p,
-                            material: primitive.material,
-                            light: NONE,
-                            instance: NONE,
-                        });
-                        out.corners[1].push(corner);
-                    }
-                    continue;
-                }
                 let radiance = primitive.triangle_radiance(triangle, material.radiance);
                 let light = if emits(radiance) {
                     out.emissive.push(EmissiveTriangle {
@@ -129,7 +116,7 @@ fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
                         flags,
                     });
                     if is_painted {
-                        out.corners[2].push(corner);
+                        out.corners[1].push(corner);
                     }
                     out.emissive.len() as u32 - 1
                 } else {

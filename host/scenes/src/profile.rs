@@ -19,7 +19,6 @@ const SLACK: f32 = 2.0e-4;
 /// How the picture is read.
 pub(super) const OVER_DIRECTIONS: Texture = Texture {
     picture: 0,
-    is_color: true,
     is_nearest: false,
     wrap: [Wrap::Clamp; 2],
     transform: IN_PLACE,

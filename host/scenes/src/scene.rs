@@ -23,8 +23,6 @@ pub struct Scene {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     pub triangles: usize,
-    /// Of clear glass that does not emit.
-    pub clear: usize,
     pub emissive: usize,
     pub mesh_lights: usize,
     pub analytic: usize,
@@ -109,20 +107,6 @@ impl Scene {
             transform: place_of(&view),
             ..Node::default()
         });
-        Self::new(data)
-    }
-
-    /// The scene of a file whose +Z is up, turned so that +Y is: (x, y, z) lies at (x, z, −y) then. For scenes whose roots are
-    /// not animated, as OBJ's and PLY's are.
-    ///
-    /// # Errors
-    /// As [`Scene::new`].
-    pub fn from_z_up(self) -> Result<Self, SceneError> {
-        let mut data = self.into_data();
-        for node in data.nodes.iter_mut().filter(|node| node.parent.is_none()) {
-            let columns = node.transform.affine().to_cols_array_2d();
-            node.transform = Transform::Matrix(columns.map(|[x, y, z]| [x as f32, z as f32, -y as f32]));
-        }
         Self::new(data)
     }
 }

@@ -47,6 +47,11 @@ impl Shape {
         self
     }
 
+    /// An upright pane of this half size that faces +Z, or -Z where the half width is negative.
+    pub fn pane(&mut self, [w, h]: [f64; 2]) -> &mut Self {
+        self.quad([[-w, -h, 0.0], [w, -h, 0.0], [w, h, 0.0], [-w, h, 0.0]])
+    }
+
     /// An axis-aligned box.
     pub fn cuboid(&mut self, min: [f64; 3], max: [f64; 3]) -> &mut Self {
         let corner: [u32; 8] = std::array::from_fn(|i| {

@@ -1,8 +1,7 @@
 //! Pictures as the kernels' buffers hold them, and what they show.
 
 use bytemuck::bytes_of;
-use lightbvh_kernels::shading::picture::{self, PictureWords, Rgba};
-use lightbvh_kernels::shading::skin::{HEADER_WORDS, SRGB_WORDS};
+use lightbvh_kernels::shading::picture::{self, HEADER_WORDS, PictureWords, Rgba, SRGB_WORDS};
 
 use super::paint::{Texture, Wrap};
 use super::srgb::linear_from_srgb;
@@ -29,15 +28,16 @@ pub(super) fn picture_words(texture: &Texture, [width, height]: [u32; 2], texels
         Wrap::Mirror => PictureWords::MIRROR,
     };
     let [columns, rows] = texture.wrap.map(wrap);
-    let bit = |is_set, flag| if is_set { flag } else { 0 };
+    let nearest = if texture.is_nearest {
+        PictureWords::NEAREST
+    } else {
+        0
+    };
     let [x, y, origin] = texture.transform;
     PictureWords {
         width,
         height,
-        flags: bit(texture.is_color, PictureWords::SRGB)
-            | bit(texture.is_nearest, PictureWords::NEAREST)
-            | (columns << PictureWords::WRAP_COLUMNS)
-            | (rows << PictureWords::WRAP_ROWS),
+        flags: nearest | (columns << PictureWords::WRAP_COLUMNS) | (rows << PictureWords::WRAP_ROWS),
         transform: [x[0], x[1], y[0], y[1], origin[0], origin[1]],
         texels,
     }

@@ -33,15 +33,6 @@ impl Sky {
         }
     }
 
-    /// Suns, the first of which stands for the map.
-    pub(super) fn suns(&self) -> &[DistantLight] {
-        &self.suns
-    }
-
-    pub(super) fn environment(&self) -> Option<&Environment> {
-        self.environment.as_deref()
-    }
-
     /// As the kernels' functions take it.
     pub fn view(&self) -> SkyView<'_> {
         let (counts, radiance) = match &self.environment {

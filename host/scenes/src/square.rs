@@ -12,7 +12,6 @@ mod park;
 
 use super::builder::SceneBuilder;
 use super::error::SceneError;
-use super::model::Material;
 use super::random::Random;
 use super::scene::Scene;
 use super::shapes::Shape;
@@ -27,13 +26,7 @@ const FRONTS: f64 = 92.0;
 pub(super) fn square() -> Result<Scene, SceneError> {
     let mut b = SceneBuilder::new("square", [0.008, 0.012, 0.028]);
     let mut random = Random::new(2);
-    let iron = b.material(Material {
-        name: String::from("iron"),
-        base_color: [0.12, 0.13, 0.14],
-        metallic: 0.5,
-        roughness: 0.4,
-        ..Material::default()
-    });
+    let iron = b.metal("iron", [0.12, 0.13, 0.14], 0.5, 0.4);
     ground(&mut b);
     buildings::add(&mut b, &mut random);
     park::add(&mut b, &mut random, iron);

@@ -6,7 +6,6 @@
 use super::analytic::{AnalyticKind, AnalyticLight};
 use super::builder::{STILL, SceneBuilder};
 use super::error::SceneError;
-use super::model::Material;
 use super::scene::Scene;
 use super::shapes::{Shape, on_circle, rotation};
 
@@ -66,21 +65,10 @@ fn on(b: &mut SceneBuilder, name: &str, node: u32, kind: AnalyticKind, color: [f
 
 /// Boards, walls, curtains, steps and a ball on a pedestal.
 fn room(b: &mut SceneBuilder) {
-    let boards = b.material(Material {
-        name: String::from("boards"),
-        base_color: [0.34, 0.22, 0.13],
-        roughness: 0.35,
-        ..Material::default()
-    });
+    let boards = b.matte("boards", [0.34, 0.22, 0.13], 0.35);
     let plaster = b.matte("plaster", [0.42, 0.40, 0.38], 0.9);
     let velvet = b.matte("velvet", [0.42, 0.05, 0.06], 0.95);
-    let metal = b.material(Material {
-        name: String::from("metal"),
-        base_color: [0.75, 0.74, 0.70],
-        metallic: 1.0,
-        roughness: 0.25,
-        ..Material::default()
-    });
+    let metal = b.metal("metal", [0.75, 0.74, 0.70], 1.0, 0.25);
     let floor = Shape::of(|s| s.cuboid([-7.0, -0.2, -5.2], [7.0, 0.0, 4.0]));
     let walls = Shape::of(|s| {
         s.cuboid([-7.0, 0.0, -5.2], [7.0, 6.5, -5.0])

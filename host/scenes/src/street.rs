@@ -12,7 +12,6 @@ mod traffic;
 
 use super::builder::SceneBuilder;
 use super::error::SceneError;
-use super::model::Material;
 use super::random::Random;
 use super::scene::Scene;
 use super::shapes::Shape;
@@ -35,13 +34,7 @@ pub(super) fn street() -> Result<Scene, SceneError> {
     let mut b = SceneBuilder::new("street", [0.010, 0.014, 0.030]);
     let mut random = Random::new(1);
     let palette = Palette {
-        iron: b.material(Material {
-            name: String::from("iron"),
-            base_color: [0.10, 0.11, 0.12],
-            metallic: 0.6,
-            roughness: 0.4,
-            ..Material::default()
-        }),
+        iron: b.metal("iron", [0.10, 0.11, 0.12], 0.6, 0.4),
         wood: b.matte("wood", [0.30, 0.18, 0.10], 0.7),
         stone: b.matte("stone", [0.45, 0.43, 0.40], 0.8),
     };

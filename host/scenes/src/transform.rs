@@ -1,6 +1,6 @@
 //! Node transforms: translation, rotation, scale or a matrix, composed in `f64`.
 
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DAffine3, DQuat};
 
 use crate::vector::dot;
 
@@ -43,17 +43,6 @@ impl Transform {
         }
     }
 
-    /// Its rotation and mirroring alone. Of an axis that a matrix takes to zero nothing is known: it stays.
-    pub(super) fn turn(&self) -> DMat3 {
-        match *self {
-            Self::Trs { rotation, scale, .. } => {
-                let signs = scale.map(|factor| if factor < 0.0 { -1.0 } else { 1.0 });
-                trs([0.0; 3], normalized(rotation.map(f64::from)), signs).matrix3
-            }
-            Self::Matrix(_) => of_unit_columns(&self.affine().matrix3),
-        }
-    }
-
     /// The same as an affine map.
     pub(super) fn affine(&self) -> DAffine3 {
         match *self {
@@ -88,16 +77,6 @@ pub(super) fn to_light_bvh(place: &DAffine3) -> lightbvh::Transform {
         columns: [a, b, c],
         translation,
     }
-}
-
-/// Columns of length one; those of length zero are the axes'.
-pub(super) fn of_unit_columns(m: &DMat3) -> DMat3 {
-    let unit = |v: DVec3, axis: DVec3| DVec3::from(unit_or(v.into(), axis.into()));
-    DMat3::from_cols(
-        unit(m.x_axis, DVec3::X),
-        unit(m.y_axis, DVec3::Y),
-        unit(m.z_axis, DVec3::Z),
-    )
 }
 
 /// Whether a map turns left hands into right hands.

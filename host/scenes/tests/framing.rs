@@ -1,9 +1,6 @@
 //! The camera of scenes that bring none.
 
-use std::sync::Arc;
-
 use glam::Vec3;
-use lightbvh::light::infinite::Environment;
 use lightbvh_scenes::{Material, Mesh, Node, Primitive, Scene, SceneData, View};
 
 /// A box from `low` to `high`, its fronts outside.
@@ -33,13 +30,12 @@ fn sheet(p: [f32; 3], a: [f32; 3], b: [f32; 3], material: u32) -> Primitive {
 }
 
 /// Material 0 is grey, 1 glows.
-fn scene(primitives: Vec<Primitive>, is_under_sky: bool) -> Scene {
+fn scene(primitives: Vec<Primitive>) -> Scene {
     let material = |radiance| Material {
         base_color: [0.5; 3],
         radiance,
         ..Material::default()
     };
-    let sky = || Environment::from_fn(4, |[_, y, _]| if y > 0.0 { [1.0; 3] } else { [0.1; 3] });
     Scene::new(SceneData {
         name: String::from("test"),
         nodes: vec![Node {
@@ -51,7 +47,6 @@ fn scene(primitives: Vec<Primitive>, is_under_sky: bool) -> Scene {
             primitives,
         }],
         materials: vec![material([0.0; 3]), material([10.0; 3])],
-        environment: is_under_sky.then(|| Arc::new(sky().expect("a sky"))),
         ..SceneData::default()
     })
     .expect("a sound scene")
@@ -87,10 +82,10 @@ fn inside(eye: [f32; 3], low: [f32; 3], high: [f32; 3]) -> bool {
 #[test]
 fn a_room_is_seen_from_inside() {
     let (low, high) = ([-4.0, 0.0, -3.0], [4.0, 3.0, 3.0]);
-    let room = scene(
-        vec![solid(low, high, 0), solid([-0.2, 2.5, -0.2], [0.2, 2.6, 0.2], 1)],
-        false,
-    );
+    let room = scene(vec![
+        solid(low, high, 0),
+        solid([-0.2, 2.5, -0.2], [0.2, 2.6, 0.2], 1),
+    ]);
     let camera = room.frame(9).camera;
     assert!(inside(camera.eye, low, high), "{camera:?}");
     assert_eq!(camera, room.frame(0).camera);
@@ -103,7 +98,7 @@ fn what_is_dark_is_not_framed() {
     let ground = solid([-500.0, -1.0, -500.0], [500.0, 0.0, 500.0], 0);
     let table = solid([100.0, 0.0, 100.0], [102.0, 1.0, 102.0], 0);
     let lamp = solid([100.9, 2.0, 100.9], [101.1, 2.1, 101.1], 1);
-    let camera = scene(vec![ground, table, lamp], false).frame(0).camera;
+    let camera = scene(vec![ground, table, lamp]).frame(0).camera;
     let [eye, forward] = [camera.eye, camera.forward].map(Vec3::from);
     let towards = Vec3::new(101.0, 1.0, 101.0) - eye;
     assert!(towards.length() < 400.0, "{camera:?}");
@@ -119,7 +114,7 @@ fn a_lamp_behind_a_wall_is_seen_from_its_side() {
     // What is lit faces away from the first direction that is tried.
     let wall = solid([-3.0, -3.0, 0.0], [3.0, 3.0, 0.2], 0);
     let lamp = solid([-0.2, -0.2, -1.1], [0.2, 0.2, -1.0], 1);
-    let camera = scene(vec![wall, lamp], false).frame(0).camera;
+    let camera = scene(vec![wall, lamp]).frame(0).camera;
     assert!(camera.eye[2] < 0.0, "{camera:?}");
 }
 
@@ -131,10 +126,10 @@ fn sign_is_seen_whole_from_its_front() {
         ([0.0, 0.0, -4.0], [1.0, 0.0, 0.0]),
         ([0.0, 0.0, 4.0], [-1.0, 0.0, 0.0]),
     ] {
-        for (material, is_under_sky) in [(1, false), (0, true)] {
+        for material in [1, 0] {
             let sign = sheet([1.0, 2.0, 3.0], a, [0.0, 1.0, 0.0], material);
             let corners = sign.positions.clone();
-            let view = scene(vec![sign], is_under_sky).frame(0).camera;
+            let view = scene(vec![sign]).frame(0).camera;
             let towards = -Vec3::from(view.forward).dot(front.into());
             assert!(towards > 0.5, "{towards} of {front:?}: {view:?}");
             fill(&view, &corners);
@@ -146,10 +141,10 @@ fn sign_is_seen_whole_from_its_front() {
 fn boxes_of_any_size_are_seen_from_outside() {
     for size in [0.01_f32, 2.0, 4000.0] {
         let (low, high) = ([size, -2.0 * size, 7.0 * size], [2.0 * size, -size, 8.0 * size]);
-        for (material, is_under_sky) in [(1, false), (0, true)] {
+        for material in [1, 0] {
             let one = solid(low, high, material);
             let corners = one.positions.clone();
-            let view = scene(vec![one], is_under_sky).frame(0).camera;
+            let view = scene(vec![one]).frame(0).camera;
             assert!(!inside(view.eye, low, high), "{view:?}");
             fill(&view, &corners);
         }
@@ -169,7 +164,7 @@ fn camera_does_not_stand_in_a_glowing_bulb() {
         );
         inner.triangles.iter_mut().for_each(|own| own.swap(0, 1));
         let primitives = vec![solid(low, high, 1), inner, floor.clone()];
-        let view = scene(primitives, false).frame(0).camera;
+        let view = scene(primitives).frame(0).camera;
         let is_out = !inside(view.eye, low, high) && view.eye[1] > 0.0;
         assert!(is_out, "{size}: {view:?}");
     }
@@ -177,19 +172,9 @@ fn camera_does_not_stand_in_a_glowing_bulb() {
 
 #[test]
 fn nothing_to_see_is_no_error() {
-    for is_under_sky in [false, true] {
-        let flat = sheet([5.0; 3], [0.0; 3], [0.0; 3], 0);
-        let view = scene(vec![flat], is_under_sky).frame(0).camera;
-        let all = [view.eye, view.right, view.up, view.forward];
-        assert!(all.iter().flatten().all(|x| x.is_finite()), "{view:?}");
-    }
-}
-
-#[test]
-fn up_along_z_is_turned_to_up_along_y() {
-    let flat = sheet([0.0, 0.0, 11.0], [3.0, 0.0, 0.0], [0.0, 2.0, 0.0], 0);
-    let turned = scene(vec![flat], false).from_z_up().expect("a sound scene");
-    let first = turned.frame(0).triangles[0].p;
-    // The front is above.
-    assert_eq!(first, [[0.0, 11.0, 0.0], [3.0, 11.0, 0.0], [3.0, 11.0, -2.0]]);
+    let view = scene(vec![sheet([5.0; 3], [0.0; 3], [0.0; 3], 0)])
+        .frame(0)
+        .camera;
+    let all = [view.eye, view.right, view.up, view.forward];
+    assert!(all.iter().flatten().all(|x| x.is_finite()), "{view:?}");
 }

@@ -12,7 +12,7 @@ use serde_json::json;
 
 use self::options::recipe;
 use self::sequence::Sequence;
-use self::view::{camera_words, check_places, playing, seen_by};
+use self::view::{camera_words, check_places, seen_by};
 use super::reading::BackendName;
 use super::{Context, Outcome, devices, frames, table, target};
 use crate::cli::table::news;
@@ -38,9 +38,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .map(|shown| frames::numbered(&args.output, shown.start));
     target::picture(first.as_ref().unwrap_or(&args.output))?;
     let mut scene = args.reading.open(&args.scene)?;
-    if !args.animation.is_empty() {
-        scene = playing(scene, &args.animation)?;
-    }
     scene = seen_by(scene, args.camera)?;
     if let (Some(from), Some(at)) = (args.look_from, args.look_at) {
         check_places(from, at)?;
@@ -64,7 +61,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let is_painted = scene.data().is_painted();
     if is_painted && !is_known && !scene.has_other_lights() {
         news!(
-            "{}: textures are shown by their means, and glass is left out: the paper's importance knows triangles alone",
+            "{}: textures are shown by their means: the paper's importance knows triangles alone",
             scene.name()
         );
     }

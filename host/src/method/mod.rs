@@ -201,7 +201,7 @@ impl MethodLight for AnyLight {
             Importance::Moments => recipe.runner_by::<Kinds, WIDTH>(first, target),
             Importance::Eq4 => Err(HostError::Usage {
                 option: "a --sampler by the paper's importance",
-                needs: "a scene of emissive triangles alone; this one has other lights, or textures or glass, which the renderer shows with moments only",
+                needs: "a scene of emissive triangles alone; this one has other lights, or textures, which the renderer shows with moments only",
             }),
         }
     }

@@ -166,30 +166,11 @@ fn each_animation_is_looked_at() {
     assert!(said.contains("dark"), "{said}");
 }
 
-/// By a name or by a number, and as many and in the order as the file has them in a file that is written.
+/// As many and in the order as the file has them.
 #[test]
-fn an_animation_is_chosen_and_all_are_kept() {
+fn written_file_keeps_all_animations() {
     let folder = Folder::new("chosen");
     let path = with_clips(&folder);
-    let image = |options: &str| {
-        let file = folder.file("image.exr");
-        let small = "--width 48 --height 27 --spp 2 --frame 12 --look-from 0,4,9 --look-at 0,1,0";
-        let output = run(&format!("render {path} {small} {options} -o {file}"));
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.success(), "{said}");
-        (std::fs::read(&file).expect("an image"), said)
-    };
-    let (idle, said) = image("");
-    assert!(said.contains("animations 1 \"Walk\", 2 \"Idle\""), "{said}");
-    assert!(image("--animation Idle").0 == idle && image("--animation 0").0 == idle);
-    let walks = image("--animation Walk").0;
-    assert!(walks != idle && image("--animation 2").0 == walks);
-    let said = refused(&format!(
-        "render {path} --animation 3 -o {}",
-        folder.file("no.png")
-    ));
-    assert!(said.contains("0 \"Idle\", 1 \"Walk\", 2 \"Idle\""), "{said}");
-
     let written = folder.file("written.glb");
     assert!(run(&format!("export {path} -o {written}")).status.success());
     let bytes = std::fs::read(&written).expect("a scene");

@@ -15,7 +15,6 @@ use super::numbers::{Numbers, Part};
 use super::pick::PickLight;
 use super::picks::Picks;
 use super::pixel::{Scene, Seen, arriving};
-use super::skin::Skin;
 use super::sky::{Sky, sky_sample};
 use super::trace::NONE;
 
@@ -103,7 +102,7 @@ pub fn reflected<L: Emitter, P: PickLight>(
                         if picked.pmf > 0.0 {
                             let light = scene.emitters.light(picked.light, picked.instance);
                             let light = scene.glowing(light, picked.light, seen.point.position(), uv);
-                            own = light.connect(&seen.point, seen.wo, &material, 1.0, uv);
+                            own = light.connect(seen.point, seen.wo, material, 1.0, uv);
                         }
                         let c = own.contribution;
                         let target = target(luminance([c.x, c.y, c.z]));
@@ -130,12 +129,7 @@ pub fn reflected<L: Emitter, P: PickLight>(
         }
     }
     let count = if samples.count == 0 { 1 } else { samples.count };
-    let mean = flush_vector(sum * div(1.0, count as i32 as f32), TINY);
-    if <L::Skin<'_> as Skin>::IS_PAINTED {
-        flush_vector(mean * seen.tint, TINY)
-    } else {
-        mean
-    }
+    flush_vector(sum * div(1.0, count as i32 as f32), TINY)
 }
 
 /// A contribution times a reservoir's weight, by components.

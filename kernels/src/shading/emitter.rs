@@ -24,14 +24,9 @@ pub trait Emitter: Light {
     type Skin<'a>: Skin;
 
     /// Connects `point` with the point of this light that `uv` chooses, where the light was chosen with probability `pmf`.
-    fn connect(
-        &self,
-        point: &ShadingPoint,
-        wo: Vec3,
-        material: &Material,
-        pmf: f32,
-        uv: [f32; 2],
-    ) -> Connection;
+    // A function of its own on devices, by value: passes connect in several places, and it is long.
+    fn connect(self, point: ShadingPoint, wo: Vec3, material: Material, pmf: f32, uv: [f32; 2])
+    -> Connection;
 
     /// Whether rays that leave a surface find its light too. What they do not find, [`connect`](Self::connect) alone brings, and where
     /// they meet it, it counts only if the camera sees it.
@@ -44,31 +39,41 @@ pub trait Emitter: Light {
     /// The radiance of its surface, seen from its front or back.
     fn emitted(&self, front: bool) -> Vec3;
 
-    /// Its radiance, or what it has in place of that.
-    fn emission(&self) -> [f32; 3];
+    /// Its radiance, or what it has in place of that; asked for where surfaces are painted.
+    #[inline]
+    fn emission(&self) -> [f32; 3] {
+        [0.0; 3]
+    }
 
     /// It with another.
+    #[inline]
     #[must_use]
-    fn with_emission(self, emission: [f32; 3]) -> Self;
+    fn with_emission(self, _emission: [f32; 3]) -> Self {
+        self
+    }
 
     /// Where on what is painted on it the point lies that `uv` chooses, for a receiver at `from`.
-    fn painted_at(&self, from: Vec3, uv: [f32; 2]) -> [f32; 2];
+    #[inline]
+    fn painted_at(&self, _from: Vec3, uv: [f32; 2]) -> [f32; 2] {
+        uv
+    }
 }
 
 impl Emitter for EmissiveTriangle {
     type Sky<'a> = NoSky;
     type Skin<'a> = NoSkin;
 
-    #[inline]
+    #[cfg_attr(target_arch = "spirv", inline(never))]
+    #[cfg_attr(not(target_arch = "spirv"), inline)]
     fn connect(
-        &self,
-        point: &ShadingPoint,
+        self,
+        point: ShadingPoint,
         wo: Vec3,
-        material: &Material,
+        material: Material,
         pmf: f32,
         uv: [f32; 2],
     ) -> Connection {
-        connect_triangle(*self, *point, wo, *material, pmf, uv)
+        connect(&point, wo, &material, &self, pmf, uv)
     }
 
     #[inline]
@@ -85,31 +90,6 @@ impl Emitter for EmissiveTriangle {
     fn emitted(&self, front: bool) -> Vec3 {
         shown(self.radiance, front || self.is_two_sided())
     }
-
-    #[inline]
-    fn emission(&self) -> [f32; 3] {
-        self.radiance
-    }
-
-    #[inline]
-    fn with_emission(self, emission: [f32; 3]) -> Self {
-        Self {
-            radiance: emission,
-            ..self
-        }
-    }
-
-    /// The parts of its edges, as `uniform_point` folds them.
-    #[inline]
-    fn painted_at(&self, _: Vec3, uv: [f32; 2]) -> [f32; 2] {
-        folded(uv)
-    }
-}
-
-#[inline]
-fn folded(uv: [f32; 2]) -> [f32; 2] {
-    let fold = uv[0] + uv[1] > 1.0;
-    if fold { [1.0 - uv[0], 1.0 - uv[1]] } else { uv }
 }
 
 #[inline]
@@ -127,16 +107,18 @@ impl Emitter for AnyLight {
     type Sky<'a> = SkyView<'a>;
     type Skin<'a> = SkinView<'a>;
 
-    #[inline]
+    #[cfg_attr(target_arch = "spirv", inline(never))]
+    #[cfg_attr(not(target_arch = "spirv"), inline)]
     fn connect(
-        &self,
-        point: &ShadingPoint,
+        self,
+        point: ShadingPoint,
         wo: Vec3,
-        material: &Material,
+        material: Material,
         pmf: f32,
         uv: [f32; 2],
     ) -> Connection {
-        connect_any(*self, *point, wo, *material, pmf, uv)
+        let at = self.point_for(point.position(), uv);
+        connect_point(&point, wo, &material, &at, pmf, self.is_met())
     }
 
     #[inline]
@@ -168,10 +150,11 @@ impl Emitter for AnyLight {
         Self::with_emission(self, emission)
     }
 
-    /// Of a profile the direction; of others as of a triangle.
+    /// Of a profile the direction; of a triangle the parts of its edges, as `uniform_point` folds them.
     #[inline]
     fn painted_at(&self, from: Vec3, uv: [f32; 2]) -> [f32; 2] {
-        let mut at = folded(uv);
+        let fold = uv[0] + uv[1] > 1.0;
+        let mut at = if fold { [1.0 - uv[0], 1.0 - uv[1]] } else { uv };
         if self.kind() == Self::PROFILE {
             at = direction_of(*self, from);
         }
@@ -179,40 +162,11 @@ impl Emitter for AnyLight {
     }
 }
 
-/// Where on its picture a profile has the direction to `from`. A function of its own on devices, as [`connect_any`].
+/// Where on its picture a profile has the direction to `from`. A function of its own on devices, as [`Emitter::connect`].
 #[cfg_attr(target_arch = "spirv", inline(never))]
 #[cfg_attr(not(target_arch = "spirv"), inline)]
 fn direction_of(light: AnyLight, from: Vec3) -> [f32; 2] {
     light.profile().coordinates(from)
-}
-
-/// What [`Emitter::connect`] says. A function of its own on devices: passes connect in several places, and it is long.
-#[cfg_attr(target_arch = "spirv", inline(never))]
-#[cfg_attr(not(target_arch = "spirv"), inline)]
-fn connect_any(
-    light: AnyLight,
-    point: ShadingPoint,
-    wo: Vec3,
-    material: Material,
-    pmf: f32,
-    uv: [f32; 2],
-) -> Connection {
-    let at = light.point_for(point.position(), uv);
-    connect_point(&point, wo, &material, &at, pmf, light.is_met())
-}
-
-/// As [`connect_any`] for triangles alone.
-#[cfg_attr(target_arch = "spirv", inline(never))]
-#[cfg_attr(not(target_arch = "spirv"), inline)]
-fn connect_triangle(
-    light: EmissiveTriangle,
-    point: ShadingPoint,
-    wo: Vec3,
-    material: Material,
-    pmf: f32,
-    uv: [f32; 2],
-) -> Connection {
-    connect(&point, wo, &material, &light, pmf, uv)
 }
 
 #[inline]

@@ -30,7 +30,40 @@ pub struct Material {
 
 const _: () = assert!(size_of::<Material>() == 20);
 
+/// Least width of a lobe.
+const LEAST_ALPHA: f32 = 1.0 / 32.0;
+
 impl Material {
+    /// The reflectance of a surface of this base colour; each number in [0, 1].
+    ///
+    /// Normal-incidence reflectance is 0.04 for dielectrics and the base colour for metals (glTF 2.0, appendix B.2).
+    /// The exponent follows Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces",
+    /// section 5.2: n = 2/α² - 2 with α = roughness², rounded down to a power of two. The glossy lobe is white, so a metal keeps its
+    /// colour in the diffuse lobe that is left.
+    #[must_use]
+    pub fn of(base_color: [f32; 3], metallic: f32, roughness: f32) -> Self {
+        let [r, g, b] = base_color;
+        let luminance = (0.2126 * r + 0.7152 * g) + 0.0722 * b;
+        let alpha = max(roughness * roughness, LEAST_ALPHA);
+        let exponent = clamp(div(2.0, alpha * alpha) - 2.0, 1.0, 1024.0);
+        Self {
+            albedo: base_color,
+            specular: 0.04 * (1.0 - metallic) + luminance * metallic,
+            exponent_log2: (exponent.to_bits() >> 23) - 127,
+        }
+    }
+
+    /// Material `index`, word by word.
+    #[inline]
+    pub(super) fn load(materials: &[Self], index: u32) -> Self {
+        let own = &materials[index as usize];
+        Self {
+            albedo: [own.albedo[0], own.albedo[1], own.albedo[2]],
+            specular: own.specular,
+            exponent_log2: own.exponent_log2,
+        }
+    }
+
     /// The reflectance (BRDF) from unit direction `wi` to unit direction `wo` at unit normal `n`, 1/sr; both directions
     /// point away from the surface and lie on the normal's side.
     ///

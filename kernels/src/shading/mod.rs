@@ -4,13 +4,13 @@
 //! | module | what |
 //! |---|---|
 //! | [`grid`] | the grid that coordinates lie on, so that no product of lengths is subnormal |
-//! | [`ray`], [`trace`] | a ray against a box and a triangle; the walk through the ray BVH |
+//! | [`ray`], [`block`], [`trace`] | a ray against a box and a triangle; triangles of the ray BVH; the walk through it |
 //! | [`camera`], [`material`] | where rays start; how surfaces reflect |
 //! | [`emitters`] | the lights, read through their instances |
 //! | [`emitter`] | a light as the renderer shows it, of triangles alone or of any kind |
 //! | [`area`] | a point on the chosen light, and what it contributes |
 //! | [`sky`] | light from without end: an environment map and suns |
-//! | [`skin`], [`picture`], [`tangent`] | textures: colours, glow, what is cut out, what light goes through, bent normals |
+//! | [`skin`], [`picture`] | textures: colours, glow, what is cut out |
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
 //! | [`picks`] | the lights of a pixel's samples |
 //! | [`numbers`] | the numbers that lights and points on them are drawn by |
@@ -24,6 +24,7 @@
 //! weight in [0, 1]. Outside of it nothing panics, and every loop still ends.
 
 pub mod area;
+pub mod block;
 pub mod camera;
 pub mod direct;
 pub mod emitter;
@@ -41,5 +42,4 @@ pub mod pixel;
 pub mod ray;
 pub mod skin;
 pub mod sky;
-pub mod tangent;
 pub mod trace;

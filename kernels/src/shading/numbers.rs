@@ -93,32 +93,6 @@ impl Numbers {
 mod tests {
     use super::*;
 
-    #[test]
-    fn numbers_fill_their_space_evenly() {
-        for seed in 0..64 {
-            let numbers = Numbers::of(hash(seed));
-            for count in [1, 6, 48] {
-                let mut strata = [0; 48];
-                let mut squares = [0; 16];
-                for k in 0..count {
-                    let light = u64::from(numbers.light(k, count).high);
-                    strata[((light * u64::from(count)) >> 32) as usize] += 1;
-                    let [u, v] = numbers.uv(k).map(|u| (u * 4.0) as usize);
-                    squares[4 * u + v] += 1;
-                }
-                assert!(
-                    strata[..count as usize].iter().all(|&n| n == 1),
-                    "{seed}: {strata:?}"
-                );
-                // Independent numbers fill a square with more now and then.
-                assert!(
-                    squares.iter().all(|&n| n <= count / 16 + 3),
-                    "{seed}: {squares:?}"
-                );
-            }
-        }
-    }
-
     /// Parts of equal size together have one number in each stratum, and each point once.
     #[test]
     fn parts_lie_between_each_other() {

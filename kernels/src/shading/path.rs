@@ -13,7 +13,6 @@ use super::mis::power_heuristic;
 use super::pick::PickLight;
 use super::pixel::{Scene, arriving, encounter};
 use super::ray::{FAR, Ray};
-use super::skin::Skin;
 use super::sky::Sky;
 use super::trace::NONE;
 
@@ -82,9 +81,6 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
             weight = power_heuristic(density, scene.sky.density(&from, ray.direction));
         }
         radiance += bounded(throughput, seen.direct * weight);
-        if <L::Skin<'_> as Skin>::IS_PAINTED {
-            throughput = bounded(throughput, seen.tint);
-        }
 
         let n = flush_vector(seen.point.normal(), STEP);
         alive = bounce < bounces && length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32;
@@ -102,7 +98,7 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
                         let light = scene.emitters.light(picked.light, picked.instance);
                         let uv = [draw(random, RANDOM_LIGHT + 1), draw(random, RANDOM_LIGHT + 2)];
                         let light = scene.glowing(light, picked.light, seen.point.position(), uv);
-                        found = light.connect(&seen.point, seen.wo, &material, picked.pmf, uv);
+                        found = light.connect(seen.point, seen.wo, material, picked.pmf, uv);
                     }
                 } else {
                     let uv = [draw(random, RANDOM_SKY + 1), draw(random, RANDOM_SKY + 2)];

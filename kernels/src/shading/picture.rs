@@ -2,8 +2,12 @@
 
 use lightbvh::exact::{abs, clamp, floor_u32};
 
-use super::skin::HEADER_WORDS;
-use super::trace::NONE;
+use super::block::NONE;
+
+/// Words of the header.
+pub const HEADER_WORDS: u32 = 8;
+/// Of linear numbers by their sRGB bytes.
+pub const SRGB_WORDS: u32 = 256;
 
 /// What a texture shows at a point, or a mean: linear, each in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +31,7 @@ pub struct PictureWords {
     pub width: u32,
     /// Rows, at most 2^14.
     pub height: u32,
-    /// [`SRGB`](Self::SRGB) and so on.
+    /// [`NEAREST`](Self::NEAREST), and how the picture wraps.
     pub flags: u32,
     /// Where texture coordinates lie on the picture: columns of a map, then where it puts the origin.
     pub transform: [f32; 6],
@@ -40,10 +44,8 @@ const _: () = assert!(size_of::<PictureWords>() == 40);
 impl PictureWords {
     /// Words of it.
     pub const COUNT: u32 = 10;
-    /// Flag: colours are encoded (IEC 61966-2-1).
-    pub const SRGB: u32 = 1;
     /// Flag: the nearest texel, not a mean of four.
-    pub const NEAREST: u32 = 2;
+    pub const NEAREST: u32 = 1;
     /// Bits of the flags from which on two say how columns wrap: [`REPEAT`](Self::REPEAT) and so on.
     pub const WRAP_COLUMNS: u32 = 2;
     /// The same of rows.
@@ -103,7 +105,6 @@ impl Picture<'_> {
             let is_nearest = flags & PictureWords::NEAREST != 0;
             let x = along(x, width, (flags >> PictureWords::WRAP_COLUMNS) & 3, is_nearest);
             let y = along(y, height, (flags >> PictureWords::WRAP_ROWS) & 3, is_nearest);
-            let decoded = flags & PictureWords::SRGB != 0;
             let mut sum = Rgba {
                 r: 0.0,
                 g: 0.0,
@@ -121,25 +122,20 @@ impl Picture<'_> {
                     self.words,
                     texels.wrapping_add(row.wrapping_mul(width)).wrapping_add(column),
                 );
-                sum.r += weight * self.channel(texel, decoded);
-                sum.g += weight * self.channel(texel >> 8, decoded);
-                sum.b += weight * self.channel(texel >> 16, decoded);
-                sum.a += weight * self.channel(texel >> 24, false);
+                sum.r += weight * self.color(texel);
+                sum.g += weight * self.color(texel >> 8);
+                sum.b += weight * self.color(texel >> 16);
+                sum.a += weight * ((texel >> 24) as i32 as f32 * PER_BYTE);
             }
             shown = sum;
         }
         shown
     }
 
-    /// The number that a byte stands for.
+    /// The number that the lowest byte stands for (IEC 61966-2-1).
     #[inline]
-    fn channel(&self, texel: u32, is_encoded: bool) -> f32 {
-        let byte = texel & 255;
-        let mut number = byte as i32 as f32 * PER_BYTE;
-        if is_encoded {
-            number = f32::from_bits(word(self.words, HEADER_WORDS + byte));
-        }
-        number
+    fn color(&self, texel: u32) -> f32 {
+        f32::from_bits(word(self.words, HEADER_WORDS + (texel & 255)))
     }
 }
 

@@ -7,12 +7,12 @@ use lightbvh::{EmissiveTriangle, Instance, ShadingPoint};
 use super::area::{Connection, offset_distance};
 use super::emitter::Emitter;
 use super::emitters::Emitters;
-use super::grid::{TINY, TINY_AREA, div, flush_vector, sqrt};
+use super::grid::{TINY_AREA, div, flush_vector, sqrt};
 use super::material::Material;
 use super::ray::Ray;
-use super::skin::{GLASS, SHADOW, Skin, Spot, Through};
+use super::skin::{Skin, Spot};
 use super::sky::Sky;
-use super::trace::{LANES, NONE, RayNode, Surfaces, TriangleBlock, seen_hit, through, vertex};
+use super::trace::{LANES, NONE, RayNode, Surfaces, TriangleBlock, any_hit, closest_hit, vertex};
 
 /// Everything that light meets.
 #[derive(Clone, Copy)]
@@ -64,18 +64,14 @@ impl<'a, L: Emitter> Scene<'a, L> {
         let mut glowing = light;
         if <L::Skin<'_> as Skin>::IS_PAINTED {
             let at = light.painted_at(from, uv);
-            let blocks = self.surfaces.blocks;
-            let emission = self
-                .surfaces
-                .skin
-                .glow::<true>(blocks, number, at, light.emission());
-            glowing = light.with_emission(emission);
+            let Surfaces { blocks, skin, .. } = self.surfaces;
+            glowing = light.with_emission(skin.glow(blocks, number, at, light.emission()));
         }
         glowing
     }
 }
 
-/// What of `connection` arrives at `point`: nothing where anything but `light` lies between that lets none through.
+/// What of `connection` arrives at `point`: nothing where anything but `light` lies between.
 #[inline]
 #[must_use]
 pub fn arriving<L: Emitter>(
@@ -85,10 +81,9 @@ pub fn arriving<L: Emitter>(
     light: u32,
 ) -> Vec3 {
     let ray = Ray::new(point.position(), connection.direction, connection.reach);
-    let open = through::<SHADOW, _>(&scene.surfaces, &ray, light);
-    let mut left = Vec3::ZERO;
-    if open.is_open() {
-        left = open.of(connection.contribution);
+    let mut left = connection.contribution;
+    if any_hit(&scene.surfaces, &ray, light) {
+        left = Vec3::ZERO;
     }
     left
 }
@@ -103,12 +98,10 @@ pub struct Seen {
     pub wo: Vec3,
     /// Index of the material.
     pub material: u32,
-    /// What arrives without being reflected: the radiance of a light seen directly, or the background, through what is clear before it.
+    /// What arrives without being reflected: the radiance of a light seen directly, or the background.
     pub direct: Vec3,
     /// What was met.
     pub spot: Spot,
-    /// What clear surfaces leave of the light that comes from there, where there may be such.
-    pub tint: Vec3,
 }
 
 /// What a ray meets, and how far away.
@@ -138,7 +131,7 @@ pub fn see<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) -> See
 #[must_use]
 pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) -> Encounter {
     let blocks = scene.surfaces.blocks;
-    let hit = seen_hit(&scene.surfaces, ray);
+    let hit = closest_hit(&scene.surfaces, ray);
     let mut seen = Seen {
         point: ShadingPoint {
             p: [0.0; 3],
@@ -151,7 +144,6 @@ pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) 
             triangle: hit.triangle,
             at: [0.0; 2],
         },
-        tint: Vec3::ONE,
     };
     let mut light = NONE;
     let mut instance = NONE;
@@ -174,7 +166,6 @@ pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) 
             // the ray started.
             let p = ((p0 + e1 * a) + e2 * b) + n * offset_distance(p0, p1, p2);
             seen.wo = -ray.direction * div(1.0, sqrt(length_squared(ray.direction)));
-            let n = scene.surfaces.skin.normal(blocks, &seen.spot, n, seen.wo);
             seen.point = ShadingPoint {
                 p: [p.x, p.y, p.z],
                 n: [n.x, n.y, n.z],
@@ -184,11 +175,6 @@ pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) 
         light = blocks[block].light[lane];
         instance = blocks[block].instance[lane];
         seen.direct = emitted(scene, light, instance, front, seen.spot.at);
-    }
-    if <L::Skin<'_> as Skin>::IS_PAINTED && scene.surfaces.skin.has_glass() {
-        let before = Ray { t_max: hit.t, ..*ray };
-        seen.tint = through::<GLASS, _>(&scene.surfaces, &before, NONE).of(Vec3::ONE);
-        seen.direct = flush_vector(seen.direct * seen.tint, TINY);
     }
     Encounter {
         seen,
@@ -206,29 +192,10 @@ fn emitted<L: Emitter>(scene: &Scene<'_, L>, light: u32, instance: u32, front: b
     if light != NONE {
         let mut own = scene.emitters.light(light, instance);
         if <L::Skin<'_> as Skin>::IS_PAINTED {
-            let blocks = scene.surfaces.blocks;
-            own = own.with_emission(
-                scene
-                    .surfaces
-                    .skin
-                    .glow::<false>(blocks, light, at, own.emission()),
-            );
+            let Surfaces { blocks, skin, .. } = scene.surfaces;
+            own = own.with_emission(skin.glow(blocks, light, at, own.emission()));
         }
         radiance = own.emitted(front);
     }
     radiance
-}
-
-#[inline]
-pub(super) fn load_material(materials: &[Material], index: u32) -> Material {
-    let i = index as usize;
-    Material {
-        albedo: [
-            materials[i].albedo[0],
-            materials[i].albedo[1],
-            materials[i].albedo[2],
-        ],
-        specular: materials[i].specular,
-        exponent_log2: materials[i].exponent_log2,
-    }
 }

@@ -5,17 +5,13 @@ use glam::Vec3;
 use lightbvh::device::widest::widest;
 use lightbvh::exact::{max, min, pow2};
 
+pub use super::block::{LANES, NONE, SurfaceTriangle, TriangleBlock, vertex};
 use super::ray::{FAR, MISS, Meeting, Ray};
-use super::skin::{FIND, NoSkin, SEE, SHADOW, Skin, Through};
-
-/// No triangle, no light.
-pub const NONE: u32 = u32::MAX;
+use super::skin::{NoSkin, Skin};
 
 /// Children of a node: as many numbers as a vector register of 256 bits holds.
 pub const WIDTH: usize = 8;
 
-/// Triangles that processors test at once, most of one leaf.
-pub const LANES: usize = 4;
 /// Most triangles in one ray BVH: what a [`RayNode`] can count, if each has a leaf of its own.
 pub const MAX_TRIANGLES: u32 = 1 << (32 - LEAF_BITS);
 /// Most inner nodes on the path to a leaf; the walk remembers two words of each.
@@ -68,70 +64,6 @@ impl RayNode {
     }
 }
 
-/// A triangle of the scene; 48 bytes.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct SurfaceTriangle {
-    /// Vertices in world space, metres; counter-clockwise seen from the front.
-    pub p: [[f32; 3]; 3],
-    /// Index of the material.
-    pub material: u32,
-    /// The light that it is, as a [`SampledLight`](lightbvh::SampledLight) numbers it, or [`NONE`].
-    pub light: u32,
-    /// That light's instance; not read where all lights are of one instance.
-    pub instance: u32,
-}
-
-/// The triangles of a leaf of the ray BVH, lane by lane: processors test them all at once. Triangle `k` of a scene is lane `k % 4` of
-/// block `k / 4`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct TriangleBlock {
-    /// Coordinates on the grid, metres: by vertex, by axis.
-    pub p: [[[f32; LANES]; 3]; 3],
-    /// [`SurfaceTriangle::material`]; [`NONE`] where the lane has no triangle.
-    pub material: [u32; LANES],
-    /// [`SurfaceTriangle::light`].
-    pub light: [u32; LANES],
-    /// [`SurfaceTriangle::instance`].
-    pub instance: [u32; LANES],
-}
-
-const _: () = assert!(size_of::<TriangleBlock>() == 48 * LANES);
-
-impl TriangleBlock {
-    /// No triangle: points, which no ray meets.
-    pub const EMPTY: Self = Self {
-        p: [[[0.0; LANES]; 3]; 3],
-        material: [NONE; LANES],
-        light: [NONE; LANES],
-        instance: [NONE; LANES],
-    };
-
-    /// The triangle of a lane, if it has one.
-    #[must_use]
-    pub fn get(&self, lane: usize) -> Option<SurfaceTriangle> {
-        (self.material[lane] != NONE).then(|| SurfaceTriangle {
-            p: self.p.map(|corner| corner.map(|axis| axis[lane])),
-            material: self.material[lane],
-            light: self.light[lane],
-            instance: self.instance[lane],
-        })
-    }
-
-    /// Puts a triangle into a lane.
-    pub fn set(&mut self, lane: usize, triangle: &SurfaceTriangle) {
-        for (corners, corner) in self.p.iter_mut().zip(&triangle.p) {
-            for (axis, &value) in corners.iter_mut().zip(corner) {
-                axis[lane] = value;
-            }
-        }
-        self.material[lane] = triangle.material;
-        self.light[lane] = triangle.light;
-        self.instance[lane] = triangle.instance;
-    }
-}
-
 /// The scene as rays see it.
 #[derive(Clone, Copy)]
 pub struct Surfaces<'a, S = NoSkin> {
@@ -152,86 +84,34 @@ pub struct Hit {
     pub t: f32,
 }
 
-/// The vertex `k` of triangle `index`.
-#[inline(always)]
-#[must_use]
-pub fn vertex(blocks: &[TriangleBlock], index: u32, k: usize) -> Vec3 {
-    let (i, lane) = (index as usize / LANES, index as usize % LANES);
-    Vec3::new(
-        blocks[i].p[k][0][lane],
-        blocks[i].p[k][1][lane],
-        blocks[i].p[k][2][lane],
-    )
-}
-
-/// A hit, and what is left of light on the way to it.
-#[derive(Clone, Copy)]
-struct Found<T> {
-    hit: Hit,
-    through: T,
-}
-
-/// The nearest hit of the ray; of equally near ones, the first in the order of the triangles. What lets any light through is passed by.
+/// The nearest hit of the ray; of equally near ones, the first in the order of the triangles.
 #[inline]
 #[must_use]
 pub fn closest_hit<S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray) -> Hit {
-    nearest::<FIND, S>(surfaces, ray)
-}
-
-/// The nearest hit of the ray as an eye has it: what covers a part of what is behind it is met as often.
-#[inline]
-#[must_use]
-pub fn seen_hit<S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray) -> Hit {
-    nearest::<SEE, S>(surfaces, ray)
-}
-
-#[inline]
-fn nearest<const MODE: u32, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray) -> Hit {
     widest(
         #[inline(always)]
-        || walk::<MODE, S>(surfaces, ray, NONE).hit,
+        || walk::<false, S>(surfaces, ray, NONE),
     )
 }
 
-/// Whether anything but the emissive triangle `except` lies on the ray that lets no light through. A light so never shadows itself,
-/// whatever the rounding.
+/// Whether anything but the emissive triangle `except` lies on the ray. A light so never shadows itself, whatever the rounding.
 #[inline]
 #[must_use]
 pub fn any_hit<S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except: u32) -> bool {
     widest(
         #[inline(always)]
-        || walk::<SHADOW, S>(surfaces, ray, except).hit.triangle != NONE,
-    )
-}
-
-/// What of light comes along the ray, for a mode of [`Skin::meets`]; `except` as for [`any_hit`].
-#[inline]
-#[must_use]
-pub fn through<const MODE: u32, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except: u32) -> S::Through {
-    widest(
-        #[inline(always)]
-        || {
-            let found = walk::<MODE, S>(surfaces, ray, except);
-            if found.hit.triangle == NONE {
-                found.through
-            } else {
-                S::Through::NOTHING
-            }
-        },
+        || walk::<true, S>(surfaces, ray, except).triangle != NONE,
     )
 }
 
 /// Visits each node once at most, and a block of triangles for each of its children, whatever the words in the buffers.
 #[inline(always)]
-fn walk<const MODE: u32, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except: u32) -> Found<S::Through> {
+fn walk<const ANY: bool, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except: u32) -> Hit {
     let nodes = surfaces.nodes;
     let end = nodes.len() as u32;
-    let mut found = Found {
-        hit: Hit {
-            triangle: NONE,
-            t: ray.t_max,
-        },
-        through: S::Through::ALL,
+    let mut found = Hit {
+        triangle: NONE,
+        t: ray.t_max,
     };
     // Nodes on the path to `index` whose later children are still to be visited: which node, and which children.
     let mut path = [0_u32; MAX_DEPTH];
@@ -247,11 +127,11 @@ fn walk<const MODE: u32, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except:
         let first = child >> LEAF_BITS;
         let count = child & ((1 << LEAF_BITS) - 1);
         if count != 0 {
-            found = hit_leaf::<MODE, S>(surfaces, first, count, ray, except, found);
+            found = hit_leaf(surfaces, first, count, ray, except, found);
         }
         if count == 0 && first >= next && first < end {
             next = first + 1;
-            let met = hit_boxes(nodes, first, ray, found.hit.t);
+            let met = hit_boxes(nodes, first, ray, found.t);
             if met != 0 {
                 if left != 0 && depth < MAX_DEPTH {
                     path[depth] = index;
@@ -267,7 +147,7 @@ fn walk<const MODE: u32, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except:
             index = path[depth];
             left = path_left[depth];
         }
-        go = left != 0 && !(MODE == SHADOW && found.hit.triangle != NONE);
+        go = left != 0 && !(ANY && found.triangle != NONE);
         if go {
             let k = left.trailing_zeros() as usize & (WIDTH - 1);
             child = nodes[index as usize].children[k];
@@ -284,14 +164,14 @@ fn walk<const MODE: u32, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except:
 #[cfg(not(target_arch = "spirv"))]
 #[allow(clippy::needless_range_loop)]
 #[inline(always)]
-fn hit_leaf<const MODE: u32, S: Skin>(
+fn hit_leaf<S: Skin>(
     surfaces: &Surfaces<'_, S>,
     index: u32,
     _count: u32,
     ray: &Ray,
     except: u32,
-    found: Found<S::Through>,
-) -> Found<S::Through> {
+    found: Hit,
+) -> Hit {
     let mut found = found;
     if let Some(block) = surfaces.blocks.get(index as usize) {
         let corner =
@@ -301,7 +181,7 @@ fn hit_leaf<const MODE: u32, S: Skin>(
             let met = ray.meet(corner(0, lane), corner(1, lane), corner(2, lane));
             t[lane] = met.t;
             determinant[lane] = met.determinant;
-            near[lane] = u32::from(met.inside & (met.t < found.hit.t * met.determinant)) << lane;
+            near[lane] = u32::from(met.inside & (met.t < found.t * met.determinant)) << lane;
         }
         let mut left = 0;
         for lane in 0..LANES {
@@ -316,7 +196,7 @@ fn hit_leaf<const MODE: u32, S: Skin>(
                 inside: true,
             };
             let triangle = index * LANES as u32 + lane as u32;
-            found = nearer::<MODE, S>(surfaces, ray, found, met, block.light[lane], except, triangle);
+            found = nearer(surfaces, ray, found, met, block.light[lane], except, triangle);
         }
     }
     found
@@ -325,14 +205,14 @@ fn hit_leaf<const MODE: u32, S: Skin>(
 /// The same one by one: an invocation of a device is a lane itself.
 #[cfg(target_arch = "spirv")]
 #[inline(always)]
-fn hit_leaf<const MODE: u32, S: Skin>(
+fn hit_leaf<S: Skin>(
     surfaces: &Surfaces<'_, S>,
     index: u32,
     count: u32,
     ray: &Ray,
     except: u32,
-    found: Found<S::Through>,
-) -> Found<S::Through> {
+    found: Hit,
+) -> Hit {
     let mut found = found;
     let blocks = surfaces.blocks;
     if index < blocks.len() as u32 {
@@ -346,7 +226,7 @@ fn hit_leaf<const MODE: u32, S: Skin>(
                 vertex(blocks, triangle, 2),
             );
             let light = blocks[i].light[lane as usize];
-            found = nearer::<MODE, S>(surfaces, ray, found, met, light, except, triangle);
+            found = nearer(surfaces, ray, found, met, light, except, triangle);
         }
     }
     found
@@ -354,26 +234,20 @@ fn hit_leaf<const MODE: u32, S: Skin>(
 
 /// The nearer of what was found and a triangle that is `light`.
 #[inline(always)]
-fn nearer<const MODE: u32, S: Skin>(
+fn nearer<S: Skin>(
     surfaces: &Surfaces<'_, S>,
     ray: &Ray,
-    found: Found<S::Through>,
+    found: Hit,
     met: Meeting,
     light: u32,
     except: u32,
     triangle: u32,
-) -> Found<S::Through> {
-    let t = met.before(found.hit.t);
-    let excepted = MODE == SHADOW && except != NONE && light == except;
+) -> Hit {
+    let t = met.before(found.t);
+    let excepted = except != NONE && light == except;
     let mut nearer = found;
-    if t != MISS && !excepted {
-        let (stops, through) = surfaces
-            .skin
-            .meets::<MODE>(surfaces.blocks, ray, triangle, found.through);
-        nearer.through = through;
-        if stops {
-            nearer.hit = Hit { triangle, t };
-        }
+    if t != MISS && !excepted && surfaces.skin.stops(surfaces.blocks, ray, triangle) {
+        nearer = Hit { triangle, t };
     }
     nearer
 }

@@ -180,9 +180,10 @@ pub fn open_room() -> Scene {
 }
 
 /// That the images of all samplers agree, of direct light and of paths.
-pub fn agree(scene: &Scene) {
+#[test]
+fn samplers_agree_on_every_kind_and_paint() {
     let params = render_params((48, 36), 256, 5, [0.05; 3]);
-    let arrays = arrays(scene, &params);
+    let arrays = arrays(&painted_room(), &params);
     for integrator in [Integrator::Direct, Integrator::Path { bounces: 3 }] {
         let images: Vec<Vec<[f32; 3]>> = Sampler::ALL
             .iter()
@@ -212,9 +213,4 @@ pub fn agree(scene: &Scene) {
             assert!(error < 0.06 * power, "too noisy to tell: {error} of {power}");
         }
     }
-}
-
-#[test]
-fn samplers_agree_on_every_kind() {
-    agree(&open_room());
 }

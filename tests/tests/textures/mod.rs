@@ -1,39 +1,37 @@
 //! What is painted on surfaces: pictures against an oracle, known answers of each texture, and every device against the CPU,
 //! word for word.
 
-mod files;
+mod cut;
 mod glow;
 mod surfaces;
-mod through;
 
 pub use glow::painted_room;
 
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use glam::DVec3;
 use lightbvh::BuildParams;
 use lightbvh::exact::hash;
 use lightbvh_host::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler};
 use lightbvh_host::scene::{
-    AnalyticKind, AnalyticLight, Camera, IN_PLACE, Instances, Material, Mesh, Node, Opacity, Paint, Picture,
+    AnalyticKind, AnalyticLight, Camera, IN_PLACE, Instances, Material, Mesh, Node, Paint, Picture,
     Primitive, Scene, SceneData, Texture, Transform, Wrap,
 };
 use lightbvh_host::workload::{build, render_params};
 use lightbvh_kernels::bvh::{Kinds, WIDTH};
-use lightbvh_kernels::shading::picture::{Picture as Words, PictureWords};
-use lightbvh_kernels::shading::skin::{HEADER_WORDS, SRGB_WORDS};
+use lightbvh_kernels::shading::picture::{HEADER_WORDS, Picture as Words, PictureWords, SRGB_WORDS};
 
-use crate::kinds_render::{agree, arrays, at, down, mean, node, open_room};
+use crate::kinds_render::{arrays, at, mean, node, open_room};
 
 /// What a painted floor reflects of the light that falls on it: its diffuse part, and at most this of gloss.
 const GLOSS: f64 = 0.04 * 7.0 / 8.0;
 
 const PLAIN: Paint = Paint::PLAIN;
 
-const fn lying(picture: u32, is_color: bool) -> Texture {
+const fn lying(picture: u32) -> Texture {
     Texture {
         picture,
-        is_color,
         is_nearest: true,
         wrap: [Wrap::Clamp; 2],
         transform: IN_PLACE,
@@ -109,27 +107,10 @@ pub fn add(data: &mut SceneData, transform: Transform, kind: AnalyticKind, inten
 /// Shines along this direction.
 pub fn along(d: [f64; 3]) -> Transform {
     // -Z of the node points along `d`; the other axes are any.
-    let z = d.map(|x| -x);
-    let other = if z[1].abs() < 0.9 {
-        [0.0, 1.0, 0.0]
-    } else {
-        [1.0, 0.0, 0.0]
-    };
-    let cross = |a: [f64; 3], b: [f64; 3]| {
-        [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ]
-    };
-    let unit = |v: [f64; 3]| {
-        let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        v.map(|x| x / length)
-    };
-    let x = unit(cross(other, z));
-    let y = cross(z, x);
-    let column = |v: [f64; 3]| v.map(|x| x as f32);
-    Transform::Matrix([column(x), column(y), column(unit(z)), [0.0; 3]])
+    let z = -DVec3::from(d).normalize();
+    let (x, y) = z.any_orthonormal_pair();
+    let column = |v: DVec3| v.as_vec3().to_array();
+    Transform::Matrix([column(x), column(y), column(z), [0.0; 3]])
 }
 
 /// Every way to render the scene: the mean of each channel, and its standard error.

@@ -1,4 +1,4 @@
-//! Filtering, base colour, metal, roughness and normals of textures.
+//! Filtering and base colour of textures.
 
 use super::*;
 
@@ -10,7 +10,7 @@ fn pictures_are_the_mean_of_four_texels() {
     let header = (HEADER_WORDS + SRGB_WORDS) as usize;
     let decoded: Vec<f64> = (0..256).map(|byte| f64::from(byte) / 300.0).collect();
     for (columns, rows) in [0, 1, 2].iter().flat_map(|&a| [0, 1, 2].map(|b| (a, b))) {
-        for flags in [0, PictureWords::SRGB, PictureWords::NEAREST] {
+        for flags in [0, PictureWords::NEAREST] {
             let mut words = vec![0; HEADER_WORDS as usize];
             words.extend(decoded.iter().map(|&x| (x as f32).to_bits()));
             assert_eq!(words.len(), header);
@@ -49,7 +49,7 @@ fn pictures_are_the_mean_of_four_texels() {
                     }
                 };
                 let number = |byte: u32, is_color: bool| {
-                    if is_color && flags == PictureWords::SRGB {
+                    if is_color {
                         decoded[byte as usize]
                     } else {
                         f64::from(byte) / 255.0
@@ -105,69 +105,12 @@ fn base_colours_are_those_of_the_texels() {
     ] {
         let paint = Paint {
             base: [0.4, 0.8, 0.6, 1.0],
-            base_texture: Some(lying(0, true)),
+            base_texture: Some(lying(0)),
             ..PLAIN
         };
         let mut data = floor(paint, vec![colors.clone()], [aim, 1.0]);
         let d = [0.6, -0.8, 0.0];
         add(&mut data, along(d), AnalyticKind::Directional, 2.0);
         reflects(data, [1.6; 3], albedo, 2e-3);
-    }
-}
-
-#[test]
-fn metal_and_roughness_are_those_of_the_texels() {
-    // Metal keeps its colour in the diffuse part that the white gloss leaves: 1 - luminance.
-    let numbers = picture(
-        2,
-        1,
-        |x, _| if x == 0 { [9, 255, 255, 9] } else { [9, 255, 0, 9] },
-    );
-    for (aim, is_metal) in [(-1.0, true), (1.0, false)] {
-        let paint = Paint {
-            base: [0.5, 0.5, 0.5, 1.0],
-            metallic: 1.0,
-            rough_texture: Some(lying(0, false)),
-            ..PLAIN
-        };
-        let mut data = floor(paint, vec![numbers.clone()], [aim, 1.0]);
-        add(&mut data, along([0.6, -0.8, 0.0]), AnalyticKind::Directional, 2.0);
-        let scene = Scene::new(data).expect("sound");
-        // (k + 6) / (8 pi) (n . h)^k with k = 1: n . h of a light at 36.9 degrees is the cosine of half of that.
-        let lobe = 7.0 / (8.0 * PI) * (0.5_f64 * 0.8_f64.acos()).cos();
-        let specular = if is_metal { 0.5 } else { 0.04 };
-        let expected = 1.6 * (0.5 * (1.0 - specular) / PI + specular * lobe);
-        for (what, means, errors) in images(&scene) {
-            let error = errors[1];
-            assert!(
-                (means[1] - expected).abs() < 5.0 * error + 1e-3 * expected,
-                "{what} {is_metal}: {} ± {error}, expected {expected}",
-                means[1]
-            );
-        }
-    }
-}
-
-#[test]
-fn normals_bend_as_gltf_says() {
-    // Red to the right, green up, which is against the second coordinate: towards -z here.
-    for map in [[204, 128, 204], [52, 128, 204], [128, 204, 204], [128, 52, 204]] {
-        let numbers = picture(1, 1, |_, _| [map[0], map[1], map[2], 255]);
-        let paint = Paint {
-            base: [0.5, 0.5, 0.5, 1.0],
-            bump: 1.0,
-            base_texture: None,
-            bump_texture: Some(lying(0, false)),
-            ..PLAIN
-        };
-        let [x, y, z] = map.map(|byte| f64::from(byte) / 255.0 * 2.0 - 1.0);
-        let length = (x * x + y * y + z * z).sqrt();
-        let n = [x / length, z / length, -y / length];
-        for d in [[0.6, -0.8, 0.0], [0.0, -0.8, 0.6], [0.0, -1.0, 0.0]] {
-            let mut data = floor(paint, vec![numbers.clone()], [1.0, 1.0]);
-            add(&mut data, along(d), AnalyticKind::Directional, 2.0);
-            let cosine: f64 = -(0..3).map(|k| n[k] * d[k]).sum::<f64>();
-            reflects(data, [2.0 * cosine.max(0.0); 3], [0.5; 3], 2e-3);
-        }
     }
 }

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::Material;
-use crate::paint::{IN_PLACE, Opacity, Paint, Texture, Wrap};
+use crate::paint::{IN_PLACE, Paint, Texture, Wrap};
 
 /// The least power of two, from 1 on, that is not below any channel: the strength with which factors lie in [0, 1].
 pub(super) fn strength(radiance: [f32; 3]) -> f32 {
@@ -38,10 +38,7 @@ impl Textures {
         let [r, g, b] = material.base_color;
         let plain = Paint {
             base: [r, g, b, 1.0],
-            metallic: material.metallic,
-            roughness: material.roughness,
             radiance: material.radiance,
-            transmission: material.transmission,
             ..Paint::PLAIN
         };
         let paint = material.paint.as_ref().unwrap_or(&plain);
@@ -53,35 +50,19 @@ impl Textures {
             "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": strength } },
             "pbrMetallicRoughness": {
                 "baseColorFactor": paint.base,
-                "metallicFactor": paint.metallic,
-                "roughnessFactor": paint.roughness,
+                "metallicFactor": material.metallic,
+                "roughnessFactor": material.roughness,
             },
         });
-        if paint.transmission > 0.0 {
-            out["extensions"]["KHR_materials_transmission"] =
-                json!({ "transmissionFactor": paint.transmission });
-        }
-        let reflectance = &mut out["pbrMetallicRoughness"];
         if let Some(texture) = &paint.base_texture {
-            reflectance["baseColorTexture"] = self.info(texture);
-        }
-        if let Some(texture) = &paint.rough_texture {
-            reflectance["metallicRoughnessTexture"] = self.info(texture);
-        }
-        if let Some(texture) = &paint.bump_texture {
-            out["normalTexture"] = self.info(texture);
-            out["normalTexture"]["scale"] = json!(paint.bump);
+            out["pbrMetallicRoughness"]["baseColorTexture"] = self.info(texture);
         }
         if let Some(texture) = &paint.glow_texture {
             out["emissiveTexture"] = self.info(texture);
         }
-        match paint.opacity {
-            Opacity::Opaque => {}
-            Opacity::Cut(cutoff) => {
-                out["alphaMode"] = json!("MASK");
-                out["alphaCutoff"] = json!(cutoff);
-            }
-            Opacity::Blended => out["alphaMode"] = json!("BLEND"),
+        if paint.cutoff > 0.0 {
+            out["alphaMode"] = json!("MASK");
+            out["alphaCutoff"] = json!(paint.cutoff);
         }
         out
     }

@@ -16,8 +16,8 @@ use super::{Document, container, ktx2};
 pub(super) struct Pictures {
     /// By number in the file; `None` where it cannot be had.
     decoded: HashMap<usize, Option<Picture>>,
-    /// Means by picture, and whether its channels are colours.
-    pub means: HashMap<(usize, bool), [f32; 4]>,
+    /// Means by picture.
+    pub means: HashMap<usize, [f32; 4]>,
     /// Those that the scene keeps: their numbers in the file.
     kept: Vec<u32>,
     /// What is known of those that glow.
@@ -55,9 +55,7 @@ impl Document<'_> {
             Ok(pixels) => Some(Picture::from(pixels)),
             Err(error) if error.ends_the_load() => return Err(error),
             Err(error) => {
-                let what = format!(
-                    "counts as white, where it is what glows as black, and of normals as none: {error}"
-                );
+                let what = format!("counts as white, where it is what glows as black: {error}");
                 self.note(&name, what);
                 None
             }

@@ -54,6 +54,10 @@ fn one(
             document.root.materials.len()
         }
     };
+    if looks[material].is_left_out {
+        document.note(element, "it is clear glass, and is left out");
+        return Ok(None);
+    }
     let attributes = Attributes::new(document, primitive, element)?;
     let Some(index) = attributes.accessor(Semantic::Positions) else {
         // glTF 2.0, section 3.7.2.1: renderers skip what has no positions.

@@ -9,16 +9,14 @@
 //!   (`EXT_meshopt_compression`, `KHR_meshopt_compression`) and Draco streams (`KHR_draco_mesh_compression`);
 //! - instances (`EXT_mesh_gpu_instancing` too), animation of nodes and of weights in all interpolations, skins and morph
 //!   targets, perspective cameras;
-//! - metallic-roughness factors and textures, or specular-glossiness factors (`KHR_materials_pbrSpecularGlossiness`); normal
-//!   textures; emission by factor, texture (averaged per triangle where lights are chosen) and
-//!   `KHR_materials_emissive_strength`; `doubleSided`; alpha that cuts out or blends;
+//! - metallic-roughness factors and base colour textures, or specular-glossiness factors
+//!   (`KHR_materials_pbrSpecularGlossiness`); emission by factor, texture (averaged per triangle where lights are chosen) and
+//!   `KHR_materials_emissive_strength`; `doubleSided`; alpha that cuts out, blended alpha as if cut at a half;
 //! - pictures in PNG, JPEG, WebP (`EXT_texture_webp`) and KTX 2 by Basis Universal (`KHR_texture_basisu`), placed by
 //!   `KHR_texture_transform`. One that cannot be had is noted and counts
 //!   as white, and where it is what glows as black;
-//! - `KHR_materials_transmission`, by its factor and the mean of its texture: from a half on, light goes straight through and
-//!   is tinted. Where [`super::Paint`] is not shown, such surfaces, and blended ones, are left out unless they emit
-//!   ([`super::Material::is_clear`]);
-//! - `KHR_materials_unlit`: the colour is emitted, so that it is seen as it is, and nothing is reflected. It lights what is near;
+//! - `KHR_materials_transmission`: surfaces are left out from a factor of a half on, and so are blended ones below an opacity of
+//!   a half, unless they emit;
 //! - `EXT_lights_ies`: photometric files (ANSI/IES LM-63, types A, B and C) become lights of the tree with a profile.
 //! - `KHR_lights_punctual`: points and spots are lights of the tree, suns stand next to it.
 //!

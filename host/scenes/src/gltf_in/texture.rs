@@ -40,10 +40,9 @@ pub(super) struct Placed {
 
 impl Placed {
     /// As the renderer shows it; the scene keeps its picture.
-    pub(super) fn shown(&self, document: &Document<'_>, is_color: bool) -> Texture {
+    pub(super) fn shown(&self, document: &Document<'_>) -> Texture {
         Texture {
             picture: document.pictures.borrow_mut().keep(self.texture.picture),
-            is_color,
             ..self.texture
         }
     }
@@ -91,7 +90,6 @@ impl Document<'_> {
         Ok(Some(Placed {
             texture: Texture {
                 picture: number as u32,
-                is_color: true,
                 is_nearest,
                 wrap,
                 transform: named.transform.as_ref().map_or(IN_PLACE, columns),
@@ -105,20 +103,15 @@ impl Document<'_> {
         }))
     }
 
-    /// The mean of a texture, of a colour texture linear red, green, blue, and alpha; `None` as for [`placed`](Self::placed).
-    pub(super) fn mean(
-        &self,
-        info: &Info,
-        element: &str,
-        is_color: bool,
-    ) -> Result<Option<[f32; 4]>, SceneError> {
+    /// The mean of a texture, linear red, green, blue, and alpha; `None` as for [`placed`](Self::placed).
+    pub(super) fn mean(&self, info: &Info, element: &str) -> Result<Option<[f32; 4]>, SceneError> {
         let Some((number, picture)) = self.picture_of(info.index, element)? else {
             return Ok(None);
         };
         // Many materials share a picture.
         let mut pictures = self.pictures.borrow_mut();
-        let mean = pictures.means.entry((number, is_color));
-        Ok(Some(*mean.or_insert_with(|| mean_of(&picture, is_color))))
+        let mean = pictures.means.entry(number);
+        Ok(Some(*mean.or_insert_with(|| mean_of(&picture))))
     }
 
     /// The first picture of a texture that can be decoded, with its number.
@@ -148,9 +141,10 @@ impl Document<'_> {
             }
         }
         if pictures.is_empty() {
-            let what =
-                format!("{name} names no picture that is read, and counts as white, of normals as none");
-            self.note(element, what);
+            self.note(
+                element,
+                format!("{name} names no picture that is read, and counts as white"),
+            );
         }
         Ok(None)
     }

@@ -263,25 +263,28 @@ impl Reading<'_> {
                     ..Material::default()
                 };
                 data.materials
-                    .push(found.map_or_else(grey, |(found, _)| found.clone()));
+                    .push(found.map_or_else(grey, |found| found.material.clone()));
                 data.materials.len() as u32 - 1
             });
             numbers.push((mesh, number));
         }
-        // Programs write `d 0` for what a picture's alpha cuts out.
-        if data
-            .materials
-            .iter()
-            .all(|own| own.is_clear() && !emits(own.radiance))
-        {
-            data.materials.iter_mut().for_each(|own| own.transmission = 0.0);
-        }
+        // Clear surfaces would hide the lamps behind them. Programs write `d 0` for what a picture's alpha cuts out.
+        let of = |part: &Part| library.materials.get(&part.material);
+        let is_clear = |part: &Part| of(part).is_some_and(|own| own.is_clear);
+        let is_all_clear = parts.iter().all(is_clear);
         for (part, (mesh, material)) in parts.into_iter().zip(numbers) {
+            if is_clear(&part) && !is_all_clear {
+                let what = format!(
+                    "material `{}` is clear, and its faces are left out",
+                    shown(&part.material)
+                );
+                self.notes.add(self.file, what);
+                continue;
+            }
+            let glow = of(&part).and_then(|own| own.glow.as_ref());
             let (mut primitive, coordinates) = (part.primitive, part.coordinates);
             primitive.material = material;
             let own = &data.materials[material as usize];
-            let glow = library.materials.get(&part.material);
-            let glow = glow.and_then(|(_, glow)| glow.as_ref());
             // Normals say which side emits.
             if emits(own.radiance) || glow.is_some() {
                 let away = primitive.triangles.iter_mut().zip(part.faces_away);

@@ -8,9 +8,9 @@ use image::RgbaImage;
 use super::super::error::SceneError;
 use super::super::files::{Load, without_mark};
 use super::super::glow::{Glow, Glows};
-use super::super::model::Material;
+use super::super::model::{Material, emits};
 use super::super::notes::Notes;
-use super::super::paint::{Opacity, Paint, Picture, Texture, Wrap};
+use super::super::paint::{Paint, Picture, Texture, Wrap};
 use super::super::pictures;
 use super::{beside, lines, numbers, split};
 
@@ -26,11 +26,19 @@ struct Kept {
     has_shape: bool,
 }
 
+/// A material of a library.
+pub(super) struct Look {
+    pub material: Material,
+    /// Where it has a picture of what it emits.
+    pub glow: Option<Glow>,
+    /// Whether it is clear and does not emit.
+    pub is_clear: bool,
+}
+
 /// Materials by name, and the pictures that they share.
 pub(super) struct Library<'a> {
     load: &'a Load,
-    /// With the glow of those that have a picture of it.
-    pub materials: HashMap<String, (Material, Option<Glow>)>,
+    pub materials: HashMap<String, Look>,
     glows: Glows,
     /// By the files of colours and opacities.
     kept: HashMap<(PathBuf, Option<PathBuf>), Kept>,
@@ -141,7 +149,6 @@ impl Reading<'_, '_> {
         let kept = self.kept(*line, (self.file_of(name), opacity))?;
         let texture = |kept: &Kept| Texture {
             picture: kept.number,
-            is_color: true,
             is_nearest: false,
             wrap,
             transform,
@@ -180,7 +187,7 @@ impl Reading<'_, '_> {
             }
         }
         let picture = Picture::from(pixels);
-        let [r, g, b, _] = pictures::mean_of(&picture, true);
+        let [r, g, b, _] = pictures::mean_of(&picture);
         let kept = Kept {
             number: self.library.kept.len() as u32,
             picture,
@@ -254,20 +261,17 @@ impl Reading<'_, '_> {
             // A surface that is known to glow somewhere is not taken to glow everywhere.
             radiance = [0.0; 3];
         }
-        let mut material = Material {
+        let material = Material {
             name: name.clone(),
             base_color: base.map(unit),
             radiance: times(radiance, &emission_map),
             metallic,
             roughness: unit(roughness),
-            transmission: unit(transmission),
             ..Material::default()
         };
         let [r, g, b] = material.base_color;
         let mut paint = Paint {
             base: [r, g, b, 1.0],
-            metallic: material.metallic,
-            roughness: material.roughness,
             radiance,
             ..Paint::PLAIN
         };
@@ -275,8 +279,7 @@ impl Reading<'_, '_> {
             let [r, g, b] = factor.map(unit);
             (paint.base, paint.base_texture) = ([r, g, b, 1.0], Some(texture));
             if kept.has_shape {
-                paint.opacity = Opacity::Cut(0.5);
-                material.masked = !material.is_clear();
+                paint.cutoff = 0.5;
             }
         }
         let mut glow = None;
@@ -285,9 +288,15 @@ impl Reading<'_, '_> {
             let Library { load, glows, .. } = &*self.library;
             glow = Some(Glow::new(load, glows, texture, &kept.picture)?);
         }
-        // Glass is left out as a whole.
-        material.paint = Some(paint).filter(|paint| paint.is_seen() && !material.is_clear());
-        self.library.materials.insert(name, (material, glow));
+        let look = Look {
+            is_clear: transmission >= 0.5 && !emits(radiance),
+            material: Material {
+                paint: Some(paint).filter(Paint::is_seen),
+                ..material
+            },
+            glow,
+        };
+        self.library.materials.insert(name, look);
         Ok(())
     }
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::paint::{Opacity, Wrap};
+use crate::paint::Wrap;
 
 const ROOM: &str = "# a lamp over a floor
 mtllib room.mtl
@@ -108,10 +108,6 @@ fn materials_of_all_kinds() {
     let of = |name: &str| materials.iter().find(|own| own.name == name).expect(name);
     assert_eq!(of("mirror").base_color, [0.9, 0.8, 0.7]);
     assert_eq!((of("mirror").metallic, of("mirror").roughness), (1.0, 0.0));
-    assert_eq!(
-        ["glass", "thin", "clear", "both"].map(|name| of(name).transmission),
-        [1.0, 0.75, 0.75, 0.0]
-    );
     assert_eq!(of("pbr").base_color, [0.5; 3]);
     assert_eq!((of("pbr").roughness, of("pbr").metallic), (0.3, 0.6));
     assert!(
@@ -119,10 +115,15 @@ fn materials_of_all_kinds() {
             && of("missing").radiance == [0.0; 3]
             && of("missing").paint.is_none()
     );
-    // Glass, thin and clear are left out.
+    // Surfaces named glass, thin and clear are left out.
     assert_eq!((scene.triangle_count(), scene.emissive_count()), (6, 0));
     let warnings = scene.warnings().join("\n");
-    for expected in ["`unknown` is in no library", "no such.png", "it holds light"] {
+    for expected in [
+        "`unknown` is in no library",
+        "`thin` is clear",
+        "no such.png",
+        "it holds light",
+    ] {
         assert!(warnings.contains(expected), "{warnings}");
     }
 }
@@ -254,11 +255,11 @@ fn colours_opacities_and_options_of_maps() {
     let data = scene.data();
     let paint = data.materials[0].paint.expect("a picture");
     assert_eq!(paint.base, [0.5, 1.0, 1.0, 1.0]);
-    assert_eq!(paint.opacity, Opacity::Cut(0.5));
+    assert_eq!(paint.cutoff, 0.5);
     let texture = paint.base_texture.expect("a picture");
     assert_eq!(texture.wrap, [Wrap::Clamp; 2]);
     assert_eq!(texture.transform, [[2.0, 0.0], [0.0, -3.0], [0.25, 0.5]]);
-    assert!(texture.is_color && paint.glow_texture.is_none());
+    assert!(paint.glow_texture.is_none());
     // Opacity is that of the other picture, row by row.
     let alphas = |scene: &Scene| -> Vec<u8> {
         let texels = scene.data().pictures[0].texels.iter();
@@ -276,7 +277,7 @@ fn colours_opacities_and_options_of_maps() {
     // Without a picture of opacity the alpha of colours counts for nothing.
     let scene = painted("opaque", "map_Kd leaf.png\n", &files);
     let paint = scene.data().materials[0].paint.expect("a picture");
-    assert_eq!(paint.opacity, Opacity::Opaque);
+    assert_eq!(paint.cutoff, 0.0);
     assert_eq!(alphas(&scene), [255; 4]);
 }
 

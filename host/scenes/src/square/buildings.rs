@@ -25,14 +25,7 @@ pub(super) fn add(b: &mut SceneBuilder, random: &mut Random) {
         [0.45, 0.62, 0.95],
         [1.2, 0.55, 0.2],
     ];
-    let pane = Shape::of(|s| {
-        s.quad([
-            [-0.7, -0.9, 0.0],
-            [0.7, -0.9, 0.0],
-            [0.7, 0.9, 0.0],
-            [-0.7, 0.9, 0.0],
-        ])
-    });
+    let pane = Shape::of(|s| s.pane([0.7, 0.9]));
     let lit = colors.map(|radiance| {
         let glow = b.glow("lit window", radiance);
         b.mesh("window", &[(&pane, glow)])

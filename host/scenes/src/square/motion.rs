@@ -48,22 +48,8 @@ fn cars(b: &mut SceneBuilder, random: &mut Random, iron: u32) {
         b.mesh("car", &[(&body, paint), (&wheels, iron)])
     });
     // One-sided panes: the light goes ahead, or behind.
-    let ahead = Shape::of(|s| {
-        s.quad([
-            [-0.14, -0.09, 0.0],
-            [0.14, -0.09, 0.0],
-            [0.14, 0.09, 0.0],
-            [-0.14, 0.09, 0.0],
-        ])
-    });
-    let behind = Shape::of(|s| {
-        s.quad([
-            [0.14, -0.07, 0.0],
-            [-0.14, -0.07, 0.0],
-            [-0.14, 0.07, 0.0],
-            [0.14, 0.07, 0.0],
-        ])
-    });
+    let ahead = Shape::of(|s| s.pane([0.14, 0.09]));
+    let behind = Shape::of(|s| s.pane([-0.14, 0.07]));
     let head_glow = b.glow("headlamp", [300.0, 290.0, 260.0]);
     let tail_glow = b.glow("tail lamp", [60.0, 3.0, 2.0]);
     let head = b.mesh("headlamp", &[(&ahead, head_glow)]);

@@ -9,12 +9,7 @@ use crate::vector::{self, dot};
 /// Points on the front sides of a scene's surfaces, spread evenly over their area; none where it has no surface.
 pub(in crate::cli) fn on_surfaces(scene: &Scene, frame: u32, count: u32) -> Vec<ShadingPoint> {
     let frame = scene.frame(frame);
-    // Where there is nothing but glass, on that.
-    let shown = match frame.triangles.is_empty() {
-        true => &frame.clear,
-        false => &frame.triangles,
-    };
-    let surfaces: Vec<[[f32; 3]; 3]> = shown.iter().map(|t| t.p).collect();
+    let surfaces: Vec<[[f32; 3]; 3]> = frame.triangles.iter().map(|t| t.p).collect();
     if surfaces.is_empty() {
         return Vec::new();
     }

@@ -3,17 +3,6 @@
 use crate::error::HostError;
 use crate::scene::Scene;
 
-/// The scene with the animations of these names or numbers.
-pub(super) fn playing(scene: Scene, words: &[String]) -> Result<Scene, HostError> {
-    let mut data = scene.into_data();
-    data.play(words).map_err(|none| HostError::Refused {
-        option: "--animation",
-        value: format!("{:?}", none.word),
-        problem: format!("names nothing that moves: expected {}", none.expected),
-    })?;
-    Ok(Scene::new(data)?)
-}
-
 /// The scene as the camera of this number sees it.
 pub(super) fn seen_by(scene: Scene, camera: usize) -> Result<Scene, HostError> {
     let cameras = scene.data().cameras.len();

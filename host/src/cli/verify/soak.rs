@@ -319,8 +319,8 @@ impl World {
                         edits.push(match kind {
                             13 => {
                                 let radiance = match self.below(8) {
-                                    0 => 0.0,
-                                    _ => self.random.between(0.1, 1.1),
+                                    0 => [0.0; 3],
+                                    _ => [0; 3].map(|_| self.random.between(0.1, 1.1)),
                                 };
                                 Edit::SetRadiance { instance, radiance }
                             }

@@ -121,7 +121,7 @@ impl World {
         let mut new = Self::new(triangles.to_vec());
         for id in self.lamps.iter().flatten() {
             let own = &self.bvh.instances()[id.index() as usize];
-            new.add(own.translation, own.radiance);
+            new.add(own.translation, own.radiance[0]);
         }
         new.start();
         new.bvh
