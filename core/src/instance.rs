@@ -26,7 +26,7 @@ pub(crate) const FAR: f32 = pow2(60);
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Instance {
-    /// Node index of the root of its bottom level.
+    /// Node index of the root of its bottom level; `u32::MAX` where its mesh is one light, which has none.
     pub root: u32,
     /// Index of its mesh, and of the root of its bottom level.
     pub blas: u32,

@@ -103,7 +103,7 @@ pub fn root<N: Node<W>, const W: usize>(nodes: &[N], root: u32) -> BlasRoot {
     BlasRoot::new(root, &nodes[node as usize].merged())
 }
 
-/// A node of the top level, with the summaries of its instances, from their bottom levels' roots, and of the nodes below it.
+/// A node of the top level, with the summaries of its instances, from their bottom levels' roots or their one light, and of the nodes below it.
 /// `nodes` holds the bottom levels and from `first` on the top level, as on a device; `index` counts in all of it. A
 /// [plan's](crate::bvh::RefitPlan::top) list counts from `first`.
 #[inline]
@@ -111,6 +111,7 @@ pub fn root<N: Node<W>, const W: usize>(nodes: &[N], root: u32) -> BlasRoot {
 pub fn top<N: Node<W>, const W: usize>(
     nodes: &[N],
     first: u32,
+    triangles: &[N::Light],
     instances: &[Instance],
     roots: &[BlasRoot],
     index: u32,
@@ -119,7 +120,7 @@ pub fn top<N: Node<W>, const W: usize>(
     let mut children = Lanes::<W>([[0.0; W]; SUMMARY_WORDS]);
     let mut limits = [Limits::NONE; W];
     for slot in 0..W {
-        let child = top_child(nodes, first, instances, roots, index, slot);
+        let child = top_child(nodes, first, triangles, instances, roots, index, slot);
         children.set(slot, &child.summary);
         limits[slot] = child.limits;
     }

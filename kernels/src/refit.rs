@@ -87,16 +87,17 @@ macro_rules! refit_passes {
         }
 
         /// Writes the summary of each child of the top-level nodes `list[first + k]`, all of one level, into `children` for `refit_nodes`:
-        /// of its instance, from the bottom level's root, or of the node below. Invocations as of the pass over bottom levels.
+        /// of its instance, from the bottom level's root or its one light, or of the node below. Invocations as of the pass over bottom levels.
         #[spirv(compute(threads(64), entry_point_name = $top_name))]
         pub fn $top(
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &RefitPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &[BlasRoot],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] nodes: &[$node],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] children: &mut [Children<
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] roots: &[BlasRoot],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] nodes: &[$node],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] children: &mut [Children<
                 { $width },
                 { $rows },
             >],
@@ -107,7 +108,7 @@ macro_rules! refit_passes {
             if i < push.count && entry < list.len() as u32 {
                 let node = list[entry as usize];
                 if node < nodes.len() as u32 {
-                    let child = refit::top_child(nodes, push.top, instances, roots, node, slot);
+                    let child = refit::top_child(nodes, push.top, triangles, instances, roots, node, slot);
                     child.put(children, place, slot);
                 }
             }

@@ -234,7 +234,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let placed = &self.placed[index as usize];
         let mesh = &self.meshes[placed.mesh as usize];
         self.instances[index as usize] = Instance {
-            root: mesh.nodes.start,
+            root: mesh.root(),
             blas: placed.mesh,
             first: placed.lights.start,
             first_triangle: mesh.triangles.start,

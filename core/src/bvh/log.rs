@@ -235,17 +235,15 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             .iter()
             .for_each(|&mesh| pairs.extend(self.mesh_nodes(mesh)));
         plan.bottom = Levels::by_height(&sorted(pairs));
-        plan.roots = roots.into_iter().collect();
+        let changed: Vec<u32> = roots.into_iter().collect();
+        plan.roots = self.with_roots(&changed);
         if !plan.whole_top {
             self.plan_links(&mut plan, links.clone());
         }
         if plan.whole_top || is_computed {
             plan.top = Levels::by_height(&self.top.by_height());
         } else {
-            let users = plan
-                .roots
-                .iter()
-                .flat_map(|&mesh| &self.meshes[mesh as usize].users);
+            let users = changed.iter().flat_map(|&mesh| &self.meshes[mesh as usize].users);
             let known = users.filter(|&&user| (user as usize) < self.top.places.len());
             let leaves = known.flat_map(|&user| {
                 let parts = self.top.links_of(user);
@@ -297,10 +295,16 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             everything: true,
             whole_top: true,
             bottom: Levels::by_height(&sorted(pairs)),
-            roots: meshes,
+            roots: self.with_roots(&meshes),
             top: Levels::by_height(&self.top.by_height()),
             ..RefitPlan::default()
         }
+    }
+
+    /// Those of the meshes that have nodes.
+    fn with_roots(&self, meshes: &[u32]) -> Vec<u32> {
+        let has_root = |mesh: &u32| self.meshes[*mesh as usize].root() != INVALID;
+        meshes.iter().copied().filter(has_root).collect()
     }
 
     /// The nodes of a mesh by height.

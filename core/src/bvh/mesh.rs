@@ -69,7 +69,12 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         put(&mut self.meshes, index, mesh);
         put(&mut self.roots, index, BlasRoot::new(INVALID, &N::Summary::EMPTY));
         self.put_triangles(index, 0, triangles);
-        self.place_tree(index, topology);
+        if self.is_alone(triangles.len()) {
+            // Whatever trail was there before: none is followed.
+            self.log.tree(index);
+        } else {
+            self.place_tree(index, topology);
+        }
         self.sweep_mesh(index);
         index
     }
@@ -181,9 +186,26 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         self.compute_root(index);
     }
 
+    /// Whether a mesh of so many lights has no nodes: the leaf of an instance is its light.
+    pub(super) fn is_alone(&self, lights: usize) -> bool {
+        lights == 1 && !self.single
+    }
+
+    /// The root record of a mesh.
+    pub(super) fn root_of(&self, index: u32) -> BlasRoot {
+        let mesh = &self.meshes[index as usize];
+        match mesh.root() {
+            INVALID => {
+                let light = &self.triangles[mesh.triangles.start as usize];
+                BlasRoot::new(INVALID, &N::Summary::of_light(light))
+            }
+            root => refit::root(&self.nodes, root),
+        }
+    }
+
     /// Computes the root record of a mesh, and marks the leaves of its instances for refit.
     pub(super) fn compute_root(&mut self, index: u32) {
-        self.roots[index as usize] = refit::root(&self.nodes, self.meshes[index as usize].nodes.start);
+        self.roots[index as usize] = self.root_of(index);
         for place in 0..self.meshes[index as usize].users.len() {
             self.mark_stale(self.meshes[index as usize].users[place]);
         }

@@ -6,6 +6,7 @@ use core::ops::Range;
 use core::sync::atomic::{AtomicU32, Ordering};
 
 use crate::transform::Transform;
+use crate::tree::INVALID;
 
 /// A mesh: triangles and a tree over them in a space of their own, which its instances share.
 #[derive(Clone, Debug)]
@@ -16,7 +17,7 @@ pub(super) struct Mesh {
     pub generation: u32,
     /// Indices of its instances.
     pub users: Vec<u32>,
-    /// The nodes of its tree, in depth-first order.
+    /// The nodes of its tree, in depth-first order; none where it is one light of two levels.
     pub nodes: Range<u32>,
     /// End of the capacity reserved for its nodes: a new tree overwrites the old one.
     pub room: u32,
@@ -28,6 +29,16 @@ pub(super) struct Mesh {
     pub power: u32,
     /// Counts edits of its triangles.
     pub version: u64,
+}
+
+impl Mesh {
+    /// Node index of its root; [`INVALID`] if it has no nodes.
+    pub fn root(&self) -> u32 {
+        match self.nodes.is_empty() {
+            true => INVALID,
+            false => self.nodes.start,
+        }
+    }
 }
 
 /// An instance as the CPU knows it.

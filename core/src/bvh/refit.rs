@@ -119,7 +119,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// The number of subtrees into which an instance may be opened: the children of its mesh's root if all are nodes, in slots
     /// without gaps; else 0.
     fn part_count(&self, index: u32) -> usize {
-        let root = &self.nodes[self.instances[index as usize].root as usize];
+        let Some(root) = self.nodes.get(self.instances[index as usize].root as usize) else {
+            return 0;
+        };
         let count = (0..W).take_while(|&slot| root.kind(slot) == kind::INNER).count();
         match (count..W).all(|slot| root.kind(slot) == kind::EMPTY) {
             true => count,
@@ -150,6 +152,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// Summary and limits of a leaf of the top level.
     pub(super) fn leaf_of(&self, link: u32) -> Child<N::Summary> {
-        leaf_child(&self.nodes, &self.instances, &self.roots, link)
+        leaf_child(&self.nodes, &self.triangles, &self.instances, &self.roots, link)
     }
 }

@@ -103,7 +103,23 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     fn check_mesh(&self, index: u32, seen: &mut [bool], again: &mut [N]) -> Result<Found, Violation> {
         let mesh = &self.meshes[index as usize];
         let root = self.roots[index as usize].node;
-        equal(root, INVALID, "root", mesh.nodes.start, root)?;
+        equal(root, INVALID, "root", mesh.root(), root)?;
+        equal(INVALID, index, "flux power", self.power_of(index), mesh.power)?;
+        let expected = self.root_of(index);
+        same_words(INVALID, index, &expected, &self.roots[index as usize])?;
+        let is_alone = self.is_alone(mesh.triangles.len());
+        equal(
+            INVALID,
+            index,
+            "nodes",
+            u32::from(!is_alone),
+            u32::from(root != INVALID),
+        )?;
+        if is_alone {
+            let owner = self.triangles[mesh.triangles.start as usize].mesh();
+            equal(INVALID, index, "light's mesh", index, owner)?;
+            return Ok(Found::default());
+        }
         let found = Found::of(&self.nodes, root, kind::LIGHT, seen)?;
         found.check_depth_first(&mesh.nodes)?;
         equal(root, INVALID, "level", found.depth, mesh.depth)?;
@@ -129,14 +145,11 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         for (triangle, &count) in mesh.triangles.clone().zip(&times) {
             equal(INVALID, triangle, "triangle's leaves", 1, count)?;
         }
-        equal(INVALID, index, "flux power", self.power_of(index), mesh.power)?;
         bare(again, &self.nodes, &found);
         for node in found.upward() {
             again[node as usize] = refit::bottom(again, &self.triangles, node);
             same_words(node, INVALID, &again[node as usize], &self.nodes[node as usize])?;
         }
-        let expected = refit::root(&self.nodes, root);
-        same_words(INVALID, index, &expected, &self.roots[index as usize])?;
         Ok(found)
     }
 
@@ -149,7 +162,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let lights = placed.lights.end - placed.lights.start;
         equal(INVALID, index, "range of lights", count, lights)?;
         let expected = Instance {
-            root: mesh.nodes.start,
+            root: mesh.root(),
             blas: placed.mesh,
             first: placed.lights.start,
             first_triangle: mesh.triangles.start,
@@ -254,7 +267,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         for slot in 0..W {
             let child = match own.kind(slot) {
                 kind::MESH => self.leaf_of(own.link(slot)),
-                kind::INNER => refit::top_child(again, 0, &[], &[], node, slot),
+                kind::INNER => refit::top_child(again, 0, &[], &[], &[], node, slot),
                 _ => refit::Child::EMPTY,
             };
             lanes.set(slot, &child.summary);

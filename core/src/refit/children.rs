@@ -6,12 +6,13 @@
 
 use glam::Vec3;
 
-use super::limits::{has_limits, limits_of_instance, limits_of_light};
+use super::limits::{has_limits, in_world, limits_of_light, limits_of_root};
 use super::{BlasRoot, Instance, root};
 use crate::beam::{Beam, Limits};
 use crate::node::{Node, kind};
 use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
 use crate::trail::leaf_parts;
+use crate::tree::INVALID;
 use crate::unroll::each;
 
 /// Rows of [`Children`] of layouts without limits: those of a summary in full.
@@ -101,10 +102,7 @@ pub fn bottom_child<N: Node<W>, const W: usize>(
     let (to, link) = (nodes[index as usize].kind(slot), nodes[index as usize].link(slot));
     let mut child = Child::EMPTY;
     if to == kind::LIGHT && link < triangles.len() as u32 {
-        child.summary = N::Summary::of_light(&triangles[link as usize]);
-        if has_limits::<N, W>() {
-            child.limits = limits_of_light::<N, W>(&triangles[link as usize]);
-        }
+        child = light_child::<N, W>(&triangles[link as usize]);
     } else if to == kind::INNER && link < nodes.len() as u32 {
         child = inner_child(nodes, link);
     }
@@ -117,6 +115,7 @@ pub fn bottom_child<N: Node<W>, const W: usize>(
 pub fn top_child<N: Node<W>, const W: usize>(
     nodes: &[N],
     first: u32,
+    triangles: &[N::Light],
     instances: &[Instance],
     roots: &[BlasRoot],
     index: u32,
@@ -126,7 +125,7 @@ pub fn top_child<N: Node<W>, const W: usize>(
     let below = link.wrapping_add(first);
     let mut child = Child::EMPTY;
     if to == kind::MESH {
-        child = leaf_child(nodes, instances, roots, link);
+        child = leaf_child(nodes, triangles, instances, roots, link);
     } else if to == kind::INNER && below < nodes.len() as u32 {
         child = inner_child(nodes, below);
     }
@@ -137,6 +136,7 @@ pub fn top_child<N: Node<W>, const W: usize>(
 #[inline(always)]
 pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
     nodes: &[N],
+    triangles: &[N::Light],
     instances: &[Instance],
     roots: &[BlasRoot],
     link: u32,
@@ -145,19 +145,41 @@ pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
     let mut child = Child::EMPTY;
     if index < instances.len() as u32 {
         let instance = &instances[index as usize];
-        let blas = instance.blas;
-        if blas < roots.len() as u32 {
-            let mut local = roots[blas as usize];
-            if part > 0 && local.node < nodes.len() as u32 {
-                local = root(nodes, nodes[local.node as usize].link((part as usize - 1) % W));
+        let (blas, light) = (instance.blas, instance.first_triangle);
+        let mut local = Child::EMPTY;
+        if instance.root == INVALID {
+            if light < triangles.len() as u32 {
+                local = light_child::<N, W>(&triangles[light as usize]);
             }
-            child.summary = local.summary::<N::Summary>().to_world::<N::Light>(instance);
+        } else if blas < roots.len() as u32 {
+            let mut root_of = roots[blas as usize];
+            if part > 0 && root_of.node < nodes.len() as u32 {
+                root_of = root(nodes, nodes[root_of.node as usize].link((part as usize - 1) % W));
+            }
+            local.summary = root_of.summary();
             if has_limits::<N, W>() {
-                child.limits = limits_of_instance(nodes, &local, instance, &child.summary);
+                local.limits = limits_of_root(nodes, &root_of);
             }
+        }
+        child.summary = local.summary.to_world::<N::Light>(instance);
+        if has_limits::<N, W>() {
+            child.limits = in_world::<N, W>(local.limits, instance, &child.summary);
         }
     }
     child
+}
+
+/// What a light is to its parent.
+#[inline(always)]
+fn light_child<N: Node<W>, const W: usize>(light: &N::Light) -> Child<N::Summary> {
+    Child {
+        summary: N::Summary::of_light(light),
+        limits: if has_limits::<N, W>() {
+            limits_of_light::<N, W>(light)
+        } else {
+            Limits::NONE
+        },
+    }
 }
 
 /// What node `link` is to its parent.

@@ -59,24 +59,27 @@ pub(super) fn limits_of_light<N: Node<W>, const W: usize>(light: &N::Light) -> L
     }
 }
 
-/// The limits of a bottom level that `instance` puts into the world, where it is `world`. They stand in the node of the root alone, so that the records of roots are
-/// the same without limits.
+/// The limits of a bottom level. They stand in the node of the root alone, so that the records of roots are the same without limits.
 #[inline(always)]
-pub(crate) fn limits_of_instance<N: Node<W>, const W: usize>(
-    nodes: &[N],
-    root: &BlasRoot,
-    instance: &Instance,
-    world: &N::Summary,
-) -> Limits {
+pub(super) fn limits_of_root<N: Node<W>, const W: usize>(nodes: &[N], root: &BlasRoot) -> Limits {
     if root.node < nodes.len() as u32 {
-        let mut own = nodes[root.node as usize].merged_limits(&root.summary());
-        own.mask &= instance.mask;
-        if N::HAS_BEAMS {
-            own.to_world(instance, world.center())
-        } else {
-            own
-        }
+        nodes[root.node as usize].merged_limits(&root.summary())
     } else {
         Limits::NONE
     }
+}
+
+/// The limits in the world of what `instance` puts there, where it is `world`.
+#[inline(always)]
+pub(super) fn in_world<N: Node<W>, const W: usize>(
+    local: Limits,
+    instance: &Instance,
+    world: &N::Summary,
+) -> Limits {
+    let mut limits = local;
+    limits.mask &= instance.mask;
+    if N::HAS_BEAMS {
+        limits = limits.to_world(instance, world.center());
+    }
+    limits
 }

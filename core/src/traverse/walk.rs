@@ -157,6 +157,14 @@ impl<P: Receiver> Walk<P> {
             let instance = &tree.instances[leaf as usize];
             self.instance = leaf;
             self.index = instance.root;
+            // Its mesh is one light.
+            let is_alone = instance.root == INVALID;
+            self.triangle = if is_alone {
+                instance.first_triangle
+            } else {
+                INVALID
+            };
+            self.done |= is_alone;
             self.position = levels;
             if part > 0 {
                 // A part begins one level below the root.

@@ -59,10 +59,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             };
             if mesh.live {
                 let [end, room] = words.array()?;
-                let is_range = start < end && end <= room && room <= header.nodes;
+                let is_range = start <= end && end <= room && room <= header.nodes;
                 words.expect(is_range, "nodes of a mesh")?;
                 (mesh.nodes, mesh.room) = (start..end, room);
                 mesh.triangles = words.range(header.triangles, "triangles of a mesh")?;
+                let is_alone = self.is_alone(mesh.triangles.len());
+                words.expect(is_alone == (start == end), "nodes of a mesh")?;
+                words.expect(!is_alone || start == room, "nodes of a mesh")?;
                 let flags = words.one()?;
                 words.expect(flags < 4, "whether a mesh changed or is a light")?;
                 mesh.is_light = flags & 2 != 0;

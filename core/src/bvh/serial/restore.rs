@@ -88,24 +88,26 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 continue;
             }
             let (nodes, triangles) = (mesh.nodes.clone(), mesh.triangles.clone());
-            let found = Found::of(&self.nodes, nodes.start, kind::LIGHT, &mut seen).map_err(damaged)?;
-            found.check_depth_first(&nodes).map_err(|_| misplaced(NODES))?;
-            if found.depth > self.bottom_depth || found.leaves.len() != triangles.len() {
-                return Err(misplaced(NODES));
-            }
-            for own in &found.leaves {
-                // As many as there are triangles, each for the first time: so all of them.
-                let is_own = triangles.contains(&own.link);
-                if !is_own || core::mem::replace(&mut leaves[own.link as usize], true) {
+            if !nodes.is_empty() {
+                let found = Found::of(&self.nodes, nodes.start, kind::LIGHT, &mut seen).map_err(damaged)?;
+                found.check_depth_first(&nodes).map_err(|_| misplaced(NODES))?;
+                if found.depth > self.bottom_depth || found.leaves.len() != triangles.len() {
                     return Err(misplaced(NODES));
                 }
-                let at = own.link as usize * self.trail_words as usize;
-                self.trails[at] = own.trail.low;
-                if self.trail_words == 2 {
-                    self.trails[at + 1] = own.trail.high;
+                for own in &found.leaves {
+                    // As many as there are triangles, each for the first time: so all of them.
+                    let is_own = triangles.contains(&own.link);
+                    if !is_own || core::mem::replace(&mut leaves[own.link as usize], true) {
+                        return Err(misplaced(NODES));
+                    }
+                    let at = own.link as usize * self.trail_words as usize;
+                    self.trails[at] = own.trail.low;
+                    if self.trail_words == 2 {
+                        self.trails[at + 1] = own.trail.high;
+                    }
                 }
+                self.meshes[index].depth = found.depth;
             }
-            self.meshes[index].depth = found.depth;
             // Instances and their leaves are computed afterwards.
             let users = core::mem::take(&mut self.meshes[index].users);
             self.sweep_mesh(index as u32);
