@@ -110,7 +110,7 @@ pub fn node_words(data: &[u8], forms: Forms) {
         }
         for i in 0..nodes.len() as u32 {
             let _ = refit::bottom(&nodes, &triangles, i);
-            let _ = refit::top(&nodes, words.top, &instances, &roots, i);
+            let _ = refit::top(&nodes, words.top, &triangles, &instances, &roots, i);
             let _ = refit::root(&nodes, i);
         }
         Ok(())

@@ -172,7 +172,7 @@ mod tests {
     /// Index of the top level's first node.
     const TOP: u32 = 3;
 
-    /// Two leaves and their parent, then a top level of an instance and a node without children.
+    /// Two leaves and their parent, then a top level of two instances and a node without children.
     fn arrays() -> (Vec<Node>, Vec<EmissiveTriangle>, Vec<Instance>) {
         let triangles = (0..9_u8).map(|i| EmissiveTriangle {
             p: [
@@ -196,10 +196,14 @@ mod tests {
         nodes[2].set_child(6, kind::INNER, u32::MAX);
         nodes[3].set_child(7, kind::MESH, 0);
         nodes[3].set_child(2, kind::MESH, 1);
+        nodes[3].set_child(3, kind::MESH, 2);
         nodes[3].set_child(1, kind::INNER, 4 - TOP);
         let mut instance = Instance::IDENTITY;
-        instance.blas = 0;
-        (nodes, triangles.collect(), vec![instance])
+        (instance.root, instance.blas) = (0, 0);
+        // Of one light.
+        let mut alone = Instance::IDENTITY;
+        alone.first_triangle = 4;
+        (nodes, triangles.collect(), vec![instance, alone])
     }
 
     /// Dispatches over a list of which some entries are no nodes, with more invocations than it has entries.
@@ -212,7 +216,7 @@ mod tests {
         }
         let roots = [refit::root(&expected, 0)];
         for i in [4, 3] {
-            expected[i as usize] = refit::top(&expected, TOP, &instances, &roots, i);
+            expected[i as usize] = refit::top(&expected, TOP, &triangles, &instances, &roots, i);
         }
 
         let list = [77, 1, 5, 2, 0, u32::MAX, 4, 3];
@@ -237,7 +241,16 @@ mod tests {
             };
             for i in 0..64 {
                 if is_top {
-                    refit_top(id(i), &push, &list, &instances, &found, &nodes, &mut children);
+                    refit_top(
+                        id(i),
+                        &push,
+                        &list,
+                        &triangles,
+                        &instances,
+                        &found,
+                        &nodes,
+                        &mut children,
+                    );
                 } else {
                     refit_bottom(id(i), &push, &list, &triangles, &nodes, &mut children);
                 }

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use lightbvh_kernels::shading::lobe::about;
-use lightbvh_kernels::shading::material::{MAX_EXPONENT_LOG2, Material};
+use lightbvh_kernels::shading::material::Material;
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::statistics::{chi_squared, chi_squared_quantile};
 use std::f64::consts::{PI, TAU};

@@ -195,11 +195,12 @@ fn on_exact(test: impl Fn(&Device)) {
 }
 
 /// Seven frames of instances under any maps that move, come and go, and of meshes that change and come, beyond the room of every
-/// array, with new trees now and then. Two mirrors follow, one of them every third frame. Returns the lights sampled, and for whom.
+/// array, with new trees now and then. Two mirrors follow, one of them every third frame. Returns the lights sampled, with their masks,
+/// and for whom.
 fn frames<N: Node<W>, I: ImportanceModel<N, W, P>, P: Ask, const W: usize>(
     device: &Device,
     kernels: KernelSet,
-) -> Vec<(P, Option<N::Light>)>
+) -> Vec<(P, Option<(N::Light, u32)>)>
 where
     N::Light: Any,
 {
@@ -214,13 +215,13 @@ where
         (0..count).map(light).collect()
     };
     let place = |random: &mut Random, k: usize| placing::transform(random, placing::Kind::ALL[k % 6], 30.0);
-    let counts = [3, 40, 300];
+    let counts = [3, 40, 300, 1];
     let meshes = counts.map(|count| bvh.add_mesh(mesh(random, count)).expect("a mesh"));
     let add = |random: &mut Random, k: usize| Edit::AddInstance {
-        mesh: meshes[k % 3],
+        mesh: meshes[k % 4],
         transform: place(random, k),
-        radiance: [1.0; 3],
-        mask: u32::MAX,
+        radiance: [1.0, 0.5, 2.0],
+        mask: 1 << random.below(4),
     };
     let all = (0..60).map(|k| add(random, k)).collect();
     let mut ids = bvh.apply(all).expect("instances").instances;
@@ -236,8 +237,8 @@ where
                 })
                 .collect();
             edits.push(Edit::SetTriangles {
-                mesh: meshes[frame % 3],
-                triangles: mesh(random, counts[frame % 3]),
+                mesh: meshes[frame % 4],
+                triangles: mesh(random, counts[frame % 4]),
             });
             let at = (7 * frame + 20) % 60;
             edits.push(Edit::RemoveInstance(ids[at]));
@@ -258,7 +259,11 @@ where
         for (held, every) in mirrors.iter_mut().zip([1, 3]) {
             if frame % every == 0 {
                 let sampled = held.compare::<I, P>(&bvh, &points, random).into_iter();
-                seen.extend(sampled.map(|(own, sample)| (own, bvh.triangle(sample.light, sample.instance))));
+                seen.extend(sampled.map(|(own, sample)| {
+                    let light = bvh.triangle(sample.light, sample.instance);
+                    let mask = |light| (light, bvh.instances()[sample.instance as usize].mask);
+                    (own, light.map(mask))
+                }));
             }
         }
     }
@@ -306,7 +311,9 @@ fn lights_of_every_kind() {
         let seen = frames::<AnyNode, DefaultImportance, ShadingPoint, 8>(device, KernelSet::ANY);
         let mut kinds = [0; 8];
         for (_, light) in seen {
-            light.into_iter().for_each(|own| kinds[own.kind() as usize] += 1);
+            light
+                .into_iter()
+                .for_each(|(own, _)| kinds[own.kind() as usize] += 1);
         }
         assert!(kinds.iter().all(|&count| count > 100), "{kinds:?}");
     });
@@ -319,7 +326,7 @@ fn lights_with_masks() {
             frames::<LinkedNode, LinkedImportance, LinkedPoint<ShadingPoint>, 8>(device, KernelSet::LINKED);
         for (receiver, light) in seen {
             // Masks 0 and 16 have no light.
-            let common = light.map(|own| own.mask & receiver.mask);
+            let common = light.map(|(_, mask)| mask & receiver.mask);
             assert_eq!(
                 common.is_some(),
                 ![0, 16].contains(&receiver.mask),

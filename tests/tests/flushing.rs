@@ -61,7 +61,11 @@ fn refitted<N: Node<W>, const W: usize, const ROWS: usize>(bvh: &Bvh<N, (), W>) 
     for &index in plan.top.nodes() {
         let index = first + index;
         for slot in 0..W {
-            top_child::<N, W>(&nodes, first, instances, &roots, index, slot).put(&mut children, 0, slot);
+            top_child::<N, W>(&nodes, first, triangles, instances, &roots, index, slot).put(
+                &mut children,
+                0,
+                slot,
+            );
         }
         nodes[index as usize] = assembled(&nodes, index, &children, 0);
     }

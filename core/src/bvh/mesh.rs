@@ -124,6 +124,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let range = start..start + triangles.len() as u32;
         if self.triangles.len() < range.end as usize {
             self.triangles.resize(range.end as usize, N::Light::DARK);
+            self.trails
+                .resize(range.end as usize * self.trail_words as usize, 0);
         }
         let own = &mut self.triangles[range.start as usize..range.end as usize];
         for (to, from) in own.iter_mut().zip(triangles) {
@@ -221,10 +223,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             self.log = super::Log::after(&self.log);
         }
         let words = self.trail_words as usize;
-        let length = mesh.end as usize * words;
-        if self.trails.len() < length {
-            self.trails.resize(length, 0);
-        }
         for &(triangle, trail) in &topology.trails {
             let at = (mesh.start + triangle) as usize * words;
             self.trails[at] = trail.low;

@@ -147,11 +147,14 @@ pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
         let instance = &instances[index as usize];
         let (blas, light) = (instance.blas, instance.first_triangle);
         let mut local = Child::EMPTY;
+        let mut known = false;
         if instance.root == INVALID {
-            if light < triangles.len() as u32 {
+            known = light < triangles.len() as u32;
+            if known {
                 local = light_child::<N, W>(&triangles[light as usize]);
             }
         } else if blas < roots.len() as u32 {
+            known = true;
             let mut root_of = roots[blas as usize];
             if part > 0 && root_of.node < nodes.len() as u32 {
                 root_of = root(nodes, nodes[root_of.node as usize].link((part as usize - 1) % W));
@@ -161,9 +164,11 @@ pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
                 local.limits = limits_of_root(nodes, &root_of);
             }
         }
-        child.summary = local.summary.to_world::<N::Light>(instance);
-        if has_limits::<N, W>() {
-            child.limits = in_world::<N, W>(local.limits, instance, &child.summary);
+        if known {
+            child.summary = local.summary.to_world::<N::Light>(instance);
+            if has_limits::<N, W>() {
+                child.limits = in_world::<N, W>(local.limits, instance, &child.summary);
+            }
         }
     }
     child

@@ -9,7 +9,7 @@ use lightbvh::importance::Space;
 use lightbvh::light::{AnyLight, Light, PointLight, SpotLight};
 use lightbvh::node::{Lit, MomentNode, Node, SpotMomentNode, kind};
 use lightbvh::refit::world_light;
-use lightbvh::{BuildParams, Bvh, ImportanceModel, Lights, Moments, ShadingPoint, Transform};
+use lightbvh::{BuildParams, Bvh, ImportanceModel, Instance, Lights, Moments, ShadingPoint, Transform};
 
 type Tree = Bvh<Lit<SpotMomentNode<8>, AnyLight>, Moments, 8>;
 
@@ -109,7 +109,17 @@ fn told(bvh: &Tree, point: &ShadingPoint) -> Vec<Told> {
                 kind::INNER => open.push((link, above, least)),
                 kind::MESH => {
                     let (instance, part) = leaf_parts(link);
-                    let root = tree.instances[instance as usize].root;
+                    let Instance {
+                        root, first: light, ..
+                    } = tree.instances[instance as usize];
+                    if root == u32::MAX {
+                        found.push(Told {
+                            light,
+                            instance,
+                            least,
+                        });
+                        continue;
+                    }
                     let below = match part {
                         0 => root,
                         _ => tree.nodes[root as usize].link(part as usize - 1),

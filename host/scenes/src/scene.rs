@@ -6,7 +6,6 @@ use super::camera::{View, place_of, towards};
 use super::error::SceneError;
 use super::model::{Camera, Node, SceneData};
 use super::skin_words;
-use super::transform::Transform;
 
 /// A scene that passed every check of [`Scene::new`]: finite, in range, references whole.
 #[derive(Clone, Debug)]

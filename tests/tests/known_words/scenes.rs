@@ -36,7 +36,7 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
             match random.below(12) {
                 0 => batch.push(Edit::SetRadiance {
                     instance,
-                    radiance: random.unit() + 0.5,
+                    radiance: [0; 3].map(|_| random.unit() + 0.5),
                 }),
                 1..=3 => batch.push(Edit::SetTransform {
                     instance,

@@ -119,7 +119,16 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         for &mesh in &plan.roots {
             self.roots[mesh as usize] = refit::root(&self.nodes, bvh.roots()[mesh as usize].node);
         }
-        let top = |nodes: &[N], node| refit::top(nodes, TOP as u32, &self.instances, &self.roots, node);
+        let top = |nodes: &[N], node| {
+            refit::top(
+                nodes,
+                TOP as u32,
+                &self.triangles,
+                &self.instances,
+                &self.roots,
+                node,
+            )
+        };
         passes(&mut self.nodes, TOP as u32, &plan.top, top);
     }
 

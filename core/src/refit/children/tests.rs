@@ -30,8 +30,8 @@ where
             bvh.add_instance(mesh, transform).expect("an instance");
         }
     }
-    for _ in 0..40 {
-        let mesh = bvh.add_mesh(lamps(random, 1)).expect("a light");
+    for k in 0..60 {
+        let mesh = bvh.add_mesh(lamps(random, 1 + k % 2)).expect("lights");
         let at = Transform::at((random.vector() * 50.0).to_array());
         bvh.add_instance(mesh, at).expect("an instance");
     }
@@ -90,9 +90,9 @@ where
         assert!(same(&whole, &parts), "{} {W}: {index}", N::NAME);
     }
     for index in plan.top.nodes().iter().map(|node| first + node) {
-        let whole = top::<N, W>(nodes, first, instances, roots, index);
+        let whole = top::<N, W>(nodes, first, triangles, instances, roots, index);
         let parts = by_children::<N, W, ROWS>(nodes, index, |slot| {
-            top_child(nodes, first, instances, roots, index, slot)
+            top_child(nodes, first, triangles, instances, roots, index, slot)
         });
         assert!(same(&whole, &parts), "{} {W}: {index}", N::NAME);
     }
@@ -151,7 +151,7 @@ fn what_is_not_there_is_no_child() {
     }
     for slot in 0..6 {
         assert_eq!(
-            top_child(&nodes, 0, &alien, roots, at as u32, slot),
+            top_child(&nodes, 0, triangles, &alien, roots, at as u32, slot),
             Child::EMPTY,
             "{slot}"
         );
@@ -160,12 +160,12 @@ fn what_is_not_there_is_no_child() {
     let mut lost = roots.to_vec();
     let blas = instances[0].blas as usize;
     assert_ne!(
-        top_child(&nodes, 0, instances, &lost, at as u32, 3).limits,
+        top_child(&nodes, 0, triangles, instances, &lost, at as u32, 3).limits,
         Limits::NONE
     );
     lost[blas].node = end;
     assert_eq!(
-        top_child(&nodes, 0, instances, &lost, at as u32, 3).limits,
+        top_child(&nodes, 0, triangles, instances, &lost, at as u32, 3).limits,
         Limits::NONE
     );
 }

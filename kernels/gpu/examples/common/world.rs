@@ -51,7 +51,7 @@ impl World {
                 }),
                 1 => edits.push(Edit::SetRadiance {
                     instance,
-                    radiance: 1.0 + 0.5 * swing(time + f32::from(k)),
+                    radiance: [0.0, 2.0, 4.0].map(|phase| 1.0 + 0.5 * swing(time + phase + f32::from(k))),
                 }),
                 _ => {}
             }
