@@ -194,13 +194,16 @@ fn on_exact(test: impl Fn(&Device)) {
     });
 }
 
+/// A receiver, and the light that was sampled for it, with the mask of its instance.
+type Seen<P, L> = (P, Option<(L, u32)>);
+
 /// Seven frames of instances under any maps that move, come and go, and of meshes that change and come, beyond the room of every
 /// array, with new trees now and then. Two mirrors follow, one of them every third frame. Returns the lights sampled, with their masks,
 /// and for whom.
 fn frames<N: Node<W>, I: ImportanceModel<N, W, P>, P: Ask, const W: usize>(
     device: &Device,
     kernels: KernelSet,
-) -> Vec<(P, Option<(N::Light, u32)>)>
+) -> Vec<Seen<P, N::Light>>
 where
     N::Light: Any,
 {

@@ -1,6 +1,7 @@
 //! Lights by their kind, and the tree over all of them.
 
 use lightbvh::light::{AnyLight, Light};
+use lightbvh::node::Limits;
 use lightbvh_kernels::bvh::WIDTH;
 use serde_json::{Value, json};
 
@@ -8,8 +9,8 @@ use serde_json::{Value, json};
 pub(super) struct LightKinds {
     /// How many of each, by [`AnyLight::kind`].
     counts: [usize; 8],
-    /// How many send their light into a cone: spots and profiles of less than a right angle around their axis.
-    narrow: usize,
+    /// How many have a range, or send their light into a cone of less than a right angle around their axis.
+    limited: usize,
 }
 
 /// The kinds by their number: one, several, and the type.
@@ -27,14 +28,15 @@ const NAMES: [[&str; 3]; 8] = [
 impl LightKinds {
     /// Of lights; those of kinds that are not known are not counted.
     pub fn of(lights: &[AnyLight]) -> Self {
-        let (mut counts, mut narrow) = ([0; 8], 0);
+        let (mut counts, mut limited) = ([0; 8], 0);
         for light in lights {
             if let Some(count) = counts.get_mut(light.kind() as usize) {
                 *count += 1;
             }
-            narrow += usize::from(light.has_flux() && light.beam().is_narrow());
+            let is_limited = light.beam().is_narrow() || light.end() < Limits::ENDLESS;
+            limited += usize::from(light.has_flux() && is_limited);
         }
-        Self { counts, narrow }
+        Self { counts, limited }
     }
 
     /// The type of the lights: the only kind that there is, or [`AnyLight`].
@@ -46,11 +48,11 @@ impl LightKinds {
         }
     }
 
-    /// The type of a node `width` wide over all of them, as Rust has it. With cones
-    /// ([`SpotMomentNode`](lightbvh::node::SpotMomentNode)) where any light has one: without, points beside its cone choose it,
+    /// The type of a node `width` wide over all of them, as Rust has it. With cones and ranges
+    /// ([`SpotMomentNode`](lightbvh::node::SpotMomentNode)) where any light has one: without, points beside or beyond choose it,
     /// which costs variance and no bias.
     fn node_type(&self, width: usize) -> String {
-        let layout = ["MomentNode", "SpotMomentNode"][usize::from(self.narrow > 0)];
+        let layout = ["MomentNode", "SpotMomentNode"][usize::from(self.limited > 0)];
         match self.light_type() {
             "EmissiveTriangle" => format!("{layout}<{width}>"),
             light => format!("Lit<{layout}<{width}>, {light}>"),
@@ -64,10 +66,10 @@ impl LightKinds {
         parts.collect::<Vec<_>>().join(", ")
     }
 
-    /// The same, and how many have a cone.
+    /// The same, and how many have a cone or a range.
     pub fn cones(&self) -> String {
-        let (said, narrow) = (self.said(), self.narrow);
-        format!("{said}; {narrow} of them send their light into a cone of less than 90 degrees")
+        let (said, limited) = (self.said(), self.limited);
+        format!("{said}; {limited} of them send their light into a cone of less than 90 degrees, or have a range")
     }
 
     /// The type of the light BVH over all of them.
@@ -76,7 +78,7 @@ impl LightKinds {
     }
 
     pub fn json(&self) -> Value {
-        json!({ "said": self.said(), "narrow": self.narrow, "light": self.light_type(), "node": self.node_type(WIDTH) })
+        json!({ "said": self.said(), "narrow": self.limited, "light": self.light_type(), "node": self.node_type(WIDTH) })
     }
 }
 
