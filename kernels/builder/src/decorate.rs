@@ -6,7 +6,7 @@
 //!
 //! Nothing here asks a device for a feature: no execution mode and no capability is added.
 
-use crate::branches::uneven_arms;
+use crate::branches::one_armed;
 use crate::{Error, load};
 use rspirv::binary::Assemble;
 use rspirv::dr::{Instruction, Module, Operand};
@@ -14,8 +14,8 @@ use rspirv::spirv::{Capability, Decoration, Op};
 use std::collections::HashSet;
 
 /// Returns the module with `NoContraction` on the result of every float operation, without debug information (it
-/// holds absolute paths and whole source files), without the capability that braked `spirv-opt`, with one shortest
-/// way through each selection.
+/// holds absolute paths and whole source files), without the capability that braked `spirv-opt`, without empty arms
+/// of branches.
 ///
 /// # Errors
 /// When the words are not a SPIR-V module.
@@ -23,7 +23,7 @@ pub fn decorate(words: &[u32]) -> Result<Vec<u32>, Error> {
     let mut module = load(words)?;
     strip_debug(&mut module);
     strip_brake(&mut module);
-    uneven_arms(&mut module);
+    one_armed(&mut module);
     forbid_contraction(&mut module);
     Ok(module.assemble())
 }

@@ -1,8 +1,8 @@
 //! From rust-gpu's output to the modules that lightbvh ships.
 //!
 //! The program `build-kernels` compiles every entry point of `lightbvh-kernels`, then for each module
-//! 1. [`decorate`] forbids contraction and re-association of every float operation, strips what is not needed,
-//!    leaves one shortest way through each selection,
+//! 1. [`decorate`] forbids contraction and re-association of every float operation, strips what is not needed, takes
+//!    empty arms out of branches,
 //! 2. [`verify`] refuses whatever Vulkan does not define to the bit on every device,
 //! 3. [`manifest`] records sources, compiler, hashes and the parameters' [`names`] next to the committed modules,
 //! 4. [`table`] writes them all down as constants of the package `lightbvh-gpu`.
