@@ -69,7 +69,9 @@ impl LightKinds {
     /// The same, and how many have a cone or a range.
     pub fn cones(&self) -> String {
         let (said, limited) = (self.said(), self.limited);
-        format!("{said}; {limited} of them send their light into a cone of less than 90 degrees, or have a range")
+        format!(
+            "{said}; {limited} of them send their light into a cone of less than 90 degrees, or have a range"
+        )
     }
 
     /// The type of the light BVH over all of them.

@@ -454,8 +454,10 @@ fn compare(
         .collect();
     let subtrees = |&index: &u32| {
         let place = tree.links.places[index as usize];
-        let root = &bvh.nodes()[tree.instances[index as usize].root as usize];
-        let count = (0..WIDTH).filter(|&slot| root.kind(slot) == kind::INNER).count() as u32;
+        // A mesh of one light has none.
+        let root = bvh.nodes().get(tree.instances[index as usize].root as usize);
+        let is_inner = |slot: &usize| root.is_some_and(|root| root.kind(*slot) == kind::INNER);
+        let count = (0..WIDTH).filter(is_inner).count() as u32;
         match (OPENED..INVALID).contains(&place) {
             true => place - OPENED..place - OPENED + count,
             false => 0..0,
