@@ -41,7 +41,7 @@ pub fn node_words(data: &[u8], forms: Forms) {
         let triangles = input::any_triangles(u)?;
         let (random, light, instance): (u32, u32, u32) = u.arbitrary()?;
         let instances: Vec<Instance> = (0..u.int_in_range(0..=3)?)
-            .map(|_| Ok(bytemuck::cast(u.arbitrary::<[u32; 31]>()?)))
+            .map(|_| Ok(bytemuck::cast(u.arbitrary::<[u32; 34]>()?)))
             .collect::<Result<_>>()?;
         let roots: Vec<refit::BlasRoot> = (0..u.int_in_range(0..=3)?)
             .map(|_| Ok(bytemuck::cast(u.arbitrary::<[u32; 13]>()?)))

@@ -146,7 +146,7 @@ impl<'d, N: Node<W>, const W: usize> Held<'d, N, W> {
             };
         }
         let uv: Vec<[f32; 2]> = picked.iter().map(|_| [random.unit(), random.unit()]).collect();
-        let queries: Vec<Query> = points.iter().map(|&point| point.query([0; 2])).collect();
+        let queries: Vec<P::Query> = receivers.iter().map(|own| own.query([0; 2])).collect();
         let [queries, samples, numbers] = [
             device.upload(&queries).expect("an upload").bind(),
             device.upload(&picked).expect("an upload").bind(),

@@ -59,7 +59,7 @@ fn encoding_is_outward<N: BoundsNode<W>, const W: usize>(bounds: &LightBounds, s
         "{}: {reach} {cluster:?} {bounds:?}",
         N::NAME
     );
-    let half = decoded_size.as_dvec3() * 0.5 + 2f64.powi(-60);
+    let half = decoded_size.as_dvec3() * 0.5 + 2f64.powi(-50);
     assert!(
         f64::from(cluster.radius_squared) <= half.length_squared() * (1.0 + 2f64.powi(-18)),
         "{}: {cluster:?} {decoded:?}",

@@ -22,7 +22,7 @@ use crate::weight::{Lobe, recip};
 
 /// A weight outside of the cone, or beyond the end, is this part of what it is without: positive, for whatever the rounding of coordinates may put
 /// there.
-const OUTSIDE: f32 = pow2(-16);
+pub(super) const OUTSIDE: f32 = pow2(-16);
 /// The exponent of the first code of a length, as a shifted code takes it.
 const LENGTH_BIAS: u32 = 101;
 const LENGTH_SHIFT: u32 = 20;
@@ -167,11 +167,7 @@ impl Near {
         };
         let ends = window(nearest) + window(length_squared(x + h));
         let mean = 0.25 * ends + 0.5 * window(length_squared(x));
-        if end == 0 {
-            1.0
-        } else {
-            exact::max(mean * mean, OUTSIDE)
-        }
+        if end == 0 { 1.0 } else { mean * mean }
     }
 }
 

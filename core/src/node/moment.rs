@@ -4,7 +4,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::beam_row::{Near, beam_factor, beam_of, beam_word, end_word};
+use super::beam_row::{Near, OUTSIDE, beam_factor, beam_of, beam_word, end_word};
 use super::codes::{
     BREADTH_MASK, BREADTH_SHIFT, EXTENT_RANGE, PER_EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_2,
     SQRT_HALF, WORD_UNIT, breadth_bias, breadth_code, breadth_value, field, fraction, frame_of, phi_code,
@@ -417,10 +417,12 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> MomentLayout<W>
             };
             weights[i] = weight(&lobe, &side);
             if BEAMS {
-                let mut factor = beam_factor(self.0[Self::BEAM][i], &lobe, WORD_UNIT, frame.unit, near.slack);
+                let cone = beam_factor(self.0[Self::BEAM][i], &lobe, WORD_UNIT, frame.unit, near.slack);
                 let h = Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16)) * WORD_UNIT
                     + Vec3::new(1.0, 1.0, 1.0);
-                factor *= near.within(self.0[Self::END][i], &lobe, h * EXTENT_RANGE, frame.unit);
+                let left = near.within(self.0[Self::END][i], &lobe, h * EXTENT_RANGE, frame.unit);
+                // Both at once would make some weights subnormal.
+                let factor = exact::max(cone * left, OUTSIDE);
                 weights[i] *= if space.slack >= 0.0 { factor } else { 1.0 };
             }
         }
