@@ -59,7 +59,8 @@ fn encoding_is_outward<N: BoundsNode<W>, const W: usize>(bounds: &LightBounds, s
         "{}: {reach} {cluster:?} {bounds:?}",
         N::NAME
     );
-    let half = decoded_size.as_dvec3() * 0.5 + 2f64.powi(-50);
+    let rounding = center.abs().max_element() * 2f64.powi(-22) + 2f64.powi(-50);
+    let half = decoded_size.as_dvec3() * 0.5 + rounding;
     assert!(
         f64::from(cluster.radius_squared) <= half.length_squared() * (1.0 + 2f64.powi(-18)),
         "{}: {cluster:?} {decoded:?}",
