@@ -70,7 +70,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     /// Makes an instance light the receivers whose mask has a bit of `mask`, and no others, where nodes store masks: see
-    /// [`Linked`](crate::importance::Linked). Costs what moving it costs.
+    /// [`Linked`](crate::importance::Linked); from the next [`refit`](Self::refit) on. Costs what moving it costs.
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.

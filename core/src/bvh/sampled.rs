@@ -24,7 +24,7 @@ pub struct Sampled<L> {
     pub pmf: f32,
     /// The point on it, with its density over area.
     pub point: LightPoint,
-    /// Unit direction from the receiver to the point; zero where it lies within 2^-50 m.
+    /// Direction from the receiver to the point, of length 1 within 2^-16; zero where it lies within 2^-50 m.
     pub direction: [f32; 3],
     /// Distance to the point, metres.
     pub distance: f32,
@@ -58,8 +58,9 @@ pub fn mis_weight(light: f32, scattering: f32) -> f32 {
 }
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
-    /// Chooses a light for a receiver by `number`, and a point on it by `uv`, two numbers in [0, 1). `None` where no light has flux, and
-    /// for a receiver that is not in the domain: NaN, or a normal that is not of length 1.
+    /// Chooses a light for a receiver by `number`, and a point on it by `uv`, two numbers in [0, 1). `None` where no light that it may take has
+    /// flux as of the last [`refit`](Self::refit), and for a receiver that is none: NaN, beyond 2^60 m, or with a normal that is not of
+    /// length 1.
     ///
     /// ```
     /// # use lightbvh::{LightBvh, ShadingPoint};
@@ -104,7 +105,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// Density over solid angle, 1/sr, with which [`sample_light`](Self::sample_light) finds what a ray from the receiver has met at `position`
     /// on light `part` of an instance: what multiple importance sampling asks. 0 where the light does not emit to there. `None` where
-    /// there is no such instance or part, and for a receiver that is not in the domain.
+    /// there is no such instance or part, and for a receiver that is none. Near the rim of a sphere it differs from that of the
+    /// sample, for `position` has fewer digits than the angle.
     #[must_use]
     pub fn pdf_of_hit<P: Receiver + AsRef<ShadingPoint>>(
         &self,
