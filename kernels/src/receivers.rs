@@ -18,7 +18,7 @@ use crate::refit::{RefitPush, refit_passes};
 /// Node of `MaskedLights`.
 pub type LinkedNode = Lit<LinkedSpotMomentNode<8>, AnyLight>;
 /// What they are chosen by.
-pub type LinkedImportance = Linked<Leveled<Moments, 9>>;
+pub type LinkedImportance = Linked<Leveled<Moments, 11>>;
 
 /// A point with a mask, and what is asked: 36 bytes.
 #[repr(C)]

@@ -164,8 +164,8 @@ pub type LightBvh = Bvh<DefaultNode, DefaultImportance, 8>;
 pub type AnyLights = Bvh<Lit<SpotMomentNode<8>, AnyLight>, DefaultImportance, 8>;
 
 /// [`AnyLights`] with masks: an instance lights the receivers, [`LinkedPoint`](crate::importance::LinkedPoint)s, of which its mask has a bit, and no
-/// others. In place of a share of uniform choice each child with such a light keeps about 1/512 of its node.
-pub type MaskedLights = Bvh<Lit<LinkedSpotMomentNode<8>, AnyLight>, Linked<Leveled<Moments, 9>>, 8>;
+/// others. In place of a share of uniform choice each child with such a light keeps about 1/2048 of its node.
+pub type MaskedLights = Bvh<Lit<LinkedSpotMomentNode<8>, AnyLight>, Linked<Leveled<Moments, 11>>, 8>;
 
 impl<N: Node<W>, I, const W: usize> Default for Bvh<N, I, W> {
     fn default() -> Self {

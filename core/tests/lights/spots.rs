@@ -5,11 +5,13 @@ use crate::kit::Random;
 use glam::Vec3;
 use lightbvh::device::trail::leaf_parts;
 use lightbvh::exact::hash;
-use lightbvh::importance::Space;
+use lightbvh::importance::{LinkedPoint, Space};
 use lightbvh::light::{AnyLight, Light, PointLight, SpotLight};
 use lightbvh::node::{Lit, MomentNode, Node, SpotMomentNode, kind};
 use lightbvh::refit::world_light;
-use lightbvh::{BuildParams, Bvh, ImportanceModel, Instance, Lights, Moments, ShadingPoint, Transform};
+use lightbvh::{
+    BuildParams, Bvh, ImportanceModel, Instance, Lights, MaskedLights, Moments, ShadingPoint, Transform,
+};
 
 type Tree = Bvh<Lit<SpotMomentNode<8>, AnyLight>, Moments, 8>;
 
@@ -446,8 +448,13 @@ fn points_out_of_range_are_seldom_chosen() {
     let lights = Lights::new(own.clone()).expect("in the domain");
     let with = Tree::single_level(&lights, &BuildParams::default());
     let without = Plain::single_level(&lights, &BuildParams::default());
+    // By themselves, in two levels.
+    let mut alone = MaskedLights::default();
+    let ids: Vec<_> = own.iter().map(|&light| alone.add_light(light)).collect();
+    alone.refit();
     let points = 200.0;
-    let (mut lost, mut lost_without, mut second, mut second_without) = (0.0, 0.0, 0.0, 0.0);
+    let (mut lost, mut lost_without, mut lost_alone) = (0.0, 0.0, 0.0);
+    let (mut second, mut second_without) = (0.0, 0.0);
     for _ in 0..200 {
         let point = floor(100.0 * random.signed(), 100.0 * random.signed());
         second += second_moment(&own, &point, |k| with.pmf(&point, k, u32::MAX));
@@ -456,11 +463,13 @@ fn points_out_of_range_are_seldom_chosen() {
         for (k, _) in dark {
             lost += f64::from(with.pmf(&point, k, u32::MAX));
             lost_without += f64::from(without.pmf(&point, k, u32::MAX));
+            let id = *ids[k as usize].as_ref().expect("in the domain");
+            let receiver = LinkedPoint { point, mask: 1 };
+            lost_alone += f64::from(alone.pmf_of(&receiver, id, 0).expect("a light"));
         }
     }
-    let found = [lost, lost_without, second, second_without].map(|sum| sum / points);
+    let found = [lost, lost_without, lost_alone, second, second_without].map(|sum| sum / points);
     println!("{found:?}");
-    // 6.4 % and 55 %; 1.73 and 3.27.
-    assert!(found[0] < 0.08 && found[1] > 0.3, "{found:?}");
-    assert!(found[2] - 1.0 < 0.5 * (found[3] - 1.0), "{found:?}");
+    assert!(found[0] < 0.08 && found[1] > 0.3 && found[2] < 0.1, "{found:?}");
+    assert!(found[3] - 1.0 < 0.5 * (found[4] - 1.0), "{found:?}");
 }
