@@ -185,7 +185,7 @@ impl Union {
     }
 }
 
-/// How far the rounding of a map may move a place that it brings back from far away to `c`, metres.
+/// Greatest error of a place that a map brings back from far away to `c`, metres.
 #[inline(always)]
 fn brought_back(instance: &Instance, c: Vec3) -> f32 {
     let off = rounding_at(instance.origin()) * BROUGHT_BACK;
@@ -196,14 +196,14 @@ fn brought_back(instance: &Instance, c: Vec3) -> f32 {
     }
 }
 
-/// What limits the light of a set besides its moments or bounds: which receivers take it, where it goes, and how far.
+/// Limits of a set's light: its receivers, its directions, and its range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// The union of the masks of its lights that have flux.
     pub mask: u32,
     /// Where their light goes.
     pub beam: Beam,
-    /// Distance from the set's box from which on nothing arrives, metres; [`ENDLESS`](Self::ENDLESS) if there is none.
+    /// The light ends at this distance from the set's box, metres; [`ENDLESS`](Self::ENDLESS) if there is none.
     pub end: f32,
 }
 
@@ -235,14 +235,13 @@ impl Limits {
     }
 }
 
-/// What is told of the space that a node lies in: the world, or that of an instance's mesh.
+/// The space of a node: the world, or the space of an instance's mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Space {
-    /// How far a light may be, by the rounding of its place in the world, from where its place in this space says, in metres of this
-    /// space: 2^-21 of the instance's greatest coordinate. −1 where the map is no similarity within 2^-14: beams do not count there,
-    /// for angles differ.
+    /// Greatest error of a light's place by rounding in the world, metres of this space: 2^-21 of the instance's greatest coordinate.
+    /// −1 where the map is no similarity within 2^-14: beams do not count there, for angles differ.
     pub slack: f32,
-    /// How many metres of this space a metre of the world is, rounded up: ranges are lengths of the world.
+    /// Metres of this space in a metre of the world, rounded up: ranges are lengths of the world.
     pub per_metre: f32,
 }
 
@@ -281,7 +280,7 @@ impl Instance {
         self.even_square().0 > 0.0
     }
 
-    /// What [`ImportanceModel::weights_in`](crate::ImportanceModel::weights_in) is told of the space of its mesh.
+    /// The space of its mesh, for [`ImportanceModel::weights_in`](crate::ImportanceModel::weights_in).
     #[inline(always)]
     #[must_use]
     pub fn space(&self) -> Space {

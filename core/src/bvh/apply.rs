@@ -38,7 +38,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         let new_meshes = edits.iter().filter_map(|edit| match edit {
             Edit::AddMesh { triangles } => Some(&**triangles),
-            Edit::AddLight { light, .. } => Some(core::slice::from_ref(light)),
             _ => None,
         });
         let mut topologies = build_each(&new_meshes.collect::<Vec<_>>(), &self.params).into_iter();
@@ -63,12 +62,12 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                         .push(self.insert_instance(mesh, transform, radiance, mask));
                 }
                 Edit::AddLight { light, mask } => {
-                    let added = topologies.next().map(|topology| {
-                        let mesh = self.insert_mesh(&[light], &topology);
-                        self.meshes[mesh.index as usize].is_light = true;
-                        self.insert_instance(mesh, Transform::IDENTITY, [1.0; 3], mask)
-                    });
-                    updated.instances.extend(added);
+                    // A mesh of one light has no tree.
+                    let mesh = self.insert_mesh(&[light], &Topology::default());
+                    self.meshes[mesh.index as usize].is_light = true;
+                    updated
+                        .instances
+                        .push(self.insert_instance(mesh, Transform::IDENTITY, [1.0; 3], mask));
                 }
                 Edit::SetLight { instance, light } => {
                     let mesh = self.placed[instance.index as usize].mesh;
@@ -102,9 +101,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(updated)
     }
 
-    /// Applies the edits of a batch that can be done, each for itself and in their order; returns what was made, and why the others were
-    /// left. For a frame that must go on; [`apply`](Self::apply) is all or none, and builds several meshes at a time. A
-    /// [`MeshId::added`] of a mesh that was refused is unknown, and does not change the places of those after it.
+    /// Applies each sound edit of a batch, in order. Returns the ids that were added, and the errors of the refused edits.
+    /// [`apply`](Self::apply) is all or none, and builds several meshes at a time. [`MeshId::added`] counts refused meshes too.
     pub fn apply_each(&mut self, edits: Vec<Edit<N::Light>>) -> (Added, Vec<EditError>) {
         let (mut updated, mut refused) = (Added::default(), Vec::new());
         // By place in the batch.

@@ -70,7 +70,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         put(&mut self.roots, index, BlasRoot::new(INVALID, &N::Summary::EMPTY));
         self.put_triangles(index, 0, triangles);
         if self.is_alone(triangles.len()) {
-            // Whatever trail was there before: none is followed.
+            // An old trail may stay: none is followed.
             self.log.tree(index);
         } else {
             self.place_tree(index, topology);
@@ -188,7 +188,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         self.compute_root(index);
     }
 
-    /// Whether a mesh of so many lights has no nodes: the leaf of an instance is its light.
+    /// Whether a mesh with this number of lights has no nodes.
     pub(super) fn is_alone(&self, lights: usize) -> bool {
         lights == 1 && !self.single
     }

@@ -30,7 +30,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(added.instances[0])
     }
 
-    /// Puts a light by itself into the world. The instance that it is has its id, and whatever instances have: a transform, a colour, a mask;
+    /// Puts a light by itself into the world: an instance, with a transform, a colour and a mask.
     /// [`remove_instance`](Self::remove_instance) takes it out.
     ///
     /// # Errors

@@ -10,7 +10,7 @@ use crate::point::{Receiver, ShadingPoint};
 use crate::random::Random64;
 use crate::vector::vector;
 
-/// A light sample: which light, a point on it, and what it sends. Divide by [`pmf`](Self::pmf) what [`irradiance`](Self::irradiance) says.
+/// A light sample: the light, a point on it, and its irradiance. The estimate is [`irradiance`](Self::irradiance) over [`pmf`](Self::pmf).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Sampled<L> {
@@ -30,13 +30,13 @@ pub struct Sampled<L> {
     pub distance: f32,
     /// Density over solid angle, `pmf` included, 1/sr; 0 where no ray meets the light, as of points and spots.
     pub pdf: f32,
-    /// What the point sends to the front of the receiver, visibility apart, W/m², linear RGB: [`LightPoint::irradiance`].
+    /// Irradiance at the front of the receiver from the point, visibility apart, W/m², linear RGB: [`LightPoint::irradiance`].
     pub irradiance: [f32; 3],
 }
 
 impl<L> Sampled<L> {
     /// The weight of this sample beside a ray whose direction the surface chose with density `scattering`, 1/sr, by the power heuristic
-    /// (Veach & Guibas 1995); 1 where no ray meets the light. The ray's weight is 1 less that of a sample of what it met, whose `pdf` is
+    /// (Veach & Guibas 1995); 1 where no ray meets the light. The ray's weight is 1 − [`mis_weight`](fn@mis_weight) of
     /// [`Bvh::pdf_of_hit`].
     #[must_use]
     pub fn mis_weight(&self, scattering: f32) -> f32 {
@@ -103,8 +103,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         })
     }
 
-    /// Density over solid angle, 1/sr, with which [`sample_light`](Self::sample_light) finds what a ray from the receiver has met at `position`
-    /// on light `part` of an instance: what multiple importance sampling asks. 0 where the light does not emit to there. `None` where
+    /// Density over solid angle, 1/sr, with which [`sample_light`](Self::sample_light) finds the point `position`, metres, on light
+    /// `part` of an instance, where a ray from the receiver has met it: for multiple importance sampling. 0 where the light does not emit to there. `None` where
     /// there is no such instance or part, and for a receiver that is none. Near the rim of a sphere it differs from that of the
     /// sample, for `position` has fewer digits than the angle.
     #[must_use]

@@ -47,8 +47,7 @@ pub trait ImportanceModel<N, const W: usize, P = ShadingPoint> {
     /// The weights of the children of `node` at `point`, a point in the node's space: each zero where the child has no flux,
     /// else positive and at most 2^120. Hostile words may give anything.
     ///
-    /// `space` is what the beams of a [`SpotMomentNode`](crate::node::SpotMomentNode) need to know of that space. An importance made of others
-    /// hands it on.
+    /// `space` is that space, for the beams of a [`SpotMomentNode`](crate::node::SpotMomentNode). An importance made of others passes it on.
     fn weights_in(node: &N, point: &P, space: Space) -> [f32; W];
 
     /// [`weights_in`](Self::weights_in) the world.

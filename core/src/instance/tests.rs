@@ -136,8 +136,7 @@ fn moments_in_the_world() {
     assert!(squashed > 100, "{squashed}");
 }
 
-/// A cone stays where the map leaves its axis about as long as it was, to a hundredth of the square; else it is all directions. Boxes
-/// hold what is there.
+/// A map keeps a cone where it keeps the length of its axis within a hundredth of the square; else the cone is all directions.
 #[test]
 fn cones_stay_where_lengths_stay() {
     let mut random = Random(7);

@@ -55,8 +55,7 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     fn flux_power(&self) -> u32 {
         Self::FLUX_POWER
     }
-    /// Distance from its box from which on nothing of it arrives, metres: [`Limits::ENDLESS`], unless it has a range. Read where nodes store
-    /// beams, by nothing else.
+    /// Its light ends at this distance from its box, metres: [`Limits::ENDLESS`], unless it has a range. Read where nodes store beams alone.
     #[inline(always)]
     fn end(&self) -> f32 {
         Limits::ENDLESS

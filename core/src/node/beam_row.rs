@@ -1,4 +1,4 @@
-//! The two words that a node of moments stores of each child's limits, and what they make of a weight.
+//! The two words of a child's limits in a node of moments, and their factor on its weight.
 //!
 //! One is its [end](Limits::end), metres beyond the box of its lights, as an `f32`; zero if there is none. The other is its [`Beam`].
 //!
@@ -20,8 +20,7 @@ use crate::moments::LightMoments;
 use crate::vector::{abs3, dot, flush3, length_squared, max3};
 use crate::weight::{Lobe, recip};
 
-/// A weight outside of the cone, or beyond the end, is this part of what it is without: positive, for whatever the rounding of coordinates may put
-/// there.
+/// Least factor on a weight, outside of the cone or beyond the end: positive, for rounding may put a lit point there.
 pub(super) const OUTSIDE: f32 = pow2(-16);
 /// The exponent of the first code of a length, as a shifted code takes it.
 const LENGTH_BIAS: u32 = 101;
@@ -38,7 +37,7 @@ const ALL_OF_SPACE: f32 = 256.0;
 const LEAST_SLACK: f32 = pow2(-60);
 /// A longer reach counts as this one, metres: all of space, at any scale.
 const MOST_REACH: f32 = pow2(80);
-/// What an end is rounded up by: more than the errors of what it is compared with.
+/// An end is rounded up by this factor: more than the errors of the distance.
 const LONGER: f32 = 1.001;
 /// A unit of the code of an extent, in breadths, and some of the code of a centre, in units of the frame.
 const EXTENT_CODE: f32 = EXTENT_RANGE * pow2(-6);
@@ -106,7 +105,7 @@ pub(super) fn beam_of(word: u32, stored: &LightMoments, unit: f32) -> Beam {
 }
 
 /// The word of light that ends `end` metres of the world beyond the box of `set`, of a child whose moments are stored as `stored` in a frame of
-/// which one unit is `unit` metres. Lengths of the two are not of one space, so a box that as stored does not hold all lights has no end.
+/// which one unit is `unit` metres. A stored box that does not hold all lights has no end: what it lacks is a length of another space.
 #[inline(always)]
 pub(super) fn end_word(end: f32, set: &LightMoments, stored: &LightMoments, unit: f32) -> u32 {
     let needed = abs3(set.c - stored.c) + set.h;
@@ -120,15 +119,15 @@ pub(super) fn end_word(end: f32, set: &LightMoments, stored: &LightMoments, unit
     }
 }
 
-/// What the half extents of a stored box are widened by to hold what was stored: more than two units of the code of a centre, and one of that of
-/// an extent, for a child of this breadth in a frame of this unit.
+/// Margin of a stored box, for a child of this breadth in a frame of this unit: more than two steps of the centre's code, and one of the
+/// extent's.
 #[inline(always)]
 fn widened(breadth: f32, unit: f32) -> Vec3 {
     let by = breadth * EXTENT_CODE + unit * CENTER_CODES;
     Vec3::new(by, by, by)
 }
 
-/// What the tests of all children of a node allow a point.
+/// What all children's tests of cones and ends share.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     /// Where rounding may have moved it by s, in units of the scale: 2 s. With v from the apex, v·m − cos θ m |v| changes by as much at most.
@@ -153,7 +152,7 @@ impl Near {
 
     /// The part of its light that a child with this end sends to the point: `h` are the half extents of its box in breadths, and a unit of the
     /// frame is `unit` of the scale. Of the windows 1 − (d / end)⁴ of the nearest and the farthest of the box and of its centre, the square of the mean:
-    /// most ends are nearer than the farthest, which is known. `docs/walk.md` has what was measured.
+    /// most lights end nearer than the greatest end, which is stored. `docs/walk.md` has what was measured.
     #[inline(always)]
     pub fn within(&self, end: u32, lobe: &Lobe, h: Vec3, unit: f32) -> f32 {
         let (x, h) = (abs3(lobe.x), h * lobe.breadth + widened(lobe.breadth, unit));

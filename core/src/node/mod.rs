@@ -108,14 +108,14 @@ pub trait Node<const W: usize>: Holds {
         all
     }
 
-    /// Distance from the child's box, as it is stored, from which on nothing of its light arrives, metres; [`Limits::ENDLESS`] where there is
+    /// The child's light ends at this distance from its stored box, metres; [`Limits::ENDLESS`] where there is
     /// none, or the layout stores no beams.
     #[inline(always)]
     fn end(&self, _slot: usize) -> f32 {
         Limits::ENDLESS
     }
 
-    /// The limits of all children together; `whole` is what is [`merged`](Self::merged) of them.
+    /// The limits of all children together; `whole` is their [`merged`](Self::merged) summary.
     #[inline(always)]
     fn merged_limits(&self, _whole: &Self::Summary) -> Limits {
         Limits::NONE

@@ -69,7 +69,7 @@ pub(super) fn limits_of_root<N: Node<W>, const W: usize>(nodes: &[N], root: &Bla
     }
 }
 
-/// The limits in the world of what `instance` puts there, where it is `world`.
+/// The limits of an instance in the world, where its summary is `world`.
 #[inline(always)]
 pub(super) fn in_world<N: Node<W>, const W: usize>(
     local: Limits,

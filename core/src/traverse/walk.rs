@@ -39,7 +39,7 @@ pub(super) struct Walk<P = ShadingPoint> {
     halvings: u32,
     /// The point in the space of the node.
     pub point: P,
-    /// What the layout is told of the space of the node.
+    /// The space of the node.
     pub space: Space,
     steps: u32,
 }

@@ -152,7 +152,7 @@ fn factors_on_radiance() {
     }
 }
 
-/// What can be done of a batch is done, and what is refused is named, with its place in the batch.
+/// `apply_each` applies the sound edits, and names each refused one by its index.
 #[test]
 fn edits_are_applied_each_for_itself() {
     let (mut scene, mesh, instance) = scene(2);

@@ -67,7 +67,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 words.expect(is_alone == (start == end), "nodes of a mesh")?;
                 words.expect(!is_alone || start == room, "nodes of a mesh")?;
                 let flags = words.one()?;
-                // What has no nodes has none to build again.
+                // A mesh without nodes is never rebuilt.
                 let is_known = flags < 4 && !(is_alone && flags & 1 != 0);
                 words.expect(is_known, "whether a mesh changed or is a light")?;
                 mesh.is_light = flags & 2 != 0;
