@@ -100,12 +100,10 @@ mod transform;
 pub use bvh::Rebuilder;
 #[cfg(feature = "alloc")]
 #[doc(inline)]
-pub use bvh::{AnyLights, Bvh, Edit, LightBvh, MaskedLights};
+pub use bvh::{AnyLights, Bvh, LightBvh, MaskedLights};
 #[cfg(feature = "alloc")]
 pub use lights::Lights;
 
-#[doc(inline)]
-pub use light::EmissiveTriangle;
 pub use point::ShadingPoint;
 pub use random::Random64;
 pub use traverse::SampledLight;
@@ -119,13 +117,13 @@ pub use build::{BuildParams, Heuristic};
 pub use bvh::RebuilderParams;
 #[cfg(feature = "alloc")]
 #[doc(hidden)]
-pub use bvh::{InstanceId, MeshId};
+pub use bvh::{Edit, InstanceId, MeshId};
 #[doc(hidden)]
 pub use error::*;
 #[doc(hidden)]
 pub use importance::{Defensive, Eq4, Flux, FluxOverDistance, Glossy, ImportanceModel, Moments};
 #[doc(hidden)]
-pub use light::LightPoint;
+pub use light::{EmissiveTriangle, LightPoint};
 #[doc(hidden)]
 pub use node::{
     BoundsNode, CompactNode, LightBounds, LightMoments, LightNode, MomentLayout, MomentNode, Node, Summary,
