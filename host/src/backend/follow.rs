@@ -7,7 +7,7 @@ use bytemuck::{Pod, bytes_of, cast_slice};
 use lightbvh::node::Node;
 use lightbvh::refit::BlasRoot;
 use lightbvh::{Instance, TreeWords};
-use lightbvh_gpu::{Buffer as Array, Frame, Mirror, Pass as RefitPass, Refit};
+use lightbvh_gpu::{DeviceBuffer, Frame, Mirror, Pass as RefitPass, Step};
 
 use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
 
@@ -21,6 +21,8 @@ pub(super) struct DeviceTree<N, L> {
     pub instances: Buffer<Instance>,
     pub roots: Buffer<BlasRoot>,
     pub trails: Buffer<u32>,
+    list: Buffer<u32>,
+    children: Buffer<u32>,
     pub push: TreeWords,
     mirror: Mirror,
 }
@@ -36,6 +38,8 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
             instances: device.buffer(0)?,
             roots: device.buffer(0)?,
             trails: device.buffer(0)?,
+            list: device.buffer(0)?,
+            children: device.buffer(0)?,
             push: TreeWords::default(),
             mirror: Mirror::default(),
         })
@@ -54,12 +58,14 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
 
     /// The array that a kernel's binding of this name takes.
     pub fn bind(&self, name: &str) -> Option<Binding> {
-        Array::named(name).map(|array| match array {
-            Array::Nodes => self.nodes.bind(),
-            Array::Triangles => self.triangles.bind(),
-            Array::Instances => self.instances.bind(),
-            Array::Roots => self.roots.bind(),
-            Array::Trails => self.trails.bind(),
+        DeviceBuffer::named(name).map(|buffer| match buffer {
+            DeviceBuffer::Nodes => self.nodes.bind(),
+            DeviceBuffer::Triangles => self.triangles.bind(),
+            DeviceBuffer::Instances => self.instances.bind(),
+            DeviceBuffer::Roots => self.roots.bind(),
+            DeviceBuffer::Trails => self.trails.bind(),
+            DeviceBuffer::List => self.list.bind(),
+            DeviceBuffer::Children => self.children.bind(),
         })
     }
 
@@ -76,12 +82,16 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
     {
         let frame = self.mirror.frame(bvh);
         let followed = self
-            .copy_changes(device, bvh, &frame)
-            .and_then(|()| self.refit(device, &frame.refit, kernel));
+            .write(device, &frame)
+            .and_then(|()| self.refit(device, &frame, kernel));
         if followed.is_err() {
             // The mirror believes that the frame was followed.
             self.mirror = Mirror::default();
         }
+        let top = self.mirror.top::<N>() as usize;
+        self.bottoms = bvh.nodes().len();
+        self.top = top..top + bvh.top_nodes().len();
+        self.push = frame.words;
         followed
     }
 
@@ -89,78 +99,71 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
     fn refit(
         &self,
         device: &Device,
-        refit: &Refit,
+        frame: &Frame<'_>,
         kernel: impl Fn(RefitPass) -> String,
     ) -> Result<Duration, VulkanError> {
-        if refit.dispatches.is_empty() {
-            return Ok(Duration::ZERO);
-        }
-        let list = device.upload(&refit.list)?;
-        // By which the passes hand over from children to nodes.
-        let children = device.buffer::<u32>(refit.children as usize / size_of::<u32>())?;
-        let mut pass = Pass::new();
-        for dispatch in &refit.dispatches {
-            let kernel = device.kernel(&kernel(dispatch.pass))?;
+        let mut all = Pass::new();
+        let mut is_empty = true;
+        for step in frame.steps() {
+            let Step::Dispatch { pass, push, count } = step else {
+                continue;
+            };
+            let kernel = device.kernel(&kernel(pass))?;
             let known = lightbvh_gpu::Kernel::named(kernel.name()).map_or(&[][..], |known| known.bindings);
+            let buffer =
+                |binding: &lightbvh_gpu::Binding| self.bind(binding.name).expect("a buffer of the tree");
             let buffers: Vec<_> = known
                 .iter()
                 .map(|binding| match binding.name {
-                    "list" => list.bind(),
-                    "children" => children.bind().of_elements(binding.stride),
-                    array => self.bind(array).expect("an array of the tree"),
+                    "children" => buffer(binding).of_elements(binding.stride),
+                    _ => buffer(binding),
                 })
                 .collect();
-            pass.dispatch(&kernel, &buffers, bytes_of(&dispatch.push()), dispatch.count);
+            all.dispatch(&kernel, &buffers, bytes_of(&push), count);
+            is_empty = false;
         }
-        Ok(device_time(&device.run(&pass)?))
+        match is_empty {
+            true => Ok(Duration::ZERO),
+            false => Ok(device_time(&device.run(&all)?)),
+        }
     }
 
-    /// Makes the device's arrays those of `bvh`, but for the summaries that are refitted.
-    fn copy_changes<I, const W: usize>(
-        &mut self,
-        device: &Device,
-        bvh: &lightbvh::Bvh<N, I, W>,
-        frame: &Frame,
-    ) -> Result<(), VulkanError>
-    where
-        N: Node<W>,
-    {
-        renew(device, &mut self.nodes, bvh, frame, Array::Nodes)?;
-        renew(device, &mut self.instances, bvh, frame, Array::Instances)?;
-        renew(device, &mut self.trails, bvh, frame, Array::Trails)?;
-        renew(device, &mut self.roots, bvh, frame, Array::Roots)?;
-        renew(device, &mut self.triangles, bvh, frame, Array::Triangles)?;
-        let top = self.mirror.top::<N>() as usize;
-        self.bottoms = bvh.nodes().len();
-        self.top = top..top + bvh.top_nodes().len();
-        self.push = frame.words;
-        Ok(())
+    /// Does the resizes and uploads of a frame.
+    fn write(&mut self, device: &Device, frame: &Frame<'_>) -> Result<(), VulkanError> {
+        write(device, &mut self.nodes, frame, DeviceBuffer::Nodes)?;
+        write(device, &mut self.triangles, frame, DeviceBuffer::Triangles)?;
+        write(device, &mut self.instances, frame, DeviceBuffer::Instances)?;
+        write(device, &mut self.roots, frame, DeviceBuffer::Roots)?;
+        write(device, &mut self.trails, frame, DeviceBuffer::Trails)?;
+        write(device, &mut self.list, frame, DeviceBuffer::List)?;
+        write(device, &mut self.children, frame, DeviceBuffer::Children)
     }
 }
 
-/// Does a frame's copies of one buffer. If its length changes, or something else still reads it, another buffer with what it held
-/// replaces it.
-fn renew<T: Pod, N: Node<W>, I, const W: usize>(
+/// Does a frame's resize and uploads of one buffer. If something else still reads it, another with what it held replaces it.
+fn write<T: Pod>(
     device: &Device,
     buffer: &mut Buffer<T>,
-    bvh: &lightbvh::Bvh<N, I, W>,
-    frame: &Frame,
-    array: Array,
+    frame: &Frame<'_>,
+    own: DeviceBuffer,
 ) -> Result<(), VulkanError> {
-    let copies = frame.copies.iter().filter(|copy| copy.buffer == array);
-    let parts: Vec<(usize, &[T])> = copies
-        .map(|copy| {
-            let first = copy.bytes.start as usize / size_of::<T>();
-            (first, cast_slice(copy.source(bvh)))
-        })
-        .collect();
-    let resized = frame.resizes.iter().find(|(resized, _)| *resized == array);
-    let len = resized.map_or(buffer.len(), |(_, bytes)| *bytes as usize / size_of::<T>());
-    if len == buffer.len() && parts.is_empty() {
-        return Ok(());
+    let mut parts: Vec<(usize, &[T])> = Vec::new();
+    let mut size = None;
+    for step in frame.steps() {
+        match step {
+            Step::Resize { buffer, bytes } if buffer == own => size = Some(bytes as usize / size_of::<T>()),
+            Step::Upload { buffer, at, bytes } if buffer == own => {
+                parts.push((at as usize / size_of::<T>(), cast_slice(bytes)));
+            }
+            _ => {}
+        }
     }
-    if len != buffer.len() || buffer.is_bound() {
-        let new = device.buffer(len)?;
+    if let Some(size) = size {
+        *buffer = device.buffer(size)?;
+    } else if parts.is_empty() {
+        return Ok(());
+    } else if buffer.is_bound() {
+        let new = device.buffer(buffer.len())?;
         new.copy_from(buffer)?;
         *buffer = new;
     }

@@ -6,7 +6,7 @@
 //! `kernels/examples/embed_shader` says how it is built.
 //!
 //! The folder `common` is the engine: it opens the device, owns buffers and pipelines, and knows nothing of lights. This file
-//! is what an engine adds for lightbvh. Each frame it copies what the edits changed, dispatches the refit, and samples.
+//! is what an engine adds for lightbvh: `DeviceLights`, which does the steps of each frame, and the queries.
 
 #[path = "common/mod.rs"]
 mod common;
@@ -14,10 +14,10 @@ mod common;
 #[path = "common/direct.rs"]
 mod direct;
 
+use std::collections::HashMap;
 use std::process::ExitCode;
 use std::rc::Rc;
 
-use ash::vk;
 use bytemuck::cast_slice;
 use common::Result;
 use common::buffer::Buffer;
@@ -26,10 +26,9 @@ use common::pipeline::Pipeline;
 use common::words::compare;
 use common::world::{World, points};
 use direct::direct_light;
-use lightbvh::node::DefaultNode;
-use lightbvh::{LightBvh, Random64, SampledLight, ShadingPoint};
+use lightbvh::{LightBvh, SampledLight, TreeWords};
 use lightbvh_gpu::spirv;
-use lightbvh_gpu::{Buffer as Array, Frame, MOMENTS, Mirror, Pass, Query, query_push, self_test};
+use lightbvh_gpu::{DeviceBuffer, MOMENTS, Mirror, Pass, Query, Step, query_push, self_test};
 
 const FRAMES: u16 = 20;
 const QUERIES: u32 = 10_000;
@@ -40,149 +39,72 @@ const SAMPLES: u32 = 16;
 
 /// What an engine keeps for the lights of one scene.
 struct DeviceLights {
-    gpu: Rc<Gpu>,
-    /// Knows which bytes the device holds.
+    /// Knows what the device holds.
     mirror: Mirror,
-    /// One for each of `Array::ALL`.
-    arrays: Vec<Buffer>,
-    refits: Vec<(Pass, Pipeline)>,
-    sample: Pipeline,
-}
-
-/// What one frame gave, copied back to be compared.
-struct Results {
-    nodes: Vec<u8>,
-    samples: Vec<u8>,
+    buffers: HashMap<DeviceBuffer, Buffer>,
+    /// In the order of `Pass::ALL`.
+    refits: Vec<Pipeline>,
 }
 
 impl DeviceLights {
     fn new(gpu: &Rc<Gpu>) -> Result<Self> {
+        let refits = Pass::ALL.iter().map(|&pass| kernel(gpu, MOMENTS.refit(pass)));
         Ok(Self {
-            gpu: Rc::clone(gpu),
             mirror: Mirror::default(),
-            arrays: Array::ALL
-                .iter()
-                .map(|_| Buffer::storage(gpu, 0))
-                .collect::<Result<_>>()?,
-            refits: Pass::ALL
-                .into_iter()
-                .map(|pass| Ok((pass, kernel(gpu, MOMENTS.refit(pass))?)))
-                .collect::<Result<_>>()?,
-            sample: kernel(gpu, MOMENTS.sample)?,
+            buffers: HashMap::new(),
+            refits: refits.collect::<Result<_>>()?,
         })
     }
 
-    /// Updates the device to the light BVH, and samples there.
-    fn frame(&mut self, bvh: &LightBvh, queries: &[Query]) -> Result<Results> {
+    /// Updates the device to the light BVH. Returns the push constants of kernels that walk it.
+    fn update(&mut self, gpu: &Rc<Gpu>, bvh: &LightBvh) -> Result<TreeWords> {
         let frame = self.mirror.frame(bvh);
-        self.grow(&frame)?;
-        // The bytes of all copies, one after another.
-        let staging: Vec<u8> = frame
-            .copies
-            .iter()
-            .flat_map(|copy| copy.source(bvh))
-            .copied()
-            .collect();
-        let staging = Buffer::staged(&self.gpu, &staging)?;
-        let list = Buffer::staged(&self.gpu, cast_slice(&frame.refit.list))?;
-        let children = Buffer::storage(&self.gpu, frame.refit.children)?;
-        let asked = Buffer::staged(&self.gpu, cast_slice(queries))?;
-        let answers = Buffer::storage(&self.gpu, size_of::<SampledLight>() as u64 * queries.len() as u64)?;
-
-        // Bindings have names. Those that `Array::named` does not know are this frame's.
-        let named = |name: &str| match (Array::named(name), name) {
-            (Some(array), _) => &self.arrays[array as usize],
-            (None, "list") => &list,
-            (None, "children") => &children,
-            (None, "queries") => &asked,
-            (None, "results") => &answers,
-            (None, other) => panic!("no kernel here has a binding {other}"),
-        };
-        for (_, pipeline) in &self.refits {
-            pipeline.bind(named);
-        }
-        self.sample.bind(named);
-
-        let nodes = &self.arrays[Array::Nodes as usize];
-        let nodes_back = Buffer::staging(&self.gpu, nodes.bytes)?;
-        let answers_back = Buffer::staging(&self.gpu, answers.bytes)?;
-        let push = query_push(queries.len() as u32, frame.words);
-        let gpu = &self.gpu;
         gpu.run(|commands| {
-            // After the frame before, and the growth.
-            gpu.barrier(commands);
-            // One command for each array, of as many regions as there are.
-            for (array, regions) in frame.regions(0) {
-                let regions: Vec<_> = regions
-                    .iter()
-                    .map(|region| vk::BufferCopy {
-                        src_offset: region.from,
-                        dst_offset: region.to,
-                        size: region.bytes,
-                    })
-                    .collect();
-                staging.copy_regions(commands, &self.arrays[array as usize], &regions);
+            for step in frame.steps() {
+                match step {
+                    Step::Resize { buffer, bytes } => {
+                        self.buffers.insert(buffer, Buffer::storage(gpu, bytes)?);
+                    }
+                    Step::Upload { buffer, at, bytes } => {
+                        commands.upload(&self.buffers[&buffer], at, bytes)?
+                    }
+                    Step::Dispatch { pass, push, count } => {
+                        commands.dispatch(&self.refits[pass as usize], |name| self.named(name), &push, count);
+                    }
+                }
             }
-            gpu.barrier(commands);
-            for dispatch in &frame.refit.dispatches {
-                self.refit(dispatch.pass)
-                    .dispatch(commands, &dispatch.push(), dispatch.count);
-                // The next dispatch reads what this one wrote.
-                gpu.barrier(commands);
-            }
-            self.sample.dispatch(commands, &push, queries.len() as u32);
-            gpu.barrier(commands);
-            nodes.copy_to(commands, 0, &nodes_back, 0, nodes.bytes);
-            answers.copy_to(commands, 0, &answers_back, 0, answers.bytes);
-            gpu.barrier(commands);
+            Ok(())
         })?;
-        Ok(Results {
-            nodes: nodes_back.read()?,
-            samples: answers_back.read()?,
-        })
+        Ok(frame.words)
     }
 
-    /// Makes larger what became too small, and copies what it held.
-    fn grow(&mut self, frame: &Frame) -> Result<()> {
-        for &(array, bytes) in &frame.resizes {
-            let held = &mut self.arrays[array as usize];
-            if bytes > held.bytes {
-                // Half as much again: most frames then need no new buffer.
-                let new = Buffer::storage(&self.gpu, bytes + bytes / 8 * 4)?;
-                self.gpu
-                    .run(|commands| held.copy_to(commands, 0, &new, 0, held.bytes))?;
-                *held = new;
-            }
-        }
+    fn named(&self, binding: &str) -> Option<&Buffer> {
+        DeviceBuffer::named(binding).and_then(|buffer| self.buffers.get(&buffer))
+    }
+}
+
+/// The words of a kernel's results for `asked` elements of `queries`; `lights` are its other buffers.
+fn ask(
+    gpu: &Rc<Gpu>,
+    lights: &DeviceLights,
+    kernel: &Pipeline,
+    asked: (&[u8], u32),
+    push: &[u32],
+    stride: u32,
+) -> Result<Vec<u8>> {
+    let (queries, count) = asked;
+    let results = Buffer::storage(gpu, u64::from(stride) * u64::from(count))?;
+    let queries = Buffer::staged(gpu, queries)?;
+    gpu.run(|commands| {
+        let named = |name: &str| match name {
+            "results" => Some(&results),
+            "queries" | "points" => Some(&queries),
+            _ => lights.named(name),
+        };
+        commands.dispatch(kernel, named, push, count);
         Ok(())
-    }
-
-    /// Lights points by a shader of one's own.
-    fn light(&self, bvh: &LightBvh, module: &[u32], points: &[ShadingPoint]) -> Result<Vec<u8>> {
-        let shader = Pipeline::new(&self.gpu, module, BINDINGS)?;
-        let asked = Buffer::staged(&self.gpu, cast_slice(points))?;
-        let results = Buffer::storage(&self.gpu, size_of::<[f32; 3]>() as u64 * points.len() as u64)?;
-        let back = Buffer::staging(&self.gpu, results.bytes)?;
-        shader.bind(|name| match (Array::named(name), name) {
-            (Some(array), _) => &self.arrays[array as usize],
-            (None, "points") => &asked,
-            (None, _) => &results,
-        });
-        let mut push = vec![points.len() as u32, SAMPLES];
-        push.extend(bytemuck::cast::<_, [u32; 9]>(self.mirror.words(bvh)));
-        self.gpu.run(|commands| {
-            shader.dispatch(commands, &push, points.len() as u32);
-            self.gpu.barrier(commands);
-            results.copy_to(commands, 0, &back, 0, results.bytes);
-            self.gpu.barrier(commands);
-        })?;
-        back.read()
-    }
-
-    fn refit(&self, wanted: Pass) -> &Pipeline {
-        let found = self.refits.iter().find(|(pass, _)| *pass == wanted);
-        &found.expect("there is one for each pass").1
-    }
+    })?;
+    results.read()
 }
 
 /// A pipeline of a kernel, whose bindings have names.
@@ -195,16 +117,13 @@ fn kernel(gpu: &Rc<Gpu>, kernel: &lightbvh_gpu::Kernel) -> Result<Pipeline> {
 fn check(gpu: &Rc<Gpu>) -> Result<()> {
     let operands = Buffer::staged(gpu, self_test::operands())?;
     let answers = Buffer::storage(gpu, self_test::ANSWERS_BYTES as u64)?;
-    let back = Buffer::staging(gpu, answers.bytes)?;
     let kernel = kernel(gpu, &self_test::SELF_TEST)?;
-    kernel.bind(|name| if name == "operands" { &operands } else { &answers });
     gpu.run(|commands| {
-        kernel.dispatch(commands, &self_test::PUSH, self_test::INVOCATIONS);
-        gpu.barrier(commands);
-        answers.copy_to(commands, 0, &back, 0, answers.bytes);
-        gpu.barrier(commands);
+        let named = |name: &str| Some(if name == "operands" { &operands } else { &answers });
+        commands.dispatch(&kernel, named, &self_test::PUSH, self_test::INVOCATIONS);
+        Ok(())
     })?;
-    Ok(self_test::defect(&back.read()?).map_or(Ok(()), Err)?)
+    Ok(self_test::defect(&answers.read()?).map_or(Ok(()), Err)?)
 }
 
 /// Runs all frames on one device, then a shader of one's own. Returns how many words were compared.
@@ -212,28 +131,36 @@ fn run(gpu: &Rc<Gpu>, shader: Option<&[u32]>) -> Result<u64> {
     check(gpu)?;
     let mut world = World::new()?;
     let mut lights = DeviceLights::new(gpu)?;
+    let sample = kernel(gpu, MOMENTS.sample)?;
     let mut words = 0;
     for frame in 0..FRAMES {
         world.step(frame)?;
+        let tree = lights.update(gpu, &world.bvh)?;
         let asked = points(frame, QUERIES);
         let queries: Vec<Query> = asked
             .iter()
             .map(|&(point, random)| Query::sample(point, random))
             .collect();
-        let device = lights.frame(&world.bvh, &queries)?;
-
-        let samples: Vec<SampledLight> = asked
-            .iter()
-            .map(|(point, random)| world.bvh.sample(point, Random64::from(*random)))
-            .collect();
-        words += compare("node", world.bvh.nodes(), &device.nodes)?;
-        let top = lights.mirror.top::<DefaultNode>() as usize * size_of::<DefaultNode>();
-        words += compare(
-            "node of the top level",
-            world.bvh.top_nodes(),
-            &device.nodes[top..],
+        let push = query_push(QUERIES, tree);
+        let samples = ask(
+            gpu,
+            &lights,
+            &sample,
+            (cast_slice(&queries), QUERIES),
+            &push,
+            size_of::<SampledLight>() as u32,
         )?;
-        words += compare("sample", &samples, &device.samples)?;
+
+        let nodes = lights.buffers[&DeviceBuffer::Nodes].read()?;
+        let (compared, different) = lights.mirror.compare_nodes(&world.bvh, &nodes);
+        if let Some(node) = different.first() {
+            return Err(format!("node {node} differs").into());
+        }
+        let expected: Vec<SampledLight> = asked
+            .iter()
+            .map(|(point, random)| world.bvh.sample(point, *random))
+            .collect();
+        words += compared + compare("sample", &expected, &samples)?;
     }
     if let Some(module) = shader {
         let (points, _): (Vec<_>, Vec<_>) = points(0, POINTS).into_iter().unzip();
@@ -242,7 +169,18 @@ fn run(gpu: &Rc<Gpu>, shader: Option<&[u32]>) -> Result<u64> {
             .zip(&points)
             .map(|(seed, point)| direct_light(&tree, triangles, point, SAMPLES, seed))
             .collect();
-        words += compare("point", &cpu, &lights.light(&world.bvh, module, &points)?)?;
+        let mut push = vec![POINTS, SAMPLES];
+        push.extend(bytemuck::cast::<_, [u32; 9]>(lights.mirror.words(&world.bvh)));
+        let shader = Pipeline::new(gpu, module, BINDINGS)?;
+        let device = ask(
+            gpu,
+            &lights,
+            &shader,
+            (cast_slice(&points), POINTS),
+            &push,
+            size_of::<[f32; 3]>() as u32,
+        )?;
+        words += compare("point", &cpu, &device)?;
     }
     Ok(words)
 }

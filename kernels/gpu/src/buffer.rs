@@ -1,12 +1,9 @@
-//! The arrays of a light BVH on a device.
+//! The storage buffers by which a device follows a light BVH.
 
-use lightbvh::Instance;
-use lightbvh::node::Holds;
-use lightbvh::refit::BlasRoot;
-
-/// An array of a light BVH that a device holds in a storage buffer.
+/// A storage buffer that a device has for each light BVH. As a number (`buffer as usize`) it counts from 0 in the order of
+/// [`ALL`](Self::ALL).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Buffer {
+pub enum DeviceBuffer {
     /// The nodes of bottom levels, and behind them those of the top level. A refit writes them.
     Nodes,
     /// The triangles of bottom levels, or their lights of another kind, in the spaces of their meshes, for a refit.
@@ -17,16 +14,23 @@ pub enum Buffer {
     Roots,
     /// The bit trails of triangles, `LightTree::trail_words` words each, and the links of the top level, for pmfs.
     Trails,
+    /// Indices of the nodes and roots that a frame's refit computes. Like [`Children`](Self::Children) it belongs to one frame
+    /// until the device is done with it.
+    List,
+    /// What dispatches of a refit hand over to the next. It is never uploaded.
+    Children,
 }
 
-impl Buffer {
+impl DeviceBuffer {
     /// All of them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 7] = [
         Self::Nodes,
         Self::Triangles,
         Self::Instances,
         Self::Roots,
         Self::Trails,
+        Self::List,
+        Self::Children,
     ];
 
     /// Name of the bindings that take it.
@@ -38,6 +42,8 @@ impl Buffer {
             Self::Instances => "instances",
             Self::Roots => "roots",
             Self::Trails => "trails",
+            Self::List => "list",
+            Self::Children => "children",
         }
     }
 
@@ -45,18 +51,5 @@ impl Buffer {
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|buffer| buffer.name() == name)
-    }
-
-    /// Bytes from one element to the next, in a tree with nodes of layout `N`.
-    #[must_use]
-    pub fn stride<N: Holds>(self) -> u32 {
-        let bytes = match self {
-            Self::Nodes => size_of::<N>(),
-            Self::Triangles => size_of::<N::Light>(),
-            Self::Instances => size_of::<Instance>(),
-            Self::Roots => size_of::<BlasRoot>(),
-            Self::Trails => size_of::<u32>(),
-        };
-        bytes as u32
     }
 }

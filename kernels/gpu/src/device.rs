@@ -1,16 +1,13 @@
 //! What a device must have to run the kernels.
 
 #[doc(inline)]
-pub use crate::frame::Region;
-
 pub use crate::memory_model::without_vulkan_memory_model;
 
 /// Device features to be enabled, by their names in Vulkan's structures; `vulkanMemoryModel` stands in
 /// `VkPhysicalDeviceVulkan12Features`.
 pub const REQUIRED_FEATURES: &[&str] = &["vulkanMemoryModel"];
 
-/// Storage buffers that the greediest kernel takes; `maxPerStageDescriptorStorageBuffers` must be at least that. The passes
-/// over a light BVH (refit, sample, pmf) take 5 at most.
+/// Storage buffers that the greediest kernel takes; `maxPerStageDescriptorStorageBuffers` must be at least that.
 pub const STORAGE_BUFFERS: u32 = 6;
 
 #[cfg(all(test, feature = "kernels"))]

@@ -1,53 +1,101 @@
 //! The work of a device that follows a light BVH from one frame to the next.
 
-use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
 use bytemuck::cast_slice;
 use lightbvh::bvh::Cursor;
-use lightbvh::node::Node;
-use lightbvh::{Bvh, TreeWords};
+use lightbvh::node::{Holds, Node};
+use lightbvh::refit::BlasRoot;
+use lightbvh::{Bvh, Instance, TreeWords};
 
-use crate::buffer::Buffer;
-use crate::refit::Refit;
+use crate::buffer::DeviceBuffer;
+use crate::refit::{Pass, Refit};
 
-/// The work of a device for one frame: resize, copy, refit, in this order.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Frame {
-    /// Buffers that need another size, and that size in bytes. Their contents stay, up to the lesser size. A buffer may be
-    /// larger than it needs to be.
-    pub resizes: Vec<(Buffer, u64)>,
-    /// Copies from the light BVH to the device.
-    pub copies: Vec<Copy>,
-    /// Nodes that the device then computes.
-    pub refit: Refit,
-    /// Push constants of kernels that walk the tree afterwards.
+/// The work of a device for one frame.
+#[derive(Clone, Debug)]
+pub struct Frame<'a> {
+    resizes: Vec<(DeviceBuffer, u64)>,
+    uploads: Vec<(DeviceBuffer, u64, &'a [u8])>,
+    refit: Refit,
+    /// Push constants of kernels that walk the tree once the steps are done.
     pub words: TreeWords,
 }
 
-/// The device's buffer of each array of a light BVH.
-const BUFFERS: [Buffer; 9] = [
-    Buffer::Nodes,
-    Buffer::Nodes,
-    Buffer::Triangles,
-    Buffer::Instances,
-    Buffer::Roots,
-    Buffer::Trails,
-    Buffer::Trails,
-    Buffer::Trails,
-    Buffer::Trails,
+/// A step of a [`Frame`]. Steps are done in their order: a device sees what those before have written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step<'a> {
+    /// The buffer is replaced by one of at least so many bytes. What it held is not needed: the steps that follow write all
+    /// of it that is read. A buffer that grows gets half as much again, so resizes are few.
+    Resize {
+        /// Which one.
+        buffer: DeviceBuffer,
+        /// Its size, bytes, not 0.
+        bytes: u64,
+    },
+    /// The bytes are written to the buffer from the byte `at` on; both are multiples of 4. Uploads do not overlap.
+    Upload {
+        /// Which one.
+        buffer: DeviceBuffer,
+        /// Where they begin, bytes.
+        at: u64,
+        /// What is written, not empty.
+        bytes: &'a [u8],
+    },
+    /// The kernel of the pass is dispatched ([`KernelSet::refit`](crate::KernelSet::refit)).
+    Dispatch {
+        /// What it computes.
+        pass: Pass,
+        /// Its push constants.
+        push: [u32; 3],
+        /// Number of invocations, at least 1: [`Kernel::groups`](crate::Kernel::groups) says how many workgroups.
+        count: u32,
+    },
+}
+
+impl Frame<'_> {
+    /// What the device does: resizes, then uploads, then dispatches. Nothing if nothing changed.
+    pub fn steps(&self) -> impl Iterator<Item = Step<'_>> {
+        let resizes = self.resizes.iter();
+        let resizes = resizes.map(|&(buffer, bytes)| Step::Resize { buffer, bytes });
+        let list = (DeviceBuffer::List, 0, cast_slice(&self.refit.list));
+        let uploads = self.uploads.iter().copied().chain([list]);
+        let uploads = uploads.filter(|(.., bytes)| !bytes.is_empty());
+        let uploads = uploads.map(|(buffer, at, bytes)| Step::Upload { buffer, at, bytes });
+        let dispatches = self.refit.dispatches.iter().map(|own| Step::Dispatch {
+            pass: own.pass,
+            push: [own.first, own.count, own.top],
+            count: own.count,
+        });
+        resizes.chain(uploads).chain(dispatches)
+    }
+}
+
+/// The device's buffer of each array: those of a light BVH, then those of a refit.
+const BUFFERS: [DeviceBuffer; 11] = [
+    DeviceBuffer::Nodes,
+    DeviceBuffer::Nodes,
+    DeviceBuffer::Triangles,
+    DeviceBuffer::Instances,
+    DeviceBuffer::Roots,
+    DeviceBuffer::Trails,
+    DeviceBuffer::Trails,
+    DeviceBuffer::Trails,
+    DeviceBuffer::Trails,
+    DeviceBuffer::List,
+    DeviceBuffer::Children,
 ];
-/// Places in [`BUFFERS`] of the nodes of the top level, the trails, and the links of the top level.
+/// Places in [`BUFFERS`] of the nodes of the top level, the trails, and the links of the top level; and of a refit's two.
 const TOP: usize = 1;
 const TRAILS: usize = 5;
 const ABOVE: usize = 6;
 const PLACES: usize = 7;
 const PARTS: usize = 8;
+const LIST: usize = 9;
+const CHILDREN: usize = 10;
 
-/// The arrays, in the order of [`BUFFERS`].
-fn arrays<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> [&[u8]; BUFFERS.len()] {
+/// The arrays of a light BVH, in the order of [`BUFFERS`].
+fn arrays<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> [&[u8]; LIST] {
     let tree = bvh.tree();
     [
         cast_slice(bvh.nodes()),
@@ -62,88 +110,16 @@ fn arrays<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> [&[u8]; BUFFERS.
     ]
 }
 
-/// A copy from the light BVH to the device's buffer.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Copy {
-    /// Which one.
-    pub buffer: Buffer,
-    /// Range in the buffer, bytes, of whole elements; not empty. Ranges of one buffer do not overlap.
-    pub bytes: Range<u64>,
-    /// Place of the array in [`BUFFERS`].
-    array: usize,
-    /// First byte in the array.
-    from: u64,
+/// Bytes of one element of each array, in the order of [`BUFFERS`].
+fn strides<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> [u64; LIST] {
+    let word = size_of::<u32>();
+    let trail = word * bvh.tree().trail_words as usize;
+    let [node, light] = [size_of::<N>(), size_of::<N::Light>()];
+    let [instance, root] = [size_of::<Instance>(), size_of::<BlasRoot>()];
+    [node, node, light, instance, root, trail, word, word, word].map(|bytes| bytes as u64)
 }
 
-impl Copy {
-    /// The bytes to be copied.
-    ///
-    /// # Panics
-    /// If `bvh` is another than the one that the frame is of, and its array shorter.
-    #[must_use]
-    pub fn source<'a, N: Node<W>, I, const W: usize>(&self, bvh: &'a Bvh<N, I, W>) -> &'a [u8] {
-        let length = self.bytes.end - self.bytes.start;
-        &arrays(bvh)[self.array][self.from as usize..(self.from + length) as usize]
-    }
-}
-
-/// A region of a copy from a staging buffer, bytes: the words of `VkBufferCopy`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Region {
-    /// First byte in the staging buffer.
-    pub from: u64,
-    /// First byte in the device's buffer.
-    pub to: u64,
-    /// How many.
-    pub bytes: u64,
-}
-
-impl Region {
-    /// Its entry in the list of kernel `scatter`: its first words in the staging buffer and in the device's, and how many.
-    #[must_use]
-    pub fn run(&self) -> [u32; 3] {
-        [self.from, self.to, self.bytes].map(|bytes| (bytes / 4) as u32)
-    }
-}
-
-impl Frame {
-    /// Bytes of all [`copies`](Self::copies): what a staging buffer of them takes.
-    #[must_use]
-    pub fn staged_bytes(&self) -> u64 {
-        self.copies
-            .iter()
-            .map(|copy| copy.bytes.end - copy.bytes.start)
-            .sum()
-    }
-
-    /// The copies out of a staging buffer that holds their [sources](Copy::source) one after another, in their order: for each
-    /// buffer the regions of one copy command. `start` is the first byte there, a multiple of 4: the place in a ring, for
-    /// example.
-    ///
-    /// Drivers of real devices run one copy for each region, some 2 µs on an NVIDIA H100. Where there are dozens of short ones,
-    /// put their [entries](Region::run) behind the bytes and dispatch kernel `scatter` instead, 16 invocations for each.
-    #[must_use]
-    pub fn regions(&self, start: u64) -> Vec<(Buffer, Vec<Region>)> {
-        let mut all: Vec<(Buffer, Vec<Region>)> = Vec::new();
-        let mut from = start;
-        for copy in &self.copies {
-            let bytes = copy.bytes.end - copy.bytes.start;
-            let region = Region {
-                from,
-                to: copy.bytes.start,
-                bytes,
-            };
-            from += bytes;
-            match all.last_mut().filter(|(buffer, _)| *buffer == copy.buffer) {
-                Some((_, regions)) => regions.push(region),
-                None => all.push((copy.buffer, vec![region])),
-            }
-        }
-        all
-    }
-}
-
-/// Tracks what a device holds of a light BVH. A new mirror holds nothing, so its first frame copies everything.
+/// Tracks what a device holds of a light BVH. A new mirror holds nothing, so its first frame uploads everything.
 ///
 /// Arrays that share a buffer stand one after another, each with capacity to grow: the nodes of bottom levels and those of the top
 /// level; trails and links. Indices of nodes of bottom levels, instances and triangles are those of the light BVH.
@@ -154,32 +130,34 @@ impl Frame {
 pub struct Mirror {
     cursor: Cursor,
     /// By array, bytes: what the device holds of it, and how much room it has.
-    held: [u64; BUFFERS.len()],
+    held: [u64; LIST],
     room: [u64; BUFFERS.len()],
     trail_words: u32,
 }
 
 impl Mirror {
+    /// Least size of a buffer, bytes: an element of any kernel's binding.
+    const LEAST: u64 = 1024;
+
     /// The work that updates the device's buffers to `bvh` as of its last [`refit`](Bvh::refit). Call it after all edits of a
-    /// frame, the swaps of a `Rebuilder`, and the refit. Take the bytes of the copies before the next edit or swap.
+    /// frame, the swaps of a `Rebuilder`, and the refit.
     ///
-    /// Everything is copied and computed if the light BVH is another than last time (a clone, or one that was read), or if its
+    /// Everything is uploaded and computed if the light BVH is another than last time (a clone, or one that was read), or if its
     /// log has dropped changes since.
-    pub fn frame<N: Node<W>, I, const W: usize>(&mut self, bvh: &Bvh<N, I, W>) -> Frame {
+    pub fn frame<'a, N: Node<W>, I, const W: usize>(&mut self, bvh: &'a Bvh<N, I, W>) -> Frame<'a> {
         let mut plan = bvh.plan(&mut self.cursor);
-        let trail_words = bvh.tree().trail_words;
-        let resizes = self.make_room(bvh);
-        // If a shared buffer was resized, arrays in it have moved.
-        let is_moved = |buffer: Buffer| {
-            let shares = matches!(buffer, Buffer::Nodes | Buffer::Trails);
-            shares && resizes.iter().any(|(resized, _)| *resized == buffer)
-        };
-        if is_moved(Buffer::Nodes) && !plan.everything {
+        let (arrays, strides) = (arrays(bvh), strides(bvh));
+        // Arrays that share a buffer move if one of them needs more room.
+        let mut is_new = [false; DeviceBuffer::ALL.len()];
+        for (k, own) in arrays.iter().enumerate() {
+            is_new[BUFFERS[k] as usize] |= self.reserve(k, own.len() as u64, strides[k]);
+        }
+        if is_new[DeviceBuffer::Nodes as usize] && !plan.everything {
             let all = bvh.plan_of_everything();
             (plan.bottom, plan.roots, plan.top) = (all.bottom, all.roots, all.top);
         }
         let roots: Vec<_> = plan.roots.iter().map(|&root| root..root + 1).collect();
-        let written: [&[Range<u32>]; BUFFERS.len()] = [
+        let written: [&[Range<u32>]; LIST] = [
             &plan.written_nodes,
             &plan.written_top,
             &plan.written_triangles,
@@ -190,15 +168,12 @@ impl Mirror {
             &plan.written_places,
             &plan.written_parts,
         ];
-        let mut copies = Vec::new();
-        for (k, (own, written)) in arrays(bvh).into_iter().zip(written).enumerate() {
-            let (bytes, buffer) = (own.len() as u64, BUFFERS[k]);
-            let stride = match k {
-                TRAILS => 4 * u64::from(trail_words),
-                _ => u64::from(buffer.stride::<N>()),
-            };
+        let trail_words = bvh.tree().trail_words;
+        let mut uploads = Vec::new();
+        for (k, (own, written)) in arrays.into_iter().zip(written).enumerate() {
+            let (bytes, stride) = (own.len() as u64, strides[k]);
             let is_all = plan.everything
-                || is_moved(buffer)
+                || is_new[BUFFERS[k] as usize]
                 || (plan.whole_top && [TOP, ABOVE, PLACES, PARTS].contains(&k))
                 || (k == TRAILS && trail_words != self.trail_words);
             let written = written
@@ -208,21 +183,24 @@ impl Mirror {
             let grown = if is_all { 0 } else { self.held[k].min(bytes) }..bytes;
             let ranges = written.chain(core::iter::once(grown)).collect();
             let start = self.start(k);
-            copies.extend(joined(ranges, bytes).into_iter().map(|range| Copy {
-                buffer,
-                bytes: start + range.start..start + range.end,
-                array: k,
-                from: range.start,
+            uploads.extend(joined(ranges, bytes).into_iter().map(|range| {
+                let own = &own[range.start as usize..range.end as usize];
+                (BUFFERS[k], start + range.start, own)
             }));
             self.held[k] = bytes;
         }
         self.trail_words = trail_words;
-        let words = self.words(bvh);
+        let refit = Refit::new::<N, W>(&plan, self.top::<N>());
+        is_new[DeviceBuffer::List as usize] = self.reserve(LIST, size_of_val(&*refit.list) as u64, 4);
+        is_new[DeviceBuffer::Children as usize] = self.reserve(CHILDREN, refit.children, 4);
+        let resizes = DeviceBuffer::ALL
+            .into_iter()
+            .filter(|&buffer| is_new[buffer as usize]);
         Frame {
-            resizes,
-            copies,
-            refit: Refit::new::<N, W>(&plan, self.top::<N>()),
-            words,
+            resizes: resizes.map(|buffer| (buffer, self.size(buffer))).collect(),
+            uploads,
+            refit,
+            words: self.words(bvh),
         }
     }
 
@@ -246,38 +224,59 @@ impl Mirror {
 
     /// Index in the device's buffer of the first node of the top level.
     #[must_use]
-    pub fn top<N: lightbvh::node::Holds>(&self) -> u32 {
-        (self.start(TOP) / u64::from(Buffer::Nodes.stride::<N>())) as u32
+    pub fn top<N: Holds>(&self) -> u32 {
+        (self.start(TOP) / size_of::<N>() as u64) as u32
+    }
+
+    /// Compares the device's nodes with those of `bvh`, which were refitted since the last [`frame`](Self::frame): those in use
+    /// alone, for others mean nothing. Returns how many words were compared, and which nodes of the buffer differ.
+    #[must_use]
+    pub fn compare_nodes<N: Node<W>, I, const W: usize>(
+        &self,
+        bvh: &Bvh<N, I, W>,
+        device: &[u8],
+    ) -> (u64, Vec<u32>) {
+        let (all, top) = (bvh.plan_of_everything(), self.top::<N>());
+        let bottom = all
+            .bottom
+            .nodes()
+            .iter()
+            .map(|&node| (node, &bvh.nodes()[node as usize]));
+        let above = all.top.nodes().iter();
+        let above = above.map(|&node| (node + top, &bvh.top_nodes()[node as usize]));
+        let (mut words, mut different) = (0, Vec::new());
+        for (place, node) in bottom.chain(above) {
+            let at = place as usize * size_of::<N>();
+            words += size_of::<N>() as u64 / 4;
+            if device.get(at..at + size_of::<N>()) != Some(bytemuck::bytes_of(node)) {
+                different.push(place);
+            }
+        }
+        (words, different)
     }
 
     /// Offset of an array in its buffer, bytes.
     fn start(&self, array: usize) -> u64 {
-        let before = BUFFERS.iter().zip(self.room).take(array);
-        let own = before.filter(|(buffer, _)| **buffer == BUFFERS[array]);
+        let own = (0..array).filter(|&k| BUFFERS[k] == BUFFERS[array]);
+        own.map(|k| self.room[k]).sum()
+    }
+
+    /// Size of a buffer, bytes.
+    fn size(&self, buffer: DeviceBuffer) -> u64 {
+        let own = BUFFERS.iter().zip(self.room).filter(|(own, _)| **own == buffer);
         own.map(|(_, room)| room).sum()
     }
 
-    /// Reserves capacity for every array; returns the buffers that need another size.
-    fn make_room<N: Node<W>, I, const W: usize>(&mut self, bvh: &Bvh<N, I, W>) -> Vec<(Buffer, u64)> {
-        let size = |room: &[u64; BUFFERS.len()], buffer: Buffer| -> u64 {
-            let own = BUFFERS.iter().zip(room).filter(|(own, _)| **own == buffer);
-            own.map(|(_, room)| room).sum()
-        };
-        let before = self.room;
-        for ((room, array), buffer) in self.room.iter_mut().zip(arrays(bvh)).zip(BUFFERS) {
-            let now = array.len() as u64;
-            let shares = matches!(buffer, Buffer::Nodes | Buffer::Trails);
-            if now > *room {
-                let stride = u64::from(buffer.stride::<N>());
-                // An array that grows will grow again, and arrays behind it are copied then.
-                let more = if *room > 0 && shares { now / stride / 2 } else { 0 };
-                *room = now + more * stride;
-            }
+    /// Makes room for so many bytes of an array, in whole elements; says whether there was too little. What grows will grow again, so it gets half
+    /// as much again.
+    fn reserve(&mut self, array: usize, bytes: u64, stride: u64) -> bool {
+        let room = &mut self.room[array];
+        let is_larger = bytes > *room || *room == 0;
+        if is_larger {
+            let more = if *room == 0 { 0 } else { bytes / 2 };
+            *room = (bytes + more).max(Self::LEAST).next_multiple_of(stride);
         }
-        let all = Buffer::ALL.into_iter();
-        all.map(|buffer| (buffer, size(&self.room, buffer)))
-            .filter(|&(buffer, now)| now != size(&before, buffer))
-            .collect()
+        is_larger
     }
 }
 

@@ -27,9 +27,9 @@ pub mod spirv;
 #[rustfmt::skip]
 pub mod table;
 
-pub use buffer::Buffer;
-pub use frame::{Copy, Frame, Mirror};
-pub use refit::{Dispatch, Pass, Refit};
+pub use buffer::DeviceBuffer;
+pub use frame::{Frame, Mirror, Step};
+pub use refit::Pass;
 #[cfg(feature = "kernels")]
 pub use set::{EQ4, KernelSet, MOMENTS, NotCompiled};
 pub use spirv::ModuleError;
@@ -42,8 +42,6 @@ pub use table::{KERNELS, LIGHT_POINTS};
 pub use device::{REQUIRED_FEATURES, STORAGE_BUFFERS, without_vulkan_memory_model};
 #[doc(hidden)]
 pub use float_modes::{FloatControls, FloatEnvironment, with_float_modes};
-#[doc(hidden)]
-pub use frame::Region;
 #[doc(hidden)]
 pub use kernel::{Access, Binding, Kernel, ROW_GROUPS, groups};
 #[doc(hidden)]

@@ -7,7 +7,7 @@ use lightbvh::device::levels::Levels;
 use lightbvh::node::Node;
 use lightbvh::refit::child_rows;
 
-/// What a dispatch of a refit computes.
+/// What a dispatch of a refit computes. As a number it counts from 0 in the order of [`ALL`](Self::ALL).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Pass {
     /// The children of nodes of bottom levels, an invocation for each.
@@ -38,37 +38,24 @@ impl Pass {
 
 /// One dispatch of a refit: a pass over a part of the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Dispatch {
-    /// What it computes.
+pub(crate) struct Dispatch {
     pub pass: Pass,
     /// First entry of the list.
     pub first: u32,
-    /// Number of invocations, at least 1: one for each entry, or for each child of each entry's node. [`groups`](crate::groups)
-    /// says how many workgroups.
+    /// Number of invocations, at least 1: one for each entry, or for each child of each entry's node.
     pub count: u32,
     /// Index of the top level's first node in the buffer.
     pub top: u32,
 }
 
-impl Dispatch {
-    /// Its push constants: [`first`](Self::first), [`count`](Self::count), [`top`](Self::top).
-    #[must_use]
-    pub fn push(&self) -> [u32; 3] {
-        [self.first, self.count, self.top]
-    }
-}
-
-/// A refit: a list, which the kernels take as the buffer `list`, and the dispatches over parts of it, in order. Each dispatch
-/// reads what the one before wrote, so a barrier stands between any two.
+/// A refit: a list, and the dispatches over parts of it, in order. Each reads what the one before wrote.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Refit {
+pub(crate) struct Refit {
     /// Indices of nodes and roots.
     pub list: Vec<u32>,
-    /// The dispatches, in their order.
     pub dispatches: Vec<Dispatch>,
-    /// Bytes of the buffer `children` that the kernels need, by which passes [`Bottom`](Pass::Bottom) and [`Top`](Pass::Top)
-    /// hand over to [`Nodes`](Pass::Nodes). What it holds before and after a refit means nothing. At most those of
-    /// [`AT_A_TIME`](Self::AT_A_TIME) nodes, 12 MiB for `LightBvh`.
+    /// Bytes by which passes [`Bottom`](Pass::Bottom) and [`Top`](Pass::Top) hand over to [`Nodes`](Pass::Nodes): at most those
+    /// of [`AT_A_TIME`](Self::AT_A_TIME) nodes, 12 MiB for `LightBvh`.
     pub children: u64,
 }
 
@@ -77,7 +64,6 @@ impl Refit {
     pub const AT_A_TIME: usize = 1 << 15;
 
     /// The refit by `plan` of nodes `N`, those of the top level from `top` on.
-    #[must_use]
     pub fn new<N: Node<W>, const W: usize>(plan: &RefitPlan, top: u32) -> Self {
         Self::of_at_most::<N, W>(plan, top, Self::AT_A_TIME)
     }

@@ -14,7 +14,7 @@ use lightbvh::{
     CompactNode, EmissiveTriangle, Instance, LightBvh, MomentNode, SampledLight, TreeWords,
     TwoSidedMomentNode,
 };
-use lightbvh_gpu::{Access, Buffer, KERNELS};
+use lightbvh_gpu::{Access, DeviceBuffer, KERNELS};
 
 const PAGE: &str = include_str!("../../../docs/format.md");
 
@@ -172,7 +172,7 @@ fn lights_of_other_kinds_have_their_words() {
 #[test]
 fn buffers_have_their_strides_readers_and_writers() {
     let rows = table("\n## Buffers\n");
-    for buffer in Buffer::ALL {
+    for buffer in DeviceBuffer::ALL {
         assert!(rows.iter().any(|row| code(row[0]) == buffer.name()), "{buffer:?}");
     }
     for kernel in KERNELS {

@@ -8,7 +8,7 @@ use std::f32::consts::TAU;
 use std::time::{Duration, Instant};
 
 use lightbvh::{EmissiveTriangle, Rebuilder, ShadingPoint};
-use lightbvh_gpu::Mirror;
+use lightbvh_gpu::{Mirror, Step};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::json;
@@ -82,10 +82,17 @@ fn measure(mut scene: Scene) -> Result<Row, HostError> {
         (scene.step)(frame, &mut world);
         let spent = one.install(|| world.frame(&mut rebuilder))?;
         instances = instances.max(world.count());
-        let copied = mirror.frame(&world.bvh).staged_bytes() as f64;
+        let copied: usize = mirror
+            .frame(&world.bvh)
+            .steps()
+            .map(|step| match step {
+                Step::Upload { bytes, .. } => bytes.len(),
+                _ => 0,
+            })
+            .sum();
         if frame >= scene.warm {
             times.push(spent);
-            bytes.extend((!spent.has_swapped).then_some(copied));
+            bytes.extend((!spent.has_swapped).then_some(copied as f64));
             if times.len().is_multiple_of(scene.look) {
                 looks.extend(look(&world, &scene, &mut random));
             }

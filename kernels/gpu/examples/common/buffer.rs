@@ -22,7 +22,7 @@ impl Buffer {
     }
 
     /// A buffer that the CPU writes or reads, for copies.
-    pub fn staging(gpu: &Rc<Gpu>, bytes: u64) -> Result<Self> {
+    fn staging(gpu: &Rc<Gpu>, bytes: u64) -> Result<Self> {
         let host = vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
         Self::new(gpu, bytes, host)
     }
@@ -76,41 +76,22 @@ impl Buffer {
         })
     }
 
-    /// The bytes of a buffer for copies, once the device is done with it.
+    /// A copy of its bytes.
     pub fn read(&self) -> Result<Vec<u8>> {
+        let back = Self::staging(&self.gpu, self.bytes)?;
+        self.gpu.run(|commands| {
+            commands.copy(self, &back, 0);
+            Ok(())
+        })?;
         let device = &self.gpu.device;
         let mut data = vec![0; self.bytes as usize];
         // SAFETY: the memory can be mapped, holds as many bytes, and every submission has been waited for.
         unsafe {
-            let from = device.map_memory(self.memory, 0, vk::WHOLE_SIZE, vk::MemoryMapFlags::empty())?;
+            let from = device.map_memory(back.memory, 0, vk::WHOLE_SIZE, vk::MemoryMapFlags::empty())?;
             std::ptr::copy_nonoverlapping(from.cast::<u8>(), data.as_mut_ptr(), data.len());
-            device.unmap_memory(self.memory);
+            device.unmap_memory(back.memory);
         }
         Ok(data)
-    }
-
-    /// Records a copy of `bytes` bytes to another buffer.
-    pub fn copy_to(&self, commands: vk::CommandBuffer, from: u64, to: &Self, at: u64, bytes: u64) {
-        let region = vk::BufferCopy {
-            src_offset: from,
-            dst_offset: at,
-            size: bytes,
-        };
-        self.copy_regions(commands, to, &[region]);
-    }
-
-    /// Records one copy of many regions to another buffer; at least one.
-    pub fn copy_regions(&self, commands: vk::CommandBuffer, to: &Self, regions: &[vk::BufferCopy]) {
-        let is_within = |region: &vk::BufferCopy| {
-            region.src_offset + region.size <= self.bytes && region.dst_offset + region.size <= to.bytes
-        };
-        assert!(regions.iter().all(is_within), "within both");
-        // SAFETY: both are the device's, made for copies, and hold the regions.
-        unsafe {
-            self.gpu
-                .device
-                .cmd_copy_buffer(commands, self.raw, to.raw, regions)
-        };
     }
 }
 

@@ -1,5 +1,6 @@
 //! The engine's compute pipelines.
 
+use std::cell::RefCell;
 use std::ffi::CString;
 use std::rc::Rc;
 
@@ -16,6 +17,8 @@ pub struct Pipeline {
     gpu: Rc<Gpu>,
     names: Vec<String>,
     interface: Interface,
+    /// The buffers that are bound.
+    bound: RefCell<Vec<vk::Buffer>>,
     set: vk::DescriptorSet,
     pool: vk::DescriptorPool,
     set_layout: vk::DescriptorSetLayout,
@@ -96,6 +99,7 @@ impl Pipeline {
             gpu: Rc::clone(gpu),
             names,
             interface,
+            bound: RefCell::default(),
             set,
             pool,
             set_layout,
@@ -104,11 +108,16 @@ impl Pipeline {
         })
     }
 
-    /// Binds the buffers that `named` gives. Not while the device works.
-    pub fn bind<'a>(&self, named: impl Fn(&str) -> &'a Buffer) {
-        for (binding, name) in (0..).zip(&self.names) {
+    /// Binds the buffers that `named` gives, unless they are bound. Not if a dispatch that was recorded has others.
+    fn bind<'a>(&self, named: impl Fn(&str) -> Option<&'a Buffer>) {
+        let buffer = |name| named(name).unwrap_or_else(|| panic!("no buffer for the binding {name}"));
+        let buffers: Vec<_> = self.names.iter().map(|name| buffer(name).raw).collect();
+        for (binding, &buffer) in (0..).zip(&buffers) {
+            if *self.bound.borrow() == buffers {
+                return;
+            }
             let buffer = [vk::DescriptorBufferInfo {
-                buffer: named(name).raw,
+                buffer,
                 offset: 0,
                 range: vk::WHOLE_SIZE,
             }];
@@ -120,10 +129,18 @@ impl Pipeline {
             // SAFETY: set and buffer are the device's, and no submission that uses the set is running.
             unsafe { self.gpu.device.update_descriptor_sets(&[write], &[]) };
         }
+        self.bound.replace(buffers);
     }
 
-    /// Records a dispatch with one invocation for each item.
-    pub fn dispatch(&self, commands: vk::CommandBuffer, push: &[u32], items: u32) {
+    /// Records a dispatch with one invocation for each item, over the buffers that `named` gives.
+    pub fn dispatch<'a>(
+        &self,
+        commands: vk::CommandBuffer,
+        named: impl Fn(&str) -> Option<&'a Buffer>,
+        push: &[u32],
+        items: u32,
+    ) {
+        self.bind(named);
         let interface = &self.interface;
         assert_eq!(size_of_val(push), interface.push_constants as usize);
         let [x, y, z] = groups(items, interface.workgroup[0]).expect("32 bits number all items");

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use lightbvh_gpu::{Access, Kernel, groups, without_vulkan_memory_model};
+use lightbvh_gpu::{Access, Kernel, without_vulkan_memory_model};
 use wgpu::{Buffer, BufferUsages, Features};
 
 use crate::Result;
@@ -161,22 +161,37 @@ impl Engine {
         })
     }
 
-    /// Binds the buffers that `named` gives.
-    pub fn bind<'a>(&self, pipeline: &Pipeline, named: impl Fn(&str) -> &'a Buffer) -> wgpu::BindGroup {
-        let entries: Vec<_> = pipeline
-            .kernel
+    /// Records a dispatch with one invocation for each item, over the buffers that `named` gives. wgpu puts barriers between
+    /// dispatches by itself.
+    pub fn dispatch<'a>(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &Pipeline,
+        named: impl Fn(&str) -> Option<&'a Buffer>,
+        push: &[u32],
+        items: u32,
+    ) {
+        let kernel = pipeline.kernel;
+        let buffer = |name| named(name).unwrap_or_else(|| panic!("no buffer for the binding {name}"));
+        let entries: Vec<_> = kernel
             .bindings
             .iter()
             .map(|binding| wgpu::BindGroupEntry {
                 binding: binding.binding,
-                resource: named(binding.name).as_entire_binding(),
+                resource: buffer(binding.name).as_entire_binding(),
             })
             .collect();
-        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(pipeline.kernel.name),
+        let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(kernel.name),
             layout: &pipeline.layout,
             entries: &entries,
-        })
+        });
+        let [x, y, z] = kernel.groups(items).expect("32 bits number all items");
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&pipeline.pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.set_immediates(0, bytemuck::cast_slice(push));
+        pass.dispatch_workgroups(x, y, z);
     }
 
     /// A copy of a buffer's bytes, once all that was submitted is done.
@@ -188,22 +203,5 @@ impl Engine {
         back.map_async(wgpu::MapMode::Read, .., |_| {});
         self.device.poll(wgpu::PollType::wait_indefinitely())?;
         Ok(back.get_mapped_range(..)?.to_vec())
-    }
-}
-
-impl Pipeline {
-    /// Records a dispatch with one invocation for each item. wgpu puts barriers between dispatches by itself.
-    pub fn dispatch(
-        &self,
-        pass: &mut wgpu::ComputePass<'_>,
-        group: &wgpu::BindGroup,
-        push: &[u32],
-        items: u32,
-    ) {
-        let [x, y, z] = groups(items, self.kernel.workgroup[0]).expect("32 bits number all items");
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, group, &[]);
-        pass.set_immediates(0, bytemuck::cast_slice(push));
-        pass.dispatch_workgroups(x, y, z);
     }
 }
