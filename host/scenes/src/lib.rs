@@ -48,8 +48,6 @@ mod pictures;
 mod place;
 #[cfg(feature = "formats")]
 mod ply_in;
-#[cfg(feature = "formats")]
-mod polygon;
 mod profile;
 mod random;
 mod ray_bvh;

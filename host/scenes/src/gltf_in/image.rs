@@ -70,7 +70,7 @@ impl Document<'_> {
             self.load.check(name, "a picture, decoded,", header.bytes())?;
             header.decode(name, bytes)?
         } else {
-            pictures::decode_surface(self.load, name, bytes, None)?
+            pictures::decode_surface(self.load, name, bytes)?
         };
         self.load.take(name, "a picture", pixels.as_raw().len() as u64)?;
         Ok(pixels)
