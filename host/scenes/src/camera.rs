@@ -1,6 +1,7 @@
 //! Where a frame is seen from.
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3, Vec3};
+use lightbvh_kernels::shading::trace::SurfaceTriangle;
 
 use super::transform::{Transform, unit_or};
 use crate::vector::{cross, sub};
@@ -30,6 +31,25 @@ pub(super) fn view_of_node(world: &DAffine3, yfov: f32) -> View {
 pub(super) fn towards(eye: [f64; 3], target: [f64; 3], yfov: f32) -> View {
     let forward = unit_or(sub(target, eye), [0.0, 0.0, -1.0]);
     looking(eye, forward, [0.0, 1.0, 0.0], yfov)
+}
+
+/// Vertical field of view of scenes without a camera: 50 degrees, a natural view on a screen.
+const YFOV: f32 = 0.872_664_6;
+
+/// The view of a scene without a camera: from the front, so that the sphere around the box of its triangles touches the image's
+/// upper and lower edge.
+pub(super) fn around(triangles: &[SurfaceTriangle]) -> View {
+    let vertices = || {
+        triangles
+            .iter()
+            .flat_map(|own| own.p)
+            .map(|p| Vec3::from(p).as_dvec3())
+    };
+    let low = vertices().reduce(DVec3::min).unwrap_or_default();
+    let high = vertices().reduce(DVec3::max).unwrap_or_default();
+    let radius = (0.5 * low.distance(high)).max(1e-3);
+    let (middle, front) = (0.5 * (low + high), DVec3::new(0.35, 0.3, 1.0).normalize());
+    towards((middle + 2.37 * radius * front).into(), middle.into(), YFOV)
 }
 
 /// Where the node of a camera stands.

@@ -30,7 +30,6 @@ mod error;
 mod files;
 mod flush;
 mod frame;
-mod framing;
 mod glb_out;
 mod glow;
 mod gltf_in;

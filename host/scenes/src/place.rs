@@ -7,11 +7,10 @@ use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
 use super::analytic::AnalyticKind;
 use super::animate::Pose;
-use super::camera::{View, view_of_node};
+use super::camera::{View, around, view_of_node};
 use super::deform::Placed;
 use super::flush::rounded;
 use super::frame::{FRAMES_PER_SECOND, Frame, MeshRange, UNPAINTED};
-use super::framing;
 use super::lamps;
 use super::model::{Material, SceneData, emits};
 use super::scene::Scene;
@@ -59,7 +58,7 @@ impl Scene {
             None => match self.default_camera.get() {
                 Some(camera) => *camera,
                 None if frame > 0 => self.frame(0).camera,
-                None => *self.default_camera.get_or_init(|| framing::view(&out)),
+                None => *self.default_camera.get_or_init(|| around(&out.triangles)),
             },
         };
         out

@@ -1,5 +1,6 @@
 //! What is read of a glTF file, what is left out, and what is written.
 
+use glam::Vec3;
 use lightbvh::light::TWO_SIDED;
 use lightbvh_scenes::{Frame, Scene};
 use serde_json::{Value, json};
@@ -187,6 +188,28 @@ fn a_child_that_the_scene_lists_stays_a_child() {
         root["nodes"].as_array_mut().expect("a list").truncate(count);
         let triangles = frame(&root).triangles;
         assert_eq!((triangles.len(), triangles[0].p[0]), (1, [0.0, 0.0, 5.0]));
+    }
+}
+
+#[test]
+fn scenes_without_a_camera_are_seen_whole() {
+    for scale in [1e-2, 1.0, 1e4] {
+        let file = changed(
+            "/nodes/0",
+            json!({ "mesh": 0, "scale": [scale; 3], "translation": [7, 8, 9] }),
+        );
+        let scene = read_json(&file);
+        let (view, other) = (scene.frame(0).camera, scene.frame(30).camera);
+        assert!(
+            view == other && view.eye[2] > 9.0 && view.right[1] == 0.0,
+            "{view:?}"
+        );
+        for p in scene.frame(0).triangles[0].p {
+            let d = Vec3::from(p) - Vec3::from(view.eye);
+            let half = d.dot(view.forward.into()) * (0.5 * view.yfov).tan();
+            let place = [view.right, view.up].map(|axis| d.dot(axis.into()) / half);
+            assert!(half > 0.0 && place.iter().all(|x| x.abs() <= 1.0), "{place:?}");
+        }
     }
 }
 

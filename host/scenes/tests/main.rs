@@ -3,7 +3,6 @@
 mod bend;
 mod built_in;
 mod files;
-mod framing;
 mod gltf;
 mod hostile;
 mod packed;
