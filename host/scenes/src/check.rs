@@ -7,7 +7,6 @@ use lightbvh_kernels::shading::sky::MAX_SUNS;
 
 use super::analytic::{AnalyticKind, AnalyticLight};
 use super::animate::Pose;
-use super::clips::named;
 use super::deform::is_skinned;
 use super::error::{SceneError, malformed};
 use super::flush::flush_tiny;
@@ -272,9 +271,9 @@ impl Check<'_> {
 
     fn animations(&self, data: &SceneData) -> Result<(), SceneError> {
         for animation in &data.animations {
-            let own = named(animation.place, &animation.name);
+            let own = animation.shown();
             for (c, channel) in animation.channels.iter().enumerate() {
-                self.channel(&format!("channel {c} of animation {own}"), channel, data)?;
+                self.channel(&format!("channel {c} of {own}"), channel, data)?;
             }
         }
         Ok(())

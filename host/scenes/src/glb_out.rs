@@ -70,10 +70,7 @@ impl Writer {
             let primitives = primitives.map(|own| self.primitive(own, &data.materials));
             meshes.push(json!({ "name": mesh.name, "primitives": primitives.collect::<Vec<_>>() }));
         }
-        // As the file had them: engines choose by number.
-        let mut all: Vec<_> = data.animations.iter().chain(&data.clips).collect();
-        all.sort_by_key(|animation| animation.place);
-        let animations: Vec<Value> = all.into_iter().map(|own| self.animation(own)).collect();
+        let animations: Vec<Value> = data.animations.iter().map(|own| self.animation(own)).collect();
         let cameras = data.cameras.iter().map(
             |camera| json!({ "type": "perspective", "perspective": { "yfov": camera.yfov, "znear": 0.01 } }),
         );

@@ -23,7 +23,6 @@ mod animate;
 mod builder;
 mod camera;
 mod check;
-mod clips;
 mod deform;
 mod environment;
 mod error;

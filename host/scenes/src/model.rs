@@ -23,10 +23,6 @@ pub struct SceneData {
     pub materials: Vec<Material>,
     /// All animations run at once, each looping over its own duration.
     pub animations: Vec<Animation>,
-    /// Animations that move what those do, and are left out.
-    pub clips: Vec<Animation>,
-    /// Animations that move nothing of the scene, and are left out: their places in the file, and their names.
-    pub idle: Vec<(u32, String)>,
     /// The first one is the one that frames are seen from.
     pub cameras: Vec<Camera>,
     /// Named by nodes.
@@ -170,6 +166,12 @@ pub struct Animation {
 }
 
 impl Animation {
+    /// Its number and its name, so that a terminal shows it as it is, and not all of a long one.
+    pub(super) fn shown(&self) -> String {
+        let name = self.name.chars().take(80).collect::<String>();
+        format!("animation {} \"{}\"", self.place, name.escape_debug())
+    }
+
     /// Time of the last key of any channel, in seconds; the animation starts again there.
     pub fn duration(&self) -> f32 {
         let ends = self

@@ -196,7 +196,7 @@ fn scenes_without_a_camera_are_seen_whole() {
     for scale in [1e-2, 1.0, 1e4] {
         let file = changed(
             "/nodes/0",
-            json!({ "mesh": 0, "scale": [scale; 3], "translation": [7, 8, 9] }),
+            json!({ "mesh": 0, "scale": [scale, scale, scale], "translation": [7, 8, 9] }),
         );
         let scene = read_json(&file);
         let (view, other) = (scene.frame(0).camera, scene.frame(30).camera);

@@ -106,10 +106,9 @@ impl Scene {
         bend::skins(&document, &order, &mut data)?;
         light::punctual(&document, &order, &mut data);
         light::measured(&document, &order, &mut data)?;
-        (data.animations, data.idle) = animation::read(&document, &order)?;
+        data.animations = animation::read(&document, &order)?;
         data.pictures = document.pictures.take().into_kept();
         data.warnings = document.notes.take().into_warnings();
-        data.part_clips();
         Self::loaded(data, load)
     }
 }

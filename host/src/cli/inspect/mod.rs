@@ -226,19 +226,10 @@ fn without_triangles(
     Ok(Outcome::Good)
 }
 
-/// All animations of the file, by their numbers.
+/// The animations, by their numbers in the file.
 fn animations(scene: &Scene) -> Value {
-    let data = scene.data();
-    let shown = data
-        .animations
-        .iter()
-        .map(|own| (own.place, &own.name, true, true));
-    let clips = data.clips.iter().map(|own| (own.place, &own.name, false, true));
-    let idle = data.idle.iter().map(|(place, name)| (*place, name, false, false));
-    let mut all: Vec<_> = shown.chain(clips).chain(idle).collect();
-    all.sort_by_key(|&(place, ..)| place);
-    all.into_iter()
-        .map(|(place, name, is_shown, moves)| json!({ "number": place, "name": name, "shown": is_shown, "moves": moves }))
+    let all = scene.data().animations.iter();
+    all.map(|own| json!({ "number": own.place, "name": own.name }))
         .collect()
 }
 
@@ -254,15 +245,10 @@ fn declared(args: &Args, motion: Motion) -> Declared {
 }
 
 impl Motion {
-    /// Of the targets of all animations, shown or not: nodes with emissive meshes, or `with_others` too.
+    /// Of the targets of all animations: nodes with emissive meshes, or `with_others` too.
     fn of(data: &SceneData, with_others: bool) -> Self {
         let (mut moves, mut morphs) = (vec![false; data.nodes.len()], vec![false; data.nodes.len()]);
-        for channel in data
-            .animations
-            .iter()
-            .chain(&data.clips)
-            .flat_map(|own| &own.channels)
-        {
+        for channel in data.animations.iter().flat_map(|own| &own.channels) {
             match channel.property {
                 Property::Weights(_) => morphs[channel.node as usize] = true,
                 _ => moves[channel.node as usize] = true,
