@@ -23,7 +23,6 @@ mod animate;
 mod builder;
 mod camera;
 mod check;
-mod deform;
 mod environment;
 mod error;
 mod files;
@@ -77,8 +76,7 @@ pub use ies_in::Photometry;
 pub use instances::Instances;
 pub use load::{BUILT_IN, STAGE};
 pub use model::{
-    Animation, Camera, Channel, Influence, Interpolation, Material, Mesh, Node, Primitive, Property,
-    SceneData, Skin,
+    Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, SceneData,
 };
 pub use paint::{IN_PLACE, MAX_SIDE, Paint, Picture, Texture, Wrap};
 pub use profile::{Profile, Sent};

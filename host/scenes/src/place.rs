@@ -8,14 +8,13 @@ use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use super::analytic::AnalyticKind;
 use super::animate::Pose;
 use super::camera::{View, around, view_of_node};
-use super::deform::Placed;
 use super::flush::rounded;
 use super::frame::{FRAMES_PER_SECOND, Frame, MeshRange, UNPAINTED};
 use super::lamps;
 use super::model::{Material, SceneData, emits};
 use super::scene::Scene;
 use super::sky::Sky;
-use super::transform::unit_or;
+use super::transform::{mirrors, unit_or};
 
 impl Scene {
     /// The scene at `frame` / [`FRAMES_PER_SECOND`] seconds.
@@ -89,8 +88,9 @@ fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
             let flags = if material.double_sided { TWO_SIDED } else { 0 };
             let mesh_light = out.mesh_lights.len() as u32;
             let first = out.emissive.len() as u32;
-            let Placed { points, mirrored } = pose.placed(data, index, primitive);
-            let points: Vec<[f32; 3]> = points.into_iter().map(rounded).collect();
+            let mirrored = mirrors(&pose.world[index]);
+            let points = pose.points(index, primitive).map(|p| rounded(p.into()));
+            let points: Vec<[f32; 3]> = points.collect();
             let is_painted = !out.paint.is_empty();
             // Textures without coordinates are not shown.
             let own = material.paint.as_ref().filter(|paint| paint.is_seen());

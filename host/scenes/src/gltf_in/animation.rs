@@ -8,7 +8,7 @@ use gltf::json::validation::Checked::{Invalid, Valid};
 
 use super::super::error::SceneError;
 use super::super::model::{Animation, Channel, Interpolation, Property};
-use super::{DAMAGED, Document};
+use super::Document;
 
 /// The animations that move something of the scene; `place` is where each of the file's nodes went. One that moves what one before
 /// it does is left out with a note: the format does not say which is meant.
@@ -74,23 +74,8 @@ fn one(
             let values = document.floats::<4>(sampler.output, element, None)?;
             (Property::Rotation, values.into_flattened())
         }
-        Valid(json::animation::Property::MorphTargetWeights) => {
-            let values = document
-                .floats::<1>(sampler.output, element, None)?
-                .into_flattened();
-            let rows = match interpolation {
-                Interpolation::CubicSpline => 3 * times.len(),
-                _ => times.len(),
-            };
-            let targets = values.len().checked_div(rows).unwrap_or(0);
-            if targets == 0 || targets * rows != values.len() {
-                let problem = format!("has {} weights for {rows} rows of them", values.len());
-                return Err(document.malformed(element, problem, DAMAGED));
-            }
-            (Property::Weights(targets as u32), values)
-        }
-        Invalid => {
-            let what = "skipped, as only translation, rotation, scale and weights are animated";
+        Valid(json::animation::Property::MorphTargetWeights) | Invalid => {
+            let what = "skipped, as only translation, rotation and scale are animated";
             document.note(element, what);
             return Ok(None);
         }

@@ -7,8 +7,7 @@
 //! Read:
 //! - triangles, strips and fans, in plain, sparse and quantised accessors (`KHR_mesh_quantization`), compressed views
 //!   (`EXT_meshopt_compression`, `KHR_meshopt_compression`) and Draco streams (`KHR_draco_mesh_compression`);
-//! - instances (`EXT_mesh_gpu_instancing` too), animation of nodes and of weights in all interpolations, skins and morph
-//!   targets, perspective cameras;
+//! - instances (`EXT_mesh_gpu_instancing` too), animation of nodes in all interpolations, perspective cameras;
 //! - metallic-roughness factors and base colour textures, or specular-glossiness factors
 //!   (`KHR_materials_pbrSpecularGlossiness`); emission by factor, texture (averaged per triangle where lights are chosen) and
 //!   `KHR_materials_emissive_strength`; `doubleSided`; alpha that cuts out, blended alpha as if cut at a half;
@@ -27,7 +26,6 @@
 mod accessor;
 mod animation;
 mod attributes;
-mod bend;
 mod container;
 mod draco;
 mod extensions;
@@ -103,7 +101,6 @@ impl Scene {
         data.meshes = mesh::read(&document, &mut looks)?;
         data.materials = looks.into_iter().map(|look| look.material).collect();
         let order = node::read(&document, &mut data)?;
-        bend::skins(&document, &order, &mut data)?;
         light::punctual(&document, &order, &mut data);
         light::measured(&document, &order, &mut data)?;
         data.animations = animation::read(&document, &order)?;
