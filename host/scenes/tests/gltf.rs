@@ -213,44 +213,6 @@ fn scenes_without_a_camera_are_seen_whole() {
     }
 }
 
-/// A lamp at a node that has it three times; `counts` are those of translations and rotations.
-fn lamps(counts: [usize; 2]) -> Value {
-    let half = std::f32::consts::FRAC_1_SQRT_2;
-    let numbers = [
-        [1.0, 0.0, 0.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0].as_slice(),
-        &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, half, half, 0.0, 0.0, 1.0, 0.0],
-    ]
-    .concat();
-    let mut root = triangle();
-    add_view(&mut root, &bytes(&numbers));
-    let accessor = |offset, count, shape| json!({ "bufferView": 2, "byteOffset": offset, "componentType": 5126, "count": count, "type": shape });
-    push(&mut root["accessors"], accessor(0, counts[0], "VEC3"));
-    push(&mut root["accessors"], accessor(36, counts[1], "VEC4"));
-    let attributes = json!({ "TRANSLATION": 2, "ROTATION": 3, "_ID": 0 });
-    root["nodes"][0] = json!({ "mesh": 0, "translation": [0, 5, 0], "extensions": {
-        "EXT_mesh_gpu_instancing": { "attributes": attributes }, "KHR_lights_punctual": { "light": 0 },
-    } });
-    root["extensions"] = json!({ "KHR_lights_punctual": { "lights": [{ "type": "point" }] } });
-    root["extensionsRequired"] = json!(["EXT_mesh_gpu_instancing"]);
-    root
-}
-
-/// Each is a mesh light of its own; the light of the node stands once.
-#[test]
-fn instances_are_of_the_mesh() {
-    let scene = read_json(&lamps([3, 3]));
-    let frame = scene.frame(0);
-    assert_eq!((frame.mesh_lights.len(), scene.data().analytic.len()), (3, 1));
-    // The second vertex: one to the right, one up, one to the left of where the instance stands.
-    let expected = [[2.0, 5.0, 0.0], [2.0, 6.0, 0.0], [2.0, 5.0, 0.0]];
-    for (light, expected) in frame.emissive.iter().zip(expected) {
-        let is_there = light.p[1].iter().zip(expected).all(|(x, y)| (x - y).abs() < 1e-6);
-        assert!(is_there, "{:?}", light.p);
-    }
-    assert_eq!(scene.warnings(), [""; 0]);
-    assert!(refused(&lamps([3, 2])).contains("different numbers"));
-}
-
 #[test]
 fn optional_extensions_that_cannot_be_read_are_left_out() {
     let mut root = triangle();

@@ -7,7 +7,7 @@
 //! Read:
 //! - triangles, strips and fans, in plain, sparse and quantised accessors (`KHR_mesh_quantization`), compressed views
 //!   (`EXT_meshopt_compression`, `KHR_meshopt_compression`) and Draco streams (`KHR_draco_mesh_compression`);
-//! - instances (`EXT_mesh_gpu_instancing` too), animation of nodes in all interpolations, perspective cameras;
+//! - instances, animation of nodes in all interpolations, perspective cameras;
 //! - metallic-roughness factors and base colour textures; emission by factor, texture (averaged per triangle where lights are chosen) and
 //!   `KHR_materials_emissive_strength`; `doubleSided`; alpha that cuts out, blended alpha as if cut at a half;
 //! - pictures in PNG, JPEG, WebP (`EXT_texture_webp`) and KTX 2 by Basis Universal (`KHR_texture_basisu`), placed by
@@ -29,7 +29,6 @@ mod container;
 mod draco;
 mod extensions;
 mod image;
-mod instancing;
 mod ktx2;
 mod light;
 mod material;

@@ -8,7 +8,7 @@ use gltf::json;
 use super::super::error::SceneError;
 use super::super::model::{Camera, Node, SceneData};
 use super::super::transform::Transform;
-use super::{BACKGROUND_EXTRA, Document, instancing};
+use super::{BACKGROUND_EXTRA, Document};
 
 /// Fills nodes, cameras and background; gives the place of each of the file's nodes, `None` where the scene does not
 /// use it. Lowest index first among nodes whose parent is placed: files that are in order keep their order.
@@ -113,34 +113,12 @@ fn add(
         }
     }
     let name = node.name.clone().unwrap_or_else(|| format!("node {index}"));
-    let own = data.nodes.len() as u32;
-    let instances = match mesh {
-        Some(_) => instancing::places(document, node, &element)?,
-        None => None,
-    };
-    let is_repeated = instances.is_some();
-    let node = Node {
+    data.nodes.push(Node {
         name,
         parent,
         transform: transform(node),
         mesh,
-    };
-    let repeated = instances
-        .into_iter()
-        .flatten()
-        .enumerate()
-        .map(|(i, transform)| Node {
-            name: format!("{} {i}", node.name),
-            parent: Some(own),
-            transform,
-            ..node.clone()
-        });
-    let repeated: Vec<Node> = repeated.collect();
-    data.nodes.push(Node {
-        mesh: mesh.filter(|_| !is_repeated),
-        ..node
     });
-    data.nodes.extend(repeated);
     Ok(())
 }
 
