@@ -1,8 +1,8 @@
 //! Where a frame is seen from.
 
-use glam::{DAffine3, DVec3, Vec3};
-use lightbvh_kernels::shading::trace::SurfaceTriangle;
+use glam::{DAffine3, DVec3};
 
+use super::model::{Camera, Node, SceneData};
 use super::transform::{Transform, unit_or};
 use crate::vector::{cross, sub};
 
@@ -36,25 +36,33 @@ pub(super) fn towards(eye: [f64; 3], target: [f64; 3], yfov: f32) -> View {
 /// Vertical field of view of scenes without a camera: 50 degrees, a natural view on a screen.
 const YFOV: f32 = 0.872_664_6;
 
-/// The view of a scene without a camera: from the front, so that the sphere around the box of its triangles touches the image's
+/// The view of a scene without a camera: from the front, so that the sphere around the box of its vertices touches the image's
 /// upper and lower edge.
-pub(super) fn around(triangles: &[SurfaceTriangle]) -> View {
-    let vertices = || {
-        triangles
-            .iter()
-            .flat_map(|own| own.p)
-            .map(|p| Vec3::from(p).as_dvec3())
+pub(super) fn around([low, high]: [DVec3; 2]) -> View {
+    // Without a vertex there is no box.
+    let (low, high) = if low.x <= high.x {
+        (low, high)
+    } else {
+        Default::default()
     };
-    let low = vertices().reduce(DVec3::min).unwrap_or_default();
-    let high = vertices().reduce(DVec3::max).unwrap_or_default();
     let radius = (0.5 * low.distance(high)).max(1e-3);
     let (middle, front) = (0.5 * (low + high), DVec3::new(0.35, 0.3, 1.0).normalize());
     towards((middle + 2.37 * radius * front).into(), middle.into(), YFOV)
 }
 
-/// Where the node of a camera stands.
-pub(super) fn place_of(view: &View) -> Transform {
-    Transform::Matrix([view.right, view.up, view.forward.map(|x| -x), view.eye])
+impl SceneData {
+    /// Appends a camera on a node of its own.
+    pub(super) fn look(&mut self, view: &View) {
+        self.cameras.push(Camera {
+            node: self.nodes.len() as u32,
+            yfov: view.yfov,
+        });
+        self.nodes.push(Node {
+            name: String::from("camera"),
+            transform: Transform::Matrix([view.right, view.up, view.forward.map(|x| -x), view.eye]),
+            ..Node::default()
+        });
+    }
 }
 
 /// `forward` is a unit vector; `up` is made orthogonal to it.

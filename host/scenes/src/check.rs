@@ -2,11 +2,13 @@
 
 use std::ops::RangeInclusive;
 
+use glam::DVec3;
 use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE};
 use lightbvh_kernels::shading::sky::MAX_SUNS;
 
 use super::analytic::{AnalyticKind, AnalyticLight};
 use super::animate::Pose;
+use super::camera::around;
 use super::error::{SceneError, malformed};
 use super::flush::flush_tiny;
 use super::model::{Channel, Interpolation, Material, Mesh, Node, Primitive, SceneData, emits};
@@ -64,7 +66,10 @@ impl Scene {
         }
         check.color(|| String::from("background"), data.background)?;
         let counts = check.count(&data)?;
-        check.places(&data)?;
+        let bounds = check.places(&data)?;
+        if data.cameras.is_empty() {
+            data.look(&around(bounds));
+        }
         Ok(Self::from_checked(data, counts))
     }
 }
@@ -278,8 +283,9 @@ impl Check<'_> {
         self.color(|| name("emission"), emission)
     }
 
-    /// Vertices of frame 0 are in the domain; light BVHs refuse lights that leave it later.
-    fn places(&self, data: &SceneData) -> Result<(), SceneError> {
+    /// Vertices of frame 0 are in the domain; light BVHs refuse lights that leave it later. Returns the box around them.
+    fn places(&self, data: &SceneData) -> Result<[DVec3; 2], SceneError> {
+        let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         let farthest = f64::from(MAX_COORDINATE);
         let pose = Pose::at(data, 0.0);
         for (n, node) in data.nodes.iter().enumerate() {
@@ -289,9 +295,10 @@ impl Check<'_> {
             for point in primitives.iter().flat_map(|own| pose.points(n, own)) {
                 let element = || format!("coordinate of a vertex of node {n} `{}` in frame 0", node.name);
                 self.within(element, &point.to_array(), -farthest..=farthest, IS_NEAR)?;
+                bounds = [bounds[0].min(point), bounds[1].max(point)];
             }
         }
-        Ok(())
+        Ok(bounds)
     }
 
     /// Sizes of every frame, and whether 32-bit indices and memory can hold them.

@@ -49,11 +49,6 @@ impl Scene {
         self.counts.emissive
     }
 
-    /// Mesh lights of every frame: instances of emissive primitives.
-    pub fn mesh_light_count(&self) -> usize {
-        self.counts.mesh_lights
-    }
-
     /// Lights by formula that are sampled, which a tree holds.
     pub fn analytic_count(&self) -> usize {
         self.counts.analytic

@@ -23,7 +23,7 @@ pub struct SceneData {
     pub materials: Vec<Material>,
     /// All animations run at once, each looping over its own duration.
     pub animations: Vec<Animation>,
-    /// The first one is the one that frames are seen from.
+    /// The first one is the one that frames are seen from; a scene has one.
     pub cameras: Vec<Camera>,
     /// Lights by formula.
     pub analytic: Vec<AnalyticLight>,

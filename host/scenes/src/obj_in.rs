@@ -130,12 +130,8 @@ impl Reading<'_> {
 
     /// The place in `parts` of what a group has of a material.
     fn part(&mut self, [object, group]: [&str; 2], material: &str) -> usize {
-        let between = if object.is_empty() || group.is_empty() {
-            ""
-        } else {
-            "/"
-        };
-        let names = (format!("{object}{between}{group}"), material.to_owned());
+        let group = format!("{object}/{group}").trim_matches('/').to_owned();
+        let names = (group, material.to_owned());
         *self.by_names.entry(names.clone()).or_insert_with(|| {
             self.parts.push((names, Part::default()));
             self.parts.len() - 1
@@ -148,19 +144,12 @@ impl Reading<'_> {
         let mut corners = Vec::new();
         for word in rest.split_ascii_whitespace() {
             // `vertex`, `vertex/texture`, `vertex//normal` or `vertex/texture/normal`: from 1, or from -1 for the last one so far.
-            let number = word
-                .split('/')
-                .next()
-                .and_then(|number| number.parse::<i64>().ok());
-            let index = number.map(|number| {
-                if number < 0 {
-                    count as i64 + number
-                } else {
-                    number - 1
-                }
-            });
-            let index = index.and_then(|index| usize::try_from(index).ok());
-            let Some(index) = index.filter(|&index| index < count) else {
+            let index = match word.split('/').next().map(str::parse::<i64>) {
+                Some(Ok(back @ ..0)) => count as i64 + back,
+                Some(Ok(number)) => number - 1,
+                _ => -1,
+            };
+            let Some(index) = usize::try_from(index).ok().filter(|&index| index < count) else {
                 let problem = format!("`{}` names none of the {count} vertices before it", shown(word));
                 return Err(wrong(self.file, line, problem));
             };
@@ -169,14 +158,11 @@ impl Reading<'_> {
                 primitive.positions.len() as u32 - 1
             }));
         }
-        let [first, rest @ ..] = &corners[..] else {
-            return Err(wrong(self.file, line, "a face has no vertices".to_owned()));
-        };
-        if rest.len() < 2 {
+        if corners.len() < 3 {
             let problem = format!("a face has {} vertices, expected at least 3", corners.len());
             return Err(wrong(self.file, line, problem));
         }
-        let fan = rest.windows(2).map(|pair| [*first, pair[0], pair[1]]);
+        let fan = (2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]]);
         primitive.triangles.extend(fan);
         // A triangle, a position and its entry for each corner, in lists that grow to twice their length.
         self.load
@@ -320,8 +306,9 @@ f -4 -3 -2 -1
             );
             assert_eq!(data.meshes[0].primitives[0].triangles, [[0, 1, 2], [0, 2, 3]]);
             assert_eq!(data.materials[0].base_color, [0.25, 0.5, 1.0]);
-            assert_eq!((scene.triangle_count(), scene.mesh_light_count()), (4, 1));
-            let lights = scene.frame(0).emissive;
+            let frame = scene.frame(0);
+            assert_eq!((frame.triangles.len(), frame.mesh_lights.len()), (4, 1));
+            let lights = frame.emissive;
             assert_eq!(
                 lights[1].p,
                 [[-0.5, 1.0, -0.5], [0.5, 1.0, 0.5], [-0.5, 1.0, 0.5]]
@@ -337,7 +324,7 @@ f -4 -3 -2 -1
             ("v 0 0\n", 1, "expected 3 numbers, found `0 0`"),
             ("v 0 0 nan\n", 1, "expected 3 numbers"),
             ("v 0 0 0\n\nf 1 1\n", 3, "2 vertices, expected at least 3"),
-            ("v 0 0 0\nf\n", 2, "no vertices"),
+            ("v 0 0 0\nf\n", 2, "0 vertices"),
             ("v 0 0 0\nf 1 0 1\n", 2, "`0` names"),
             ("v 0 0 0\nf 1 -2 1\n", 2, "`-2` names"),
             ("v 0 0 0\nf 1 -9223372036854775808 1\n", 2, "names none"),

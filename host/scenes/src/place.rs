@@ -7,7 +7,7 @@ use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
 use super::analytic::AnalyticKind;
 use super::animate::Pose;
-use super::camera::{View, around, view_of_node};
+use super::camera::view_of_node;
 use super::flush::rounded;
 use super::frame::{FRAMES_PER_SECOND, Frame, MeshRange, UNPAINTED};
 use super::lamps;
@@ -30,8 +30,7 @@ impl Scene {
             corners: [const { Vec::new() }; 2],
             paint: self.paint_words(),
             materials: data.materials.iter().map(Material::surface).collect(),
-            // Until the frame's triangles are there to look at.
-            camera: View::default(),
+            camera: view_of_node(&pose.unscaled(data.cameras[0].node), data.cameras[0].yfov),
             background: data.background,
         };
         place_meshes(data, &pose, &mut out);
@@ -51,15 +50,6 @@ impl Scene {
                 }));
             }
         }
-        out.camera = match data.cameras.first() {
-            Some(camera) => view_of_node(&pose.unscaled(camera.node), camera.yfov),
-            // The same in every frame.
-            None => match self.default_camera.get() {
-                Some(camera) => *camera,
-                None if frame > 0 => self.frame(0).camera,
-                None => *self.default_camera.get_or_init(|| around(&out.triangles)),
-            },
-        };
         out
     }
 }
