@@ -166,7 +166,6 @@ fn body(
     load: &Load,
 ) -> Result<Primitive, SceneError> {
     let mut out = Primitive::default();
-    let mut corners = Vec::new();
     for element in elements.iter().filter(|element| !element.properties.is_empty()) {
         let (name, all) = (&element.name, &element.properties);
         let of = |what: &Property| match numbers.is_text {
@@ -180,21 +179,16 @@ fn body(
             let problem = format!("{count} of at least {least} bytes each are announced in {left} bytes");
             return Err(malformed(format!("{path}: element {name}"), problem, TRUNCATED));
         }
-        let scalar = |name: &str| {
-            all.iter()
-                .position(|own| own.name == name && own.length.is_none())
-        };
-        let place = match (name.as_str(), ["x", "y", "z"].map(scalar)) {
-            ("vertex", [Some(x), Some(y), Some(z)]) => Some([x, y, z]),
-            ("vertex", _) => {
-                return Err(malformed(
-                    format!("{path}: element vertex"),
-                    "has no x, y and z",
-                    EXPORT,
-                ));
-            }
-            _ => None,
-        };
+        let axis = |axis: &str| all.iter().position(|own| own.name == axis);
+        let place = ["x", "y", "z"].map(axis).into_iter().collect::<Option<Vec<_>>>();
+        if name == "vertex" && place.is_none() {
+            return Err(malformed(
+                format!("{path}: element vertex"),
+                "has no x, y and z",
+                EXPORT,
+            ));
+        }
+        let place = place.filter(|_| name == "vertex");
         let mut row = vec![0.0_f32; all.len()];
         for index in 0..count {
             let ends_here = || {
@@ -206,20 +200,27 @@ fn body(
                     *value = numbers.next(property.number).ok_or_else(ends_here)? as f32;
                     continue;
                 };
-                corners.clear();
-                for _ in 0..numbers.whole(length).ok_or_else(ends_here)? {
-                    corners.push(numbers.next(property.number).ok_or_else(ends_here)?);
+                let length = numbers.whole(length).ok_or_else(ends_here)?;
+                let is_polygon =
+                    name == "face" && ["vertex_indices", "vertex_index"].contains(&&*property.name);
+                if is_polygon {
+                    load.take(path, "the list of triangles", 36 * u64::from(length))?;
                 }
-                if name == "face" && ["vertex_indices", "vertex_index"].contains(&&*property.name) {
-                    load.take(path, "the list of triangles", 36 * corners.len() as u64)?;
+                let mut fan = [0; 3];
+                for corner in 0..length {
+                    let number = numbers.next(property.number).ok_or_else(ends_here)?;
                     // The check of the scene finds vertices that are not there; negative numbers name none.
-                    let vertex = |&number: &f64| if number < 0.0 { u32::MAX } else { number as u32 };
-                    let own: Vec<u32> = corners.iter().map(vertex).collect();
-                    let fan = (2..own.len()).map(|k| [own[0], own[k - 1], own[k]]);
-                    out.triangles.extend(fan);
+                    let vertex = if number < 0.0 { u32::MAX } else { number as u32 };
+                    fan = [fan[0], fan[2], vertex];
+                    if corner == 0 {
+                        fan[0] = vertex;
+                    } else if corner > 1 && is_polygon {
+                        out.triangles.push(fan);
+                    }
                 }
             }
-            out.positions.extend(place.map(|place| place.map(|k| row[k])));
+            let place = place.as_ref().map(|place| [0, 1, 2].map(|k| row[place[k]]));
+            out.positions.extend(place);
         }
     }
     Ok(out)
