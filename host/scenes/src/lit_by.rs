@@ -6,18 +6,9 @@ use super::scene::{Counts, Scene};
 impl Scene {
     /// What a command that knows emissive triangles alone leaves out.
     pub fn unknown_lights(&self) -> Option<String> {
-        self.unknown("left out here")
-    }
-
-    /// What a command that chooses by emissive triangles, and names what is for the other lights, leaves out of its figures.
-    pub fn unknown_in_figures(&self) -> Option<String> {
-        self.unknown("not in the figures of triangles")
-    }
-
-    fn unknown(&self, are: &str) -> Option<String> {
         let mut parts = Vec::new();
         if self.has_other_lights() {
-            parts.push(format!("{} are {are}", self.other_lights()));
+            parts.push(format!("{} are left out here", self.other_lights()));
         }
         if self.data().is_painted() {
             parts.push(String::from("textures are shown by their means here"));

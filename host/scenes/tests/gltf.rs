@@ -5,7 +5,7 @@ use lightbvh::light::TWO_SIDED;
 use lightbvh_scenes::{Frame, Scene};
 use serde_json::{Value, json};
 
-use crate::files::{add_view, busy, bytes, changed, embedded, push, read, read_json, refused, triangle};
+use crate::files::{busy, bytes, changed, embedded, push, read, read_json, refused, triangle};
 
 fn frame(root: &Value) -> Frame {
     read_json(root).frame(0)
@@ -148,18 +148,6 @@ fn positions_of_every_component_type() {
         let expected = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         assert_eq!(frame(&root).triangles[0].p, expected, "{component} {normalized}");
     }
-}
-
-#[test]
-fn sparse_indices_replace_some() {
-    let mut root = triangle();
-    // Element 1 of 0 1 2 becomes 2, element 2 becomes 1: turned over.
-    let (at, values) = (add_view(&mut root, &[1, 2]), add_view(&mut root, &[2, 0, 1, 0]));
-    root["accessors"][1]["sparse"] = json!({
-        "count": 2, "indices": { "bufferView": at, "componentType": 5121 }, "values": { "bufferView": values },
-    });
-    let expected = [[0.0; 3], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
-    assert_eq!(frame(&root).triangles[0].p, expected);
 }
 
 /// A strip of four vertices: both triangles have their front up.

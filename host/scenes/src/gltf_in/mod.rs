@@ -5,7 +5,7 @@
 //! allocated for it.
 //!
 //! Read:
-//! - triangles, strips and fans, in plain, sparse and quantised accessors (`KHR_mesh_quantization`), compressed views
+//! - triangles, strips and fans, in plain and quantised accessors (`KHR_mesh_quantization`), compressed views
 //!   (`EXT_meshopt_compression`, `KHR_meshopt_compression`) and Draco streams (`KHR_draco_mesh_compression`);
 //! - instances, animation of nodes in all interpolations, perspective cameras;
 //! - metallic-roughness factors and base colour textures; emission by factor, texture (averaged per triangle where lights are chosen) and

@@ -9,7 +9,6 @@ use serde::Deserialize;
 use super::super::error::SceneError;
 use super::super::glow::Glow;
 use super::super::paint::{IN_PLACE, Picture, Texture, Wrap};
-use super::super::pictures::mean_of;
 use super::Document;
 
 /// A texture as a material names it.
@@ -73,7 +72,7 @@ const SOURCES: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 impl Document<'_> {
     /// The texture that a material names; `None` where its picture cannot be had, which is noted.
     pub(super) fn placed(&self, named: &Named, element: &str) -> Result<Option<Placed>, SceneError> {
-        let Some((number, picture)) = self.picture_of(named.index, element)? else {
+        let Some((number, (picture, _))) = self.picture_of(named.index, element)? else {
             return Ok(None);
         };
         let texture = self.get(&self.root.textures, named.index, "texture", element)?;
@@ -105,21 +104,16 @@ impl Document<'_> {
 
     /// The mean of a texture, linear red, green, blue, and alpha; `None` as for [`placed`](Self::placed).
     pub(super) fn mean(&self, info: &Info, element: &str) -> Result<Option<[f32; 4]>, SceneError> {
-        let Some((number, picture)) = self.picture_of(info.index, element)? else {
-            return Ok(None);
-        };
-        // Many materials share a picture.
-        let mut pictures = self.pictures.borrow_mut();
-        let mean = pictures.means.entry(number);
-        Ok(Some(*mean.or_insert_with(|| mean_of(&picture))))
+        let found = self.picture_of(info.index, element)?;
+        Ok(found.map(|(_, (_, mean))| mean))
     }
 
-    /// The first picture of a texture that can be decoded, with its number.
+    /// The first picture of a texture that can be decoded, with its number and its mean.
     fn picture_of(
         &self,
         index: json::Index<json::Texture>,
         element: &str,
-    ) -> Result<Option<(usize, Picture)>, SceneError> {
+    ) -> Result<Option<(usize, (Picture, [f32; 4]))>, SceneError> {
         let texture = self.get(&self.root.textures, index, "texture", element)?;
         let name = format!("textures[{}]", index.value());
         let mut pictures = Vec::new();

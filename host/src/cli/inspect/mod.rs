@@ -104,7 +104,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     if others_alone {
         return without_triangles(context, &scene, (args.frame, declared), (report, &about));
     }
-    if let Some(left_out) = scene.unknown_in_figures() {
+    if let Some(left_out) = scene.unknown_lights() {
         news!("{}: {left_out}", scene.name());
     }
     let (bvh, _) =
