@@ -8,7 +8,7 @@ use image::RgbaImage;
 use super::super::error::SceneError;
 use super::super::glow::Glows;
 use super::super::paint::Picture;
-use super::super::pictures::{self, undecoded};
+use super::super::pictures;
 use super::{Document, container, ktx2};
 
 /// What has been decoded.
@@ -68,9 +68,7 @@ impl Document<'_> {
 
     fn decode(&self, name: &str, bytes: &[u8]) -> Result<RgbaImage, SceneError> {
         let pixels = if bytes.starts_with(&ktx2::IDENTIFIER) {
-            let header = ktx2::Header::read(bytes).map_err(|problem| undecoded(name, problem))?;
-            self.load.check(name, "a picture, decoded,", header.bytes())?;
-            header.decode(name, bytes)?
+            ktx2::decode(self.load, name, bytes)?
         } else {
             pictures::decode_surface(self.load, name, bytes)?
         };
