@@ -64,14 +64,17 @@ impl Scene {
     /// For commands that sample emissive triangles.
     ///
     /// # Errors
-    /// [`SceneError::NoEmissive`] where nothing emits, [`SceneError::OtherLights`] where no triangle does.
+    /// [`SceneError::NoEmissive`] where no triangle emits.
     pub fn require_lights(&self) -> Result<(), SceneError> {
-        let scene = self.name().to_owned();
-        match (self.counts.emissive, self.has_other_lights()) {
-            (0, false) => Err(SceneError::NoEmissive(scene)),
-            (0, true) => Err(SceneError::OtherLights(scene, self.other_lights())),
-            _ => Ok(()),
-        }
+        let others = match self.has_other_lights() {
+            _ if self.counts.emissive > 0 => return Ok(()),
+            false => String::new(),
+            true => format!(
+                ", and only `render`, `verify` and `inspect` know what lights it ({})",
+                self.other_lights()
+            ),
+        };
+        Err(SceneError::NoEmissive(self.name().to_owned(), others))
     }
 
     /// For commands that take lights of every kind.

@@ -4,7 +4,7 @@
 //! each of their materials: a mesh light is what a group has of a material that emits. The front of a face emits, as in glTF.
 //! The format has no unit and no camera: coordinates are metres, +Y is up, and `Ke` is radiance in W/(m² sr).
 //!
-//! The crate `tobj` is not used: it panics at `Kd 1 2`, its errors name no line, and six bytes of a file can take 350 of memory.
+//! The crate `tobj` is not used: it panics at `Kd 1 2`, and its errors name no line.
 
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;

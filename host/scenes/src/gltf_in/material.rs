@@ -12,7 +12,6 @@ use super::super::glow::Glow;
 use super::super::model::Material;
 use super::super::paint::Paint;
 use super::Document;
-use super::texture::Named;
 
 /// A material, and the texture that its radiance is multiplied by, triangle by triangle.
 #[derive(Clone, Default)]
@@ -99,7 +98,7 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
         ..Paint::PLAIN
     };
     let of = |info: Option<&Info>| match info {
-        Some(info) => document.placed(&Named::from(info), element),
+        Some(info) => document.placed(info, element),
         None => Ok(None),
     };
     let base = of(texture)?;
