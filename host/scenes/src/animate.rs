@@ -1,36 +1,26 @@
-//! Animation: channel values at a time, the world transform of every node, and the weights of morph targets.
+//! Animation: channel values at a time, and the world transform of every node.
 
-use std::borrow::Cow;
-use std::collections::BTreeMap;
-
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec3, Vec3};
 
 use super::analytic::AnalyticLight;
-use super::model::{Channel, Interpolation, Property, SceneData};
+use super::model::{Channel, Interpolation, Primitive, Property, SceneData};
 use super::transform::{Transform, normalized, slerp};
 
 /// Where everything is at a time.
 pub(super) struct Pose {
     /// From each node's space to the world.
     pub world: Vec<DAffine3>,
-    /// Weights of morph targets, of the nodes where they are animated.
-    weights: BTreeMap<usize, Vec<f64>>,
 }
 
 impl Pose {
     /// At `seconds`, each animation looping over its own duration.
     pub fn at(data: &SceneData, seconds: f64) -> Self {
         let mut locals: Vec<Transform> = data.nodes.iter().map(|node| node.transform).collect();
-        let mut weights = BTreeMap::new();
         for animation in &data.animations {
             let duration = f64::from(animation.duration());
             let time = if duration > 0.0 { seconds % duration } else { 0.0 };
             for channel in &animation.channels {
-                let node = channel.node as usize;
-                match channel.property {
-                    Property::Weights(_) => _ = weights.insert(node, sample(channel, time)),
-                    _ => apply(channel, time, &mut locals[node]),
-                }
+                apply(channel, time, &mut locals[channel.node as usize]);
             }
         }
 
@@ -42,7 +32,7 @@ impl Pose {
                 .map_or(DAffine3::IDENTITY, |parent| world[parent as usize]);
             world.push(parent * local.affine());
         }
-        Self { world, weights }
+        Self { world }
     }
 
     /// The place of a node that carries what has directions and no size: a camera, a sun, a point, a spot. Scales do not change
@@ -60,20 +50,19 @@ impl Pose {
         }
     }
 
+    /// Where the vertices of a primitive on a node are.
+    pub fn points(&self, node: usize, primitive: &Primitive) -> impl Iterator<Item = DVec3> {
+        let world = self.world[node];
+        let points = primitive.positions.iter();
+        points.map(move |&p| world.transform_point3(Vec3::from(p).as_dvec3()))
+    }
+
     /// The place of a light by formula.
     pub fn place_of(&self, light: &AnalyticLight) -> DAffine3 {
         if light.kind.extent().is_some() {
             self.world[light.node as usize]
         } else {
             self.unscaled(light.node)
-        }
-    }
-
-    /// The weights of a node's morph targets.
-    pub fn weights(&self, data: &SceneData, node: usize) -> Cow<'_, [f64]> {
-        match self.weights.get(&node) {
-            Some(weights) => Cow::Borrowed(weights),
-            None => Cow::Owned(data.nodes[node].weights.iter().map(|&w| f64::from(w)).collect()),
         }
     }
 }
@@ -94,7 +83,6 @@ fn apply(channel: &Channel, time: f64, local: &mut Transform) {
             Property::Translation => *translation = three(),
             Property::Scale => *scale = three(),
             Property::Rotation => *rotation = turn(channel, time).map(|x| x as f32),
-            Property::Weights(_) => {}
         }
     }
 }

@@ -3,11 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::analytic::AnalyticLight;
-use super::camera::{place_of, towards};
+use super::camera::towards;
 use super::error::SceneError;
-use super::model::{
-    Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, SceneData,
-};
+use super::model::{Animation, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, SceneData};
 use super::scene::Scene;
 use super::shapes::{Shape, on_circle, rotation};
 use super::track::Track;
@@ -209,16 +207,8 @@ impl SceneBuilder {
 
     /// A camera at `eye` that looks at `target`.
     pub fn camera(&mut self, eye: [f64; 3], target: [f64; 3], yfov_degrees: f64) {
-        let yfov = yfov_degrees.to_radians() as f32;
-        self.data.cameras.push(Camera {
-            node: self.data.nodes.len() as u32,
-            yfov,
-        });
-        self.data.nodes.push(Node {
-            name: String::from("camera"),
-            transform: place_of(&towards(eye, target, yfov)),
-            ..Node::default()
-        });
+        self.data
+            .look(&towards(eye, target, yfov_degrees.to_radians() as f32));
     }
 
     pub fn finish(mut self) -> Result<Scene, SceneError> {

@@ -1,7 +1,8 @@
 //! Where a frame is seen from.
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
+use super::model::{Camera, Node, SceneData};
 use super::transform::{Transform, unit_or};
 use crate::vector::{cross, sub};
 
@@ -32,9 +33,36 @@ pub(super) fn towards(eye: [f64; 3], target: [f64; 3], yfov: f32) -> View {
     looking(eye, forward, [0.0, 1.0, 0.0], yfov)
 }
 
-/// Where the node of a camera stands.
-pub(super) fn place_of(view: &View) -> Transform {
-    Transform::Matrix([view.right, view.up, view.forward.map(|x| -x), view.eye])
+/// Vertical field of view of scenes without a camera: 50 degrees, a natural view on a screen.
+const YFOV: f32 = 0.872_664_6;
+
+/// The view of a scene without a camera: from the front, so that the sphere around the box of its vertices touches the image's
+/// upper and lower edge.
+pub(super) fn around([low, high]: [DVec3; 2]) -> View {
+    // Without a vertex there is no box.
+    let (low, high) = if low.x <= high.x {
+        (low, high)
+    } else {
+        Default::default()
+    };
+    let radius = (0.5 * low.distance(high)).max(1e-3);
+    let (middle, front) = (0.5 * (low + high), DVec3::new(0.35, 0.3, 1.0).normalize());
+    towards((middle + 2.37 * radius * front).into(), middle.into(), YFOV)
+}
+
+impl SceneData {
+    /// Appends a camera on a node of its own.
+    pub(super) fn look(&mut self, view: &View) {
+        self.cameras.push(Camera {
+            node: self.nodes.len() as u32,
+            yfov: view.yfov,
+        });
+        self.nodes.push(Node {
+            name: String::from("camera"),
+            transform: Transform::Matrix([view.right, view.up, view.forward.map(|x| -x), view.eye]),
+            ..Node::default()
+        });
+    }
 }
 
 /// `forward` is a unit vector; `up` is made orthogonal to it.

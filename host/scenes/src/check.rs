@@ -2,16 +2,16 @@
 
 use std::ops::RangeInclusive;
 
+use glam::DVec3;
 use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE};
 use lightbvh_kernels::shading::sky::MAX_SUNS;
 
 use super::analytic::{AnalyticKind, AnalyticLight};
 use super::animate::Pose;
-use super::clips::named;
-use super::deform::is_skinned;
+use super::camera::around;
 use super::error::{SceneError, malformed};
 use super::flush::flush_tiny;
-use super::model::{Channel, Interpolation, Material, Mesh, Node, Primitive, Property, SceneData, emits};
+use super::model::{Channel, Interpolation, Material, Mesh, Node, Primitive, SceneData, emits};
 use super::paint::{MAX_SIDE, Paint, Picture};
 use super::scene::{Counts, Scene};
 use super::transform::Transform;
@@ -52,7 +52,6 @@ impl Scene {
             }
         }
         check.nodes(&data)?;
-        check.skins(&data)?;
         check.animations(&data)?;
         for (index, light) in data.analytic.iter().enumerate() {
             check.analytic(index, light, &data.nodes)?;
@@ -67,7 +66,10 @@ impl Scene {
         }
         check.color(|| String::from("background"), data.background)?;
         let counts = check.count(&data)?;
-        check.places(&data)?;
+        let bounds = check.places(&data)?;
+        if data.cameras.is_empty() {
+            data.look(&around(bounds));
+        }
         Ok(Self::from_checked(data, counts))
     }
 }
@@ -190,21 +192,6 @@ impl Check<'_> {
             let list = || format!("texture coordinates of {name}");
             self.length(list, coordinates.len(), vertices)?;
         }
-        for (t, target) in primitive.targets.iter().enumerate() {
-            let element = || format!("target {t} of {name}");
-            if !target.is_empty() {
-                self.length(element, target.len(), vertices)?;
-            }
-            self.within(element, target.as_flattened(), COORDINATES, IS_NEAR)?;
-        }
-        for set in &primitive.influences {
-            self.length(|| format!("influences of {name}"), set.len(), vertices)?;
-            let element = || format!("weight of a joint of {name}");
-            for influence in set {
-                let expected = "expected a finite number, at least 0";
-                self.within(element, &influence.weights, 0.0..=f32::MAX, expected)?;
-            }
-        }
         Ok(())
     }
 
@@ -230,51 +217,15 @@ impl Check<'_> {
                 }
                 Transform::Matrix(columns) => self.finite(|| name("matrix"), columns.as_flattened())?,
             }
-            self.finite(|| name("a weight"), &node.weights)?;
-        }
-        Ok(())
-    }
-
-    /// Skins name nodes, and have all the joints that the meshes on their nodes ask for.
-    fn skins(&self, data: &SceneData) -> Result<(), SceneError> {
-        for (s, skin) in data.skins.iter().enumerate() {
-            let binds = || format!("inverse bind matrices of skin {s}");
-            self.length(binds, skin.inverse_bind.len(), skin.joints.len())?;
-            for &joint in &skin.joints {
-                self.index(|| format!("a joint of skin {s}"), joint, data.nodes.len())?;
-            }
-            let numbers = skin.inverse_bind.as_flattened().as_flattened();
-            self.finite(|| format!("an inverse bind matrix of skin {s}"), numbers)?;
-        }
-        // The greatest joint of each mesh, found once however many nodes show it.
-        let greatest = |primitive: &Primitive| {
-            let all = primitive.influences.iter().flatten();
-            all.flat_map(|influence| influence.joints).max()
-        };
-        let of_meshes: Vec<Option<u16>> = (data.meshes.iter())
-            .map(|mesh| mesh.primitives.iter().filter_map(greatest).max())
-            .collect();
-        for (n, node) in data.nodes.iter().enumerate() {
-            let Some(skin) = node.skin else { continue };
-            let name = |what: &str| format!("{what} of node {n} `{}`", node.name);
-            self.index(|| name("skin"), skin, data.skins.len())?;
-            let Some(mesh) = node.mesh else { continue };
-            let skinned = |primitive: &Primitive| is_skinned(data, n, primitive);
-            if let Some(joint) = of_meshes[mesh as usize]
-                && data.meshes[mesh as usize].primitives.iter().any(skinned)
-            {
-                let joints = data.skins[skin as usize].joints.len();
-                self.index(|| name("a joint of the mesh"), joint.into(), joints)?;
-            }
         }
         Ok(())
     }
 
     fn animations(&self, data: &SceneData) -> Result<(), SceneError> {
         for animation in &data.animations {
-            let own = named(animation.place, &animation.name);
+            let own = animation.shown();
             for (c, channel) in animation.channels.iter().enumerate() {
-                self.channel(&format!("channel {c} of animation {own}"), channel, data)?;
+                self.channel(&format!("channel {c} of {own}"), channel, data)?;
             }
         }
         Ok(())
@@ -283,10 +234,8 @@ impl Check<'_> {
     fn channel(&self, name: &str, channel: &Channel, data: &SceneData) -> Result<(), SceneError> {
         self.index(|| format!("node of {name}"), channel.node, data.nodes.len())?;
         let (times, numbers) = (&channel.times, channel.property.numbers());
-        for (what, count) in [("keys", times.len()), ("targets", numbers)] {
-            let element = || format!("number of {what} of {name}");
-            self.within(element, &[count], 1..=usize::MAX, "expected at least 1")?;
-        }
+        let keys = || format!("number of keys of {name}");
+        self.within(keys, &[times.len()], 1..=usize::MAX, "expected at least 1")?;
         self.finite(|| format!("a time of {name}"), times)?;
         if times[0] < 0.0 || times.windows(2).any(|pair| pair[1] < pair[0]) {
             let problem = format!("first time of {name} is {}", times[0]);
@@ -300,7 +249,7 @@ impl Check<'_> {
         self.length(values, channel.values.len(), rows.saturating_mul(numbers))?;
         self.finite(|| format!("a value of {name}"), &channel.values)?;
         let is_movable = matches!(data.nodes[channel.node as usize].transform, Transform::Trs { .. });
-        if !is_movable && !matches!(channel.property, Property::Weights(_)) {
+        if !is_movable {
             let problem = format!("target of {name} is node {}", channel.node);
             return Err(self.wrong(problem, "expected a node with translation, rotation and scale"));
         }
@@ -334,20 +283,22 @@ impl Check<'_> {
         self.color(|| name("emission"), emission)
     }
 
-    /// Vertices of frame 0 are in the domain; light BVHs refuse lights that leave it later.
-    fn places(&self, data: &SceneData) -> Result<(), SceneError> {
+    /// Vertices of frame 0 are in the domain; light BVHs refuse lights that leave it later. Returns the box around them.
+    fn places(&self, data: &SceneData) -> Result<[DVec3; 2], SceneError> {
+        let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         let farthest = f64::from(MAX_COORDINATE);
         let pose = Pose::at(data, 0.0);
         for (n, node) in data.nodes.iter().enumerate() {
             let primitives = node
                 .mesh
                 .map_or(&[][..], |mesh| &data.meshes[mesh as usize].primitives);
-            for point in primitives.iter().flat_map(|own| pose.placed(data, n, own).points) {
+            for point in primitives.iter().flat_map(|own| pose.points(n, own)) {
                 let element = || format!("coordinate of a vertex of node {n} `{}` in frame 0", node.name);
-                self.within(element, &point, -farthest..=farthest, IS_NEAR)?;
+                self.within(element, &point.to_array(), -farthest..=farthest, IS_NEAR)?;
+                bounds = [bounds[0].min(point), bounds[1].max(point)];
             }
         }
-        Ok(())
+        Ok(bounds)
     }
 
     /// Sizes of every frame, and whether 32-bit indices and memory can hold them.

@@ -34,18 +34,12 @@ pub enum SceneError {
     /// The scene has no triangle at all; what was left out when it was read follows, which may be why.
     #[error("scene `{0}` has no triangles; it needs at least one mesh of them{1}")]
     Empty(String, String),
-    /// The scene has nothing that emits light.
+    /// The scene has no light that the command knows; what else lights it follows in words, or nothing.
     #[error(
-        "scene `{0}` has no emissive triangle, and no light of another kind; give a material an emissiveFactor above zero (glTF) or a Ke \
-         (OBJ), give `lightbvh render` an --environment, or use one of the built-in scenes"
+        "scene `{0}` has no emissive triangle{1}; give a material an emissiveFactor above zero (glTF) or a Ke (OBJ), give `lightbvh \
+         render` an --environment, or use one of the built-in scenes"
     )]
-    NoEmissive(String),
-    /// The scene has lights, which follow in words, and none of which the command knows.
-    #[error(
-        "scene `{0}` has no emissive triangle, and this command does not know what lights it ({1}); `lightbvh render`, `verify` and \
-         `inspect` take such scenes, or give a material an emissiveFactor above zero (glTF) or a Ke (OBJ)"
-    )]
-    OtherLights(String, String),
+    NoEmissive(String, String),
 }
 
 /// [`SceneError::Malformed`].

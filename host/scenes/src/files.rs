@@ -96,20 +96,11 @@ impl Load {
     /// # Errors
     /// [`SceneError::Outside`], [`SceneError::Memory`], [`SceneError::Read`].
     pub fn read(&self, path: &Path) -> Result<Vec<u8>, SceneError> {
-        self.read_any(&self.real(path)?)
-    }
-
-    /// Whether it is such a file.
-    pub fn permits(&self, path: &Path) -> bool {
-        self.real(path).is_ok_and(|real| real.is_file())
-    }
-
-    fn real(&self, path: &Path) -> Result<PathBuf, SceneError> {
         let real = fs::canonicalize(path).map_err(|source| unread(path, source))?;
         if !self.permitted.iter().any(|folder| real.starts_with(folder)) {
             return Err(SceneError::Outside(path.to_owned()));
         }
-        Ok(real)
+        self.read_any(&real)
     }
 
     /// Reads a regular file, which the user named: a pipe or a device could go on for ever.

@@ -66,9 +66,6 @@ pub(super) fn flush_tiny(data: &mut SceneData) {
         if let Some(coordinates) = &mut primitive.coordinates {
             place_all(coordinates.as_flattened_mut());
         }
-        for target in &mut primitive.targets {
-            flush_all(target.as_flattened_mut(), MIN_COORDINATE);
-        }
         if let Some(radiance) = &mut primitive.radiance {
             flush_all(radiance.as_flattened_mut(), MIN_RADIANCE);
         }

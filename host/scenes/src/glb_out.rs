@@ -10,7 +10,7 @@ use self::material::{Textures, is_product, strength};
 use super::analytic::{AnalyticKind, AnalyticLight};
 use super::error::{SceneError, malformed};
 use super::gltf_in::{BACKGROUND_EXTRA, IES, RADIANCE_ATTRIBUTE};
-use super::model::{Animation, Influence, Interpolation, Material, Primitive, Property, Skin};
+use super::model::{Animation, Interpolation, Material, Primitive, Property};
 use super::paint::Picture;
 use super::profile::Profile;
 use super::scene::Scene;
@@ -19,7 +19,6 @@ use super::transform::Transform;
 /// glTF's numbers for component types.
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
-const UNSIGNED_SHORT: u32 = 5123;
 
 impl Scene {
     /// The scene as the bytes of a `.glb` file.
@@ -70,17 +69,13 @@ impl Writer {
             let primitives = primitives.map(|own| self.primitive(own, &data.materials));
             meshes.push(json!({ "name": mesh.name, "primitives": primitives.collect::<Vec<_>>() }));
         }
-        // As the file had them: engines choose by number.
-        let mut all: Vec<_> = data.animations.iter().chain(&data.clips).collect();
-        all.sort_by_key(|animation| animation.place);
-        let animations: Vec<Value> = all.into_iter().map(|own| self.animation(own)).collect();
+        let animations: Vec<Value> = data.animations.iter().map(|own| self.animation(own)).collect();
         let cameras = data.cameras.iter().map(
             |camera| json!({ "type": "perspective", "perspective": { "yfov": camera.yfov, "znear": 0.01 } }),
         );
         let roots: Vec<usize> = (0..data.nodes.len())
             .filter(|&node| data.nodes[node].parent.is_none())
             .collect();
-        let skins: Vec<Value> = data.skins.iter().map(|skin| self.skin(skin)).collect();
         let images: Vec<Value> = data.pictures.iter().map(|own| self.picture(own)).collect();
         let mut textures = Textures::default();
         let materials: Vec<Value> = data.materials.iter().map(|own| textures.material(own)).collect();
@@ -110,7 +105,6 @@ impl Writer {
             "textures": textures.textures,
             "samplers": textures.samplers,
             "animations": animations,
-            "skins": skins,
             "cameras": cameras.collect::<Vec<_>>(),
             "accessors": self.accessors,
             "bufferViews": self.views,
@@ -162,27 +156,9 @@ impl Writer {
             let own: Vec<[f32; 2]> = order.iter().map(|&vertex| coordinates[vertex]).collect();
             attributes["TEXCOORD_0"] = json!(self.floats(own.as_flattened(), "VEC2"));
         }
-        for (set, influences) in primitive.influences.iter().enumerate() {
-            let all: Vec<Influence> = order.iter().map(|&vertex| influences[vertex]).collect();
-            let joints = all.iter().flat_map(|influence| influence.joints);
-            let joints: Vec<u8> = joints.flat_map(u16::to_le_bytes).collect();
-            let weights: Vec<[f32; 4]> = all.iter().map(|influence| influence.weights).collect();
-            attributes[format!("JOINTS_{set}")] =
-                json!(self.accessor(&joints, all.len(), UNSIGNED_SHORT, "VEC4"));
-            attributes[format!("WEIGHTS_{set}")] = json!(self.floats(weights.as_flattened(), "VEC4"));
-        }
         let words: Vec<u8> = indices.iter().flat_map(|vertex| vertex.to_le_bytes()).collect();
         let indices = self.accessor(&words, indices.len(), UNSIGNED_INT, "SCALAR");
-        let mut out = json!({ "attributes": attributes, "indices": indices, "material": primitive.material });
-        if !primitive.targets.is_empty() {
-            let targets = primitive.targets.iter().map(|target| {
-                let moved = |&vertex: &usize| target.get(vertex).copied().unwrap_or_default();
-                let moved: Vec<[f32; 3]> = order.iter().map(moved).collect();
-                json!({ "POSITION": self.floats(moved.as_flattened(), "VEC3") })
-            });
-            out["targets"] = targets.collect();
-        }
-        out
+        json!({ "attributes": attributes, "indices": indices, "material": primitive.material })
     }
 
     fn animation(&mut self, animation: &Animation) -> Value {
@@ -192,7 +168,6 @@ impl Writer {
                 Property::Translation => ("translation", "VEC3"),
                 Property::Rotation => ("rotation", "VEC4"),
                 Property::Scale => ("scale", "VEC3"),
-                Property::Weights(_) => ("weights", "SCALAR"),
             };
             let interpolation = match channel.interpolation {
                 Interpolation::Step => "STEP",
@@ -208,15 +183,6 @@ impl Writer {
             samplers.push(json!({ "input": input, "output": output, "interpolation": interpolation }));
         }
         json!({ "name": animation.name, "samplers": samplers, "channels": channels })
-    }
-
-    fn skin(&mut self, skin: &Skin) -> Value {
-        let matrices: Vec<f32> = skin.inverse_bind.iter().flat_map(matrix).collect();
-        if matrices.is_empty() {
-            // Empty accessors are not allowed.
-            return json!({ "joints": skin.joints });
-        }
-        json!({ "joints": skin.joints, "inverseBindMatrices": self.floats(&matrices, "MAT4") })
     }
 
     /// A picture as PNG.
@@ -245,8 +211,7 @@ impl Writer {
             "SCALAR" => 1,
             "VEC2" => 2,
             "VEC3" => 3,
-            "VEC4" => 4,
-            _ => 16,
+            _ => 4,
         };
         self.accessor(&bytes, values.len() / each, FLOAT, shape)
     }
@@ -291,12 +256,6 @@ fn nodes(scene: &Scene) -> Vec<Value> {
         value["name"] = json!(node.name);
         if let Some(mesh) = node.mesh {
             value["mesh"] = json!(mesh);
-        }
-        if let Some(skin) = node.skin {
-            value["skin"] = json!(skin);
-        }
-        if !node.weights.is_empty() {
-            value["weights"] = json!(node.weights);
         }
         if !children.is_empty() {
             value["children"] = json!(children);

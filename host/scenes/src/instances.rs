@@ -1,6 +1,7 @@
 //! The lights of a scene as meshes and instances of a light BVH, and the edits that follow them.
 
 use std::collections::BTreeMap;
+use std::marker::PhantomData;
 
 use glam::DAffine3;
 use lightbvh::light::TWO_SIDED;
@@ -8,8 +9,6 @@ use lightbvh::node::{Holds, Node as Layout};
 use lightbvh::{BuildParams, Edit, EditError, EmissiveTriangle, InstanceId, MeshId};
 
 use super::animate::Pose;
-use super::deform::{deforms, is_skinned};
-use super::flush::rounded;
 use super::frame::FRAMES_PER_SECOND;
 use super::model::{Primitive, SceneData, emits};
 use super::scene::Scene;
@@ -18,20 +17,18 @@ use super::transform::to_light_bvh;
 
 /// The mesh lights of a scene as instances of meshes, followed from frame to frame. Instances come in the order of
 /// [`Frame::mesh_lights`](super::Frame::mesh_lights), and their lights are numbered as [`Frame::emissive`](super::Frame::emissive).
-/// A primitive that bends has a mesh of its own, whose triangles are set in each frame where they have changed.
 #[derive(Clone, Debug)]
 pub struct Instances<L = EmissiveTriangle> {
-    followed: Vec<Followed<L>>,
+    followed: Vec<Followed>,
+    of: PhantomData<L>,
 }
 
-/// An instance, and its last edits.
+/// An instance, and where it was last.
 #[derive(Clone, Debug)]
-struct Followed<L> {
+struct Followed {
     source: Source,
     id: InstanceId,
     place: DAffine3,
-    /// The mesh and the triangles of a primitive that bends.
-    bent: Option<(MeshId, Vec<L>)>,
 }
 
 /// Where the lights of an instance come from.
@@ -59,26 +56,24 @@ impl<L: SceneLight> Instances<L> {
         let mut shared: BTreeMap<(u32, usize), MeshId> = BTreeMap::new();
         let (mut add, mut followed) = (Vec::new(), Vec::new());
         for source in sources(data) {
-            let bends = source.bends(data);
             let key = match source {
-                Source::Primitive(_, key) if !bends => Some(key),
-                _ => None,
+                Source::Primitive(_, key) => Some(key),
+                Source::Light(_) => None,
             };
-            let (mesh, bent) = match key.and_then(|key| shared.get(&key)) {
-                Some(&mesh) => (mesh, None),
+            let mesh = match key.and_then(|key| shared.get(&key)) {
+                Some(&mesh) => mesh,
                 None => {
-                    let triangles: Vec<L> = source.lights(data, &pose);
+                    let triangles: Vec<L> = source.lights(data);
                     if triangles.is_empty() {
                         continue;
                     }
-                    let kept = bends.then(|| triangles.clone());
                     let mesh = lights.apply(vec![Edit::AddMesh { triangles }])?.meshes[0];
                     shared.extend(key.map(|key| (key, mesh)));
-                    (mesh, kept.map(|kept| (mesh, kept)))
+                    mesh
                 }
             };
             let place = source.place(data, &pose);
-            followed.push((source, place, bent));
+            followed.push((source, place));
             add.push(Edit::AddInstance {
                 mesh,
                 transform: to_light_bvh(&place),
@@ -89,30 +84,17 @@ impl<L: SceneLight> Instances<L> {
         let ids = lights.apply(add)?.instances;
         lights.refit();
         let followed = followed.into_iter().zip(ids);
-        let followed = followed.map(|((source, place, bent), id)| Followed {
-            source,
-            id,
-            place,
-            bent,
-        });
-        let followed = followed.collect();
-        Ok((lights, Self { followed }))
+        let followed = followed.map(|((source, place), id)| Followed { source, id, place });
+        let (followed, of) = (followed.collect(), PhantomData);
+        Ok((lights, Self { followed, of }))
     }
 
-    /// The edits from the last frame asked for to this one: the instances that moved, and the meshes that bent.
+    /// The edits from the last frame asked for to this one: the instances that moved.
     pub fn edits(&mut self, scene: &Scene, frame: u32) -> Vec<Edit<L>> {
         let data = scene.data();
         let pose = pose_at(scene, frame);
         let mut edits = Vec::new();
         for followed in &mut self.followed {
-            if let Some((mesh, last)) = &mut followed.bent {
-                let triangles = followed.source.lights(data, &pose);
-                if triangles != *last {
-                    last.clone_from(&triangles);
-                    let mesh = *mesh;
-                    edits.push(Edit::SetTriangles { mesh, triangles });
-                }
-            }
             let now = followed.source.place(data, &pose);
             if now != followed.place {
                 followed.place = now;
@@ -143,65 +125,47 @@ fn sources(data: &SceneData) -> impl Iterator<Item = Source> + '_ {
 }
 
 impl Source {
-    fn bends(self, data: &SceneData) -> bool {
-        match self {
-            Self::Primitive(node, at) => deforms(data, node, primitive(data, at)),
-            Self::Light(_) => false,
-        }
-    }
-
-    /// Where the mesh's space is; joints take vertices to the world by themselves.
+    /// Where the mesh's space is.
     fn place(self, data: &SceneData, pose: &Pose) -> DAffine3 {
         match self {
             Self::Light(number) => pose.place_of(&data.analytic[number]),
-            Self::Primitive(node, at) if is_skinned(data, node, primitive(data, at)) => DAffine3::IDENTITY,
             Self::Primitive(node, _) => pose.world[node],
         }
     }
 
     /// The lights in the space that [`place`](Self::place) places.
-    fn lights<L: SceneLight>(self, data: &SceneData, pose: &Pose) -> Vec<L> {
+    fn lights<L: SceneLight>(self, data: &SceneData) -> Vec<L> {
         match self {
             Self::Light(number) => {
                 let light = data.analytic[number].light();
                 light.and_then(L::of_kind).into_iter().collect()
             }
-            Self::Primitive(node, at) => emissive_of(data, pose, node, primitive(data, at)),
+            Self::Primitive(_, (mesh, primitive)) => {
+                emissive_of(data, &data.meshes[mesh as usize].primitives[primitive])
+            }
         }
     }
 }
 
-fn primitive(data: &SceneData, (mesh, primitive): (u32, usize)) -> &Primitive {
-    &data.meshes[mesh as usize].primitives[primitive]
-}
-
-/// The emissive triangles of a primitive, in the space that [`Source::place`] places.
-fn emissive_of<L: SceneLight>(data: &SceneData, pose: &Pose, node: usize, primitive: &Primitive) -> Vec<L> {
+/// The emissive triangles of a primitive, in the node's space. A light BVH keeps the front of a mirrored instance in front.
+fn emissive_of<L: SceneLight>(data: &SceneData, primitive: &Primitive) -> Vec<L> {
     let material = &data.materials[primitive.material as usize];
-    let lit = |index: usize| emits(primitive.triangle_radiance(index, material.radiance));
-    if !(0..primitive.triangles.len()).any(lit) {
-        return Vec::new();
-    }
-    let (points, mirrored) = if is_skinned(data, node, primitive) {
-        let placed = pose.placed(data, node, primitive);
-        (placed.points, placed.mirrored)
-    } else {
-        // A light BVH keeps the front of a mirrored instance in front.
-        (pose.morphed(data, node, primitive), false)
-    };
     let flags = if material.double_sided { TWO_SIDED } else { 0 };
-    let triangles = primitive.triangles.iter().enumerate();
-    let lit = triangles.filter(|&(index, _)| lit(index));
-    lit.map(|(index, &[a, b, c])| {
-        let corners = if mirrored { [a, c, b] } else { [a, b, c] };
-        L::from(EmissiveTriangle {
-            p: corners.map(|vertex| rounded(points[vertex as usize])),
-            radiance: primitive.triangle_radiance(index, material.radiance),
-            mesh: 0,
-            flags,
-        })
-    })
-    .collect()
+    let lit = primitive
+        .triangles
+        .iter()
+        .enumerate()
+        .filter_map(|(index, corners)| {
+            let radiance = primitive.triangle_radiance(index, material.radiance);
+            let p = corners.map(|vertex| primitive.positions[vertex as usize]);
+            emits(radiance).then_some(EmissiveTriangle {
+                p,
+                radiance,
+                mesh: 0,
+                flags,
+            })
+        });
+    lit.map(L::from).collect()
 }
 
 #[cfg(test)]

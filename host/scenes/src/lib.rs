@@ -23,14 +23,11 @@ mod animate;
 mod builder;
 mod camera;
 mod check;
-mod clips;
-mod deform;
 mod environment;
 mod error;
 mod files;
 mod flush;
 mod frame;
-mod framing;
 mod glb_out;
 mod glow;
 mod gltf_in;
@@ -48,8 +45,6 @@ mod pictures;
 mod place;
 #[cfg(feature = "formats")]
 mod ply_in;
-#[cfg(feature = "formats")]
-mod polygon;
 mod profile;
 mod random;
 mod ray_bvh;
@@ -81,8 +76,7 @@ pub use ies_in::Photometry;
 pub use instances::Instances;
 pub use load::{BUILT_IN, STAGE};
 pub use model::{
-    Animation, Camera, Channel, Influence, Interpolation, Material, Mesh, Node, Primitive, Property,
-    SceneData, Skin,
+    Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, SceneData,
 };
 pub use paint::{IN_PLACE, MAX_SIDE, Paint, Picture, Texture, Wrap};
 pub use profile::{Profile, Sent};

@@ -6,18 +6,9 @@ use super::scene::{Counts, Scene};
 impl Scene {
     /// What a command that knows emissive triangles alone leaves out.
     pub fn unknown_lights(&self) -> Option<String> {
-        self.unknown("left out here")
-    }
-
-    /// What a command that chooses by emissive triangles, and names what is for the other lights, leaves out of its figures.
-    pub fn unknown_in_figures(&self) -> Option<String> {
-        self.unknown("not in the figures of triangles")
-    }
-
-    fn unknown(&self, are: &str) -> Option<String> {
         let mut parts = Vec::new();
         if self.has_other_lights() {
-            parts.push(format!("{} are {are}", self.other_lights()));
+            parts.push(format!("{} are left out here", self.other_lights()));
         }
         if self.data().is_painted() {
             parts.push(String::from("textures are shown by their means here"));
@@ -49,11 +40,6 @@ impl Scene {
         self.counts.emissive
     }
 
-    /// Mesh lights of every frame: instances of emissive primitives.
-    pub fn mesh_light_count(&self) -> usize {
-        self.counts.mesh_lights
-    }
-
     /// Lights by formula that are sampled, which a tree holds.
     pub fn analytic_count(&self) -> usize {
         self.counts.analytic
@@ -78,14 +64,17 @@ impl Scene {
     /// For commands that sample emissive triangles.
     ///
     /// # Errors
-    /// [`SceneError::NoEmissive`] where nothing emits, [`SceneError::OtherLights`] where no triangle does.
+    /// [`SceneError::NoEmissive`] where no triangle emits.
     pub fn require_lights(&self) -> Result<(), SceneError> {
-        let scene = self.name().to_owned();
-        match (self.counts.emissive, self.has_other_lights()) {
-            (0, false) => Err(SceneError::NoEmissive(scene)),
-            (0, true) => Err(SceneError::OtherLights(scene, self.other_lights())),
-            _ => Ok(()),
-        }
+        let others = match self.has_other_lights() {
+            _ if self.counts.emissive > 0 => return Ok(()),
+            false => String::new(),
+            true => format!(
+                ", and only `render`, `verify` and `inspect` know what lights it ({})",
+                self.other_lights()
+            ),
+        };
+        Err(SceneError::NoEmissive(self.name().to_owned(), others))
     }
 
     /// For commands that take lights of every kind.

@@ -23,14 +23,8 @@ pub struct SceneData {
     pub materials: Vec<Material>,
     /// All animations run at once, each looping over its own duration.
     pub animations: Vec<Animation>,
-    /// Animations that move what those do, and are left out.
-    pub clips: Vec<Animation>,
-    /// Animations that move nothing of the scene, and are left out: their places in the file, and their names.
-    pub idle: Vec<(u32, String)>,
-    /// The first one is the one that frames are seen from.
+    /// The first one is the one that frames are seen from; a scene has one.
     pub cameras: Vec<Camera>,
-    /// Named by nodes.
-    pub skins: Vec<Skin>,
     /// Lights by formula.
     pub analytic: Vec<AnalyticLight>,
     /// Photometric profiles, named by lights.
@@ -65,10 +59,6 @@ pub struct Node {
     pub transform: Transform,
     /// Index into [`SceneData::meshes`].
     pub mesh: Option<u32>,
-    /// Index into [`SceneData::skins`]: what moves those of the mesh's primitives that have influences.
-    pub skin: Option<u32>,
-    /// How far the mesh is moved towards each of its targets while nothing animates them; missing ones are 0.
-    pub weights: Vec<f32>,
 }
 
 /// Primitives that move together.
@@ -93,28 +83,6 @@ pub struct Primitive {
     pub radiance: Option<Vec<[f32; 3]>>,
     /// Texture coordinates of each vertex, where the material has textures that lie by them.
     pub coordinates: Option<Vec<[f32; 2]>>,
-    /// Morph targets: how far each vertex is moved where the target's weight is 1; one without entries moves nothing.
-    pub targets: Vec<Vec<[f32; 3]>>,
-    /// Joints of each vertex, in sets of four.
-    pub influences: Vec<Vec<Influence>>,
-}
-
-/// Four of the joints that move a vertex.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Influence {
-    /// Indices into [`Skin::joints`].
-    pub joints: [u16; 4],
-    /// Shares, not negative; a vertex's shares are taken relative to their sum. Where that is 0, the first joint moves it.
-    pub weights: [f32; 4],
-}
-
-/// Nodes that move vertices. Where a node's mesh has one, the node's own place does not matter (glTF 2.0, section 3.7.3.3).
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Skin {
-    /// Indices into [`SceneData::nodes`].
-    pub joints: Vec<u32>,
-    /// For each joint, from the mesh's space to the joint's: four columns of three rows.
-    pub inverse_bind: Vec<[[f32; 3]; 4]>,
 }
 
 /// How a surface reflects and emits.
@@ -165,11 +133,17 @@ pub struct Animation {
     pub name: String,
     /// Its place in the file, from 0.
     pub place: u32,
-    /// What moves and bends.
+    /// What moves.
     pub channels: Vec<Channel>,
 }
 
 impl Animation {
+    /// Its number and its name, so that a terminal shows it as it is, and not all of a long one.
+    pub(super) fn shown(&self) -> String {
+        let name = self.name.chars().take(80).collect::<String>();
+        format!("animation {} \"{}\"", self.place, name.escape_debug())
+    }
+
     /// Time of the last key of any channel, in seconds; the animation starts again there.
     pub fn duration(&self) -> f32 {
         let ends = self
@@ -183,7 +157,7 @@ impl Animation {
 /// Keys for one property of one node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// Index into [`SceneData::nodes`]; the node's transform must be [`Transform::Trs`] unless the property is its weights.
+    /// Index into [`SceneData::nodes`]; the node's transform must be [`Transform::Trs`].
     pub node: u32,
     /// What the values replace.
     pub property: Property,
@@ -205,8 +179,6 @@ pub enum Property {
     Rotation,
     /// Factors.
     Scale,
-    /// The weights of so many morph targets, above zero.
-    Weights(u32),
 }
 
 impl Property {
@@ -215,7 +187,6 @@ impl Property {
         match self {
             Self::Translation | Self::Scale => 3,
             Self::Rotation => 4,
-            Self::Weights(targets) => targets as usize,
         }
     }
 }

@@ -14,7 +14,7 @@ use super::srgb::linear_from_srgb;
 
 /// What cannot be decoded.
 pub(super) fn undecoded(name: &str, problem: impl Display) -> SceneError {
-    let advice = "use PNG, JPEG, WebP, TGA or KTX 2 of at most 16384 pixels a side";
+    let advice = "use PNG, JPEG, WebP or KTX 2 of at most 16384 pixels a side";
     malformed(name, format!("cannot be decoded: {problem}"), advice)
 }
 
@@ -33,10 +33,8 @@ pub(super) fn decode(
     let mut reader = reader
         .with_guessed_format()
         .map_err(|error| undecoded(name, error))?;
-    if let Some(format @ (ImageFormat::WebP | ImageFormat::Tga)) = reader.format()
-        && !format.reading_enabled()
-    {
-        return Err(not_compiled(name, &format!("the picture format {format:?}")));
+    if reader.format() == Some(ImageFormat::WebP) && !ImageFormat::WebP.reading_enabled() {
+        return Err(not_compiled(name, "the picture format WebP"));
     }
     let mut limits = image::Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
@@ -55,13 +53,8 @@ pub(super) fn decode(
 }
 
 /// The same for a surface, whose picture holds no light.
-pub(super) fn decode_surface(
-    load: &Load,
-    name: &str,
-    bytes: &[u8],
-    path: Option<&Path>,
-) -> Result<RgbaImage, SceneError> {
-    match decode(load, name, bytes, path)? {
+pub(super) fn decode_surface(load: &Load, name: &str, bytes: &[u8]) -> Result<RgbaImage, SceneError> {
+    match decode(load, name, bytes, None)? {
         DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
             Err(undecoded(name, "it holds light, as environment maps do"))
         }

@@ -7,16 +7,14 @@ use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
 use super::analytic::AnalyticKind;
 use super::animate::Pose;
-use super::camera::{View, view_of_node};
-use super::deform::Placed;
+use super::camera::view_of_node;
 use super::flush::rounded;
 use super::frame::{FRAMES_PER_SECOND, Frame, MeshRange, UNPAINTED};
-use super::framing;
 use super::lamps;
 use super::model::{Material, SceneData, emits};
 use super::scene::Scene;
 use super::sky::Sky;
-use super::transform::unit_or;
+use super::transform::{mirrors, unit_or};
 
 impl Scene {
     /// The scene at `frame` / [`FRAMES_PER_SECOND`] seconds.
@@ -32,8 +30,7 @@ impl Scene {
             corners: [const { Vec::new() }; 2],
             paint: self.paint_words(),
             materials: data.materials.iter().map(Material::surface).collect(),
-            // Until the frame's triangles are there to look at.
-            camera: View::default(),
+            camera: view_of_node(&pose.unscaled(data.cameras[0].node), data.cameras[0].yfov),
             background: data.background,
         };
         place_meshes(data, &pose, &mut out);
@@ -53,15 +50,6 @@ impl Scene {
                 }));
             }
         }
-        out.camera = match data.cameras.first() {
-            Some(camera) => view_of_node(&pose.unscaled(camera.node), camera.yfov),
-            // The same in every frame.
-            None => match self.default_camera.get() {
-                Some(camera) => *camera,
-                None if frame > 0 => self.frame(0).camera,
-                None => *self.default_camera.get_or_init(|| framing::view(&out)),
-            },
-        };
         out
     }
 }
@@ -90,8 +78,9 @@ fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
             let flags = if material.double_sided { TWO_SIDED } else { 0 };
             let mesh_light = out.mesh_lights.len() as u32;
             let first = out.emissive.len() as u32;
-            let Placed { points, mirrored } = pose.placed(data, index, primitive);
-            let points: Vec<[f32; 3]> = points.into_iter().map(rounded).collect();
+            let mirrored = mirrors(&pose.world[index]);
+            let points = pose.points(index, primitive).map(|p| rounded(p.into()));
+            let points: Vec<[f32; 3]> = points.collect();
             let is_painted = !out.paint.is_empty();
             // Textures without coordinates are not shown.
             let own = material.paint.as_ref().filter(|paint| paint.is_seen());

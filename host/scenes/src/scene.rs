@@ -2,17 +2,15 @@
 
 use std::sync::{Arc, OnceLock};
 
-use super::camera::{View, place_of, towards};
+use super::camera::towards;
 use super::error::SceneError;
-use super::model::{Camera, Node, SceneData};
+use super::model::SceneData;
 use super::skin_words;
 
 /// A scene that passed every check of [`Scene::new`]: finite, in range, references whole.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub(super) data: SceneData,
-    /// Camera for scenes that bring none, made from frame 0 when it is asked for.
-    pub(super) default_camera: OnceLock<View>,
     /// What is painted on it, made when it is asked for.
     paint: OnceLock<Arc<Vec<u32>>>,
     pub(super) counts: Counts,
@@ -33,7 +31,6 @@ impl Scene {
     pub(super) fn from_checked(data: SceneData, counts: Counts) -> Self {
         Self {
             data,
-            default_camera: OnceLock::new(),
             paint: OnceLock::new(),
             counts,
         }
@@ -74,21 +71,6 @@ impl Scene {
         Arc::clone(self.paint.get_or_init(|| Arc::new(skin_words::words(&self.data))))
     }
 
-    /// Triangles of every frame.
-    pub fn triangle_count(&self) -> usize {
-        self.counts.triangles
-    }
-
-    /// Where the frames are seen from of a scene that brings no camera, once a frame has been made: eye, a place that it looks
-    /// at, both metres, and the vertical field of view in radians; what [`seen_from`](Self::seen_from) takes.
-    pub fn chosen_camera(&self) -> Option<([f32; 3], [f32; 3], f32)> {
-        let view = self.default_camera.get()?;
-        // As far away as keeps the direction where the eye is far from the origin.
-        let far = view.eye.iter().fold(1.0_f32, |far, x| far.max(x.abs()));
-        let target = [0, 1, 2].map(|axis| view.eye[axis] + far * view.forward[axis]);
-        Some((view.eye, target, view.yfov))
-    }
-
     /// The scene as a camera at `eye` sees it that looks at `target`, both metres, with a vertical field of view of `yfov`
     /// radians; +Y is up. Its own cameras are gone. Where both are one place it looks along −Z.
     ///
@@ -96,16 +78,8 @@ impl Scene {
     /// As [`Scene::new`]: places beyond 2^40 m, fields of view that are none.
     pub fn seen_from(self, eye: [f32; 3], target: [f32; 3], yfov: f32) -> Result<Self, SceneError> {
         let mut data = self.into_data();
-        let view = towards(eye.map(f64::from), target.map(f64::from), yfov);
-        data.cameras = vec![Camera {
-            node: data.nodes.len() as u32,
-            yfov,
-        }];
-        data.nodes.push(Node {
-            name: String::from("camera"),
-            transform: place_of(&view),
-            ..Node::default()
-        });
+        data.cameras.clear();
+        data.look(&towards(eye.map(f64::from), target.map(f64::from), yfov));
         Self::new(data)
     }
 }

@@ -3,6 +3,8 @@
 use std::sync::Arc;
 
 use bytemuck::cast_slice;
+use image::RgbaImage;
+use image::imageops::thumbnail;
 use lightbvh_kernels::shading::skin::{Corner, PaintWords, SkinView};
 use lightbvh_kernels::shading::trace::NONE;
 
@@ -10,7 +12,6 @@ use super::model::SceneData;
 use super::paint::{Paint, Picture, Texture};
 use super::profile::OVER_DIRECTIONS;
 use super::shown::{header, picture_words, words_of};
-use super::srgb::linear_from_srgb;
 
 /// Most texels of all pictures: 2^24, so that they fit the smallest storage buffers seen (128 MiB) with room to spare. Larger
 /// pictures are halved until they fit.
@@ -117,35 +118,12 @@ fn fitted(pictures: &[Picture]) -> Vec<Picture> {
     fitted
 }
 
-/// Half as wide and high: means of four texels, of colours of what their bytes stand for.
+/// Half as wide and high: means of the bytes of four texels.
 fn halved(picture: &Picture) -> Picture {
-    let linear: Vec<f32> = (0..=255).map(linear_from_srgb).collect();
-    // The nearest byte: as many as have the middle to the next one below the mean.
-    let middles: Vec<f32> = linear.windows(2).map(|pair| (pair[0] + pair[1]) * 0.5).collect();
-    let encoded = |mean: f32| middles.partition_point(|&middle| middle <= mean);
+    let texels = picture.texels.to_vec();
+    let pixels = RgbaImage::from_raw(picture.width, picture.height, texels).expect("four bytes a texel");
     let [width, height] = [picture.width, picture.height].map(|size| size.div_ceil(2));
-    let texel = |x: u32, y: u32, channel: usize| {
-        let (x, y) = (x.min(picture.width - 1), y.min(picture.height - 1));
-        u32::from(picture.texels[(y as usize * picture.width as usize + x as usize) * 4 + channel])
-    };
-    let mut texels = Vec::with_capacity(width as usize * height as usize * 4);
-    for y in 0..height {
-        for x in 0..width {
-            for channel in 0..4 {
-                let four = [(0, 0), (1, 0), (0, 1), (1, 1)]
-                    .map(|(right, down)| texel(2 * x + right, 2 * y + down, channel));
-                texels.push(match channel < 3 {
-                    true => encoded(four.iter().map(|&byte| linear[byte as usize]).sum::<f32>() / 4.0) as u8,
-                    false => ((four.iter().sum::<u32>() + 2) / 4) as u8,
-                });
-            }
-        }
-    }
-    Picture {
-        width,
-        height,
-        texels: Arc::new(texels),
-    }
+    thumbnail(&pixels, width, height).into()
 }
 
 #[cfg(test)]
@@ -157,27 +135,6 @@ mod tests {
             width,
             height,
             texels: Arc::new((0..width * height * 4).map(|k| k as u8).collect()),
-        }
-    }
-
-    /// Black and white are half as bright together, not half as great a byte; opacities are numbers.
-    #[test]
-    fn halves_are_means_of_four() {
-        let half = halved(&picture(4, 2));
-        assert_eq!((half.width, half.height), (2, 1));
-        // Opacity of texels 0, 1, 4 and 5: 3, 7, 19, 23.
-        assert_eq!([half.texels[3], half.texels[7]], [13, 21]);
-        let odd = halved(&picture(3, 1));
-        let last = (odd.width, odd.height, odd.texels[7]);
-        assert_eq!(last, (2, 1, 11), "the last one counts twice");
-        for (rows, expected) in [
-            // 0.5 linear is 187.5 encoded.
-            ([[[0; 4], [255; 4]], [[255; 4], [0; 4]]], [188, 188, 188, 128]),
-            ([[[7, 130, 255, 9]; 2]; 2], [7, 130, 255, 9]),
-        ] {
-            let mut squares = picture(2, 2);
-            squares.texels = Arc::new(rows.as_flattened().as_flattened().to_vec());
-            assert_eq!(*halved(&squares).texels, expected);
         }
     }
 

@@ -6,8 +6,8 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use image::{ImageFormat, Rgba, RgbaImage};
 use lightbvh_scenes::{
-    Animation, Camera, Channel, Influence, Interpolation, Material, Mesh, Node, Primitive, Property, Scene,
-    SceneData, SceneError, Skin, Transform,
+    Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
+    SceneError, Transform,
 };
 use serde_json::{Value, json};
 
@@ -215,46 +215,6 @@ pub fn busy() -> SceneData {
         background: [0.1, 0.2, 0.3],
         ..SceneData::default()
     }
-}
-
-/// Two tetrahedra that glow: one on node 0, bent by two targets whose weights are animated, one on node 1, which two joints bend,
-/// node 2 and, a metre above, node 3, which turns about z.
-pub fn bending() -> SceneData {
-    let still = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
-    let mut raised = still;
-    raised[3][1] = -1.0;
-    let quarter = "0 0 0 1 0 0 0.70710678 0.70710678";
-    let mut data = busy();
-    data.nodes = vec![
-        node(None, Transform::at([5.0, 0.0, 0.0]), Some(0)),
-        node(None, Transform::at([100.0, 0.0, 0.0]), Some(1)),
-        node(None, Transform::at([0.0, 0.0, 2.0]), None),
-        node(Some(2), Transform::at([0.0, 1.0, 0.0]), None),
-        node(None, Transform::at([0.0, 0.0, 20.0]), None),
-    ];
-    data.nodes[0].weights = vec![0.5, 0.25];
-    data.nodes[1].skin = Some(0);
-    data.cameras[0].node = 4;
-    let (mut morphed, mut skinned) = (tetrahedron(0, None), tetrahedron(0, None));
-    morphed.targets = vec![vec![[0.0, 0.0, 1.0]; 4], Vec::new()];
-    skinned.radiance = Some(vec![[1.0; 3], [0.0; 3], [2.0; 3], [3.0; 3]]);
-    let influences = [[1.0, 0.0], [0.0, 0.5], [1.0, 1.0], [0.0; 2]].map(|[a, b]| Influence {
-        joints: [0, 1, 0, 0],
-        weights: [a, b, 0.0, 0.0],
-    });
-    skinned.influences = vec![influences.to_vec()];
-    data.meshes = vec![mesh(vec![morphed]), mesh(vec![skinned])];
-    data.skins = vec![Skin {
-        joints: vec![2, 3],
-        // The second joint's own space begins a metre up.
-        inverse_bind: vec![still, raised],
-    }];
-    data.animations.truncate(1);
-    data.animations[0].channels = vec![
-        channel(3, Property::Rotation, Interpolation::Step, "0 1", quarter),
-        channel(0, Property::Weights(2), Interpolation::Linear, "0 2", "0 0 3 1"),
-    ];
-    data
 }
 
 fn tetrahedron(material: u32, radiance: Option<Vec<[f32; 3]>>) -> Primitive {

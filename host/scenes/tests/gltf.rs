@@ -1,12 +1,11 @@
 //! What is read of a glTF file, what is left out, and what is written.
 
+use glam::Vec3;
 use lightbvh::light::TWO_SIDED;
 use lightbvh_scenes::{Frame, Scene};
 use serde_json::{Value, json};
 
-use crate::files::{
-    add_view, bending, busy, bytes, changed, embedded, push, read, read_json, refused, triangle,
-};
+use crate::files::{busy, bytes, changed, embedded, push, read, read_json, refused, triangle};
 
 fn frame(root: &Value) -> Frame {
     read_json(root).frame(0)
@@ -49,12 +48,10 @@ fn mirrored_instances_keep_their_front() {
 
 #[test]
 fn every_kind_of_element_survives_the_way_through_glb() {
-    for data in [busy(), bending()] {
-        let scene = Scene::new(data).expect("a sound scene");
-        let back = read(&scene.to_glb().expect("it can be written")).expect("and read back");
-        for frame in 0..80 {
-            assert_eq!(scene.frame(frame), back.frame(frame), "frame {frame}");
-        }
+    let scene = Scene::new(busy()).expect("a sound scene");
+    let back = read(&scene.to_glb().expect("it can be written")).expect("and read back");
+    for frame in 0..80 {
+        assert_eq!(scene.frame(frame), back.frame(frame), "frame {frame}");
     }
 }
 
@@ -85,6 +82,8 @@ fn what_is_left_out_is_noted_once() {
     root["extensionsUsed"] = json!(["KHR_materials_ior", "EXT_of_someone", "KHR_texture_transform"]);
     push(&mut root["scenes"], json!({ "name": "nothing" }));
     root["materials"][0]["alphaMode"] = json!("FOO");
+    root["nodes"][0]["skin"] = json!(0);
+    root["meshes"][0]["primitives"][0]["targets"] = json!([{ "POSITION": 0 }]);
     let list = &mut root["meshes"][0]["primitives"];
     push(list, json!({ "attributes": { "POSITION": 0 }, "mode": 1 }));
     for _ in 0..6 {
@@ -95,6 +94,8 @@ fn what_is_left_out_is_noted_once() {
     let said = scene.warnings();
     for part in [
         "1 channels",
+        "nodes[0]: its skin is left out",
+        "meshes[0].primitives[0]: its morph targets are left out",
         "extension KHR_materials_ior",
         "extension EXT_of_someone",
         "meshes[0].primitives[1]: skipped",
@@ -107,7 +108,7 @@ fn what_is_left_out_is_noted_once() {
             "{part}: {said:?}"
         );
     }
-    assert_eq!(said.len(), 6, "{said:?}");
+    assert_eq!(said.len(), 8, "{said:?}");
     // What else is wrong is said as it was.
     root["scene"] = json!("none");
     assert!(refused(&root).contains("JSON"));
@@ -149,18 +150,6 @@ fn positions_of_every_component_type() {
     }
 }
 
-#[test]
-fn sparse_indices_replace_some() {
-    let mut root = triangle();
-    // Element 1 of 0 1 2 becomes 2, element 2 becomes 1: turned over.
-    let (at, values) = (add_view(&mut root, &[1, 2]), add_view(&mut root, &[2, 0, 1, 0]));
-    root["accessors"][1]["sparse"] = json!({
-        "count": 2, "indices": { "bufferView": at, "componentType": 5121 }, "values": { "bufferView": values },
-    });
-    let expected = [[0.0; 3], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
-    assert_eq!(frame(&root).triangles[0].p, expected);
-}
-
 /// A strip of four vertices: both triangles have their front up.
 #[test]
 fn strips_keep_one_side_in_front() {
@@ -190,42 +179,26 @@ fn a_child_that_the_scene_lists_stays_a_child() {
     }
 }
 
-/// A lamp at a node that has it three times; `counts` are those of translations and rotations.
-fn lamps(counts: [usize; 2]) -> Value {
-    let half = std::f32::consts::FRAC_1_SQRT_2;
-    let numbers = [
-        [1.0, 0.0, 0.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0].as_slice(),
-        &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, half, half, 0.0, 0.0, 1.0, 0.0],
-    ]
-    .concat();
-    let mut root = triangle();
-    add_view(&mut root, &bytes(&numbers));
-    let accessor = |offset, count, shape| json!({ "bufferView": 2, "byteOffset": offset, "componentType": 5126, "count": count, "type": shape });
-    push(&mut root["accessors"], accessor(0, counts[0], "VEC3"));
-    push(&mut root["accessors"], accessor(36, counts[1], "VEC4"));
-    let attributes = json!({ "TRANSLATION": 2, "ROTATION": 3, "_ID": 0 });
-    root["nodes"][0] = json!({ "mesh": 0, "translation": [0, 5, 0], "extensions": {
-        "EXT_mesh_gpu_instancing": { "attributes": attributes }, "KHR_lights_punctual": { "light": 0 },
-    } });
-    root["extensions"] = json!({ "KHR_lights_punctual": { "lights": [{ "type": "point" }] } });
-    root["extensionsRequired"] = json!(["EXT_mesh_gpu_instancing"]);
-    root
-}
-
-/// Each is a mesh light of its own; the light of the node stands once.
 #[test]
-fn instances_are_of_the_mesh() {
-    let scene = read_json(&lamps([3, 3]));
-    let frame = scene.frame(0);
-    assert_eq!((frame.mesh_lights.len(), scene.data().analytic.len()), (3, 1));
-    // The second vertex: one to the right, one up, one to the left of where the instance stands.
-    let expected = [[2.0, 5.0, 0.0], [2.0, 6.0, 0.0], [2.0, 5.0, 0.0]];
-    for (light, expected) in frame.emissive.iter().zip(expected) {
-        let is_there = light.p[1].iter().zip(expected).all(|(x, y)| (x - y).abs() < 1e-6);
-        assert!(is_there, "{:?}", light.p);
+fn scenes_without_a_camera_are_seen_whole() {
+    for scale in [1e-2, 1.0, 1e4] {
+        let file = changed(
+            "/nodes/0",
+            json!({ "mesh": 0, "scale": [scale, scale, scale], "translation": [7, 8, 9] }),
+        );
+        let scene = read_json(&file);
+        let (view, other) = (scene.frame(0).camera, scene.frame(30).camera);
+        assert!(
+            view == other && view.eye[2] > 9.0 && view.right[1].abs() < 1e-6,
+            "{view:?}"
+        );
+        for p in scene.frame(0).triangles[0].p {
+            let d = Vec3::from(p) - Vec3::from(view.eye);
+            let half = d.dot(view.forward.into()) * (0.5 * view.yfov).tan();
+            let place = [view.right, view.up].map(|axis| d.dot(axis.into()) / half);
+            assert!(half > 0.0 && place.iter().all(|x| x.abs() <= 1.0), "{place:?}");
+        }
     }
-    assert_eq!(scene.warnings(), [""; 0]);
-    assert!(refused(&lamps([3, 2])).contains("different numbers"));
 }
 
 #[test]

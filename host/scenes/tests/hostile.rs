@@ -30,7 +30,7 @@ const VALUES: &str = "
 /accessors/1/count | 2 | multiple of 3
 /accessors/0/componentType | 1 | component type
 /accessors/0/type | \"VEC9\" | element type
-/accessors/0 | { \"componentType\": 5126, \"count\": 4000000000, \"type\": \"VEC3\" } | 4000000000
+/accessors/0 | { \"componentType\": 5126, \"count\": 4000000000, \"type\": \"VEC3\" } | has no bufferView
 /bufferViews/0/byteLength | 18446744073709551615 | claims
 /bufferViews/0/byteStride | 3 | stride
 /bufferViews/0/buffer | 1 | buffer 1

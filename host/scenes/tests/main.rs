@@ -1,10 +1,9 @@
 //! What files hold, and what a scene is made of them.
 
-mod bend;
 mod built_in;
 mod files;
-mod framing;
 mod gltf;
 mod hostile;
+mod lights;
 mod packed;
 mod surfaces;

@@ -12,7 +12,7 @@ use serde_json::json;
 
 use self::options::recipe;
 use self::sequence::Sequence;
-use self::view::{camera_words, check_places, seen_by};
+use self::view::{check_places, seen_by};
 use super::reading::BackendName;
 use super::{Context, Outcome, devices, frames, table, target};
 use crate::cli::table::news;
@@ -95,7 +95,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     };
     if context.json {
         table::print_json(&json!({
-            "scene": scene.name(), "backend": name, "camera_chosen": camera_words(&scene), "frames": shown,
+            "scene": scene.name(), "backend": name, "frames": shown,
         }))?;
     }
     Ok(Outcome::Good)

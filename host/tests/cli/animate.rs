@@ -89,7 +89,7 @@ fn animations_are_named_in_errors() {
     let output = run(&format!("render {path} {small}"));
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(
-        output.status.success() && said.contains("animations 1") && said.len() < 2000,
+        output.status.success() && said.contains("animation 1 ") && said.len() < 2000,
         "{said}"
     );
     clips.swap(0, 2);

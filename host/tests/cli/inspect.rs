@@ -139,44 +139,16 @@ fn words_are_for_people() {
     }
 }
 
-/// The same animation twice, and before them one of the same name that keeps all where it is.
-fn with_clips(folder: &Folder) -> String {
-    let still = vec![Keys::new(LAMP, "translation", &[(0.0, [0.0; 3])])];
-    let clips = [("Idle".to_owned(), still), moving("Walk"), moving("Idle")];
-    room(folder, "clips", 1.0, &clips)
-}
-
-/// A file does not say which of its animations is shown: a lamp that a later one moves does move.
+/// The file does not say which of animations that move the same lamp is meant.
 #[test]
-fn each_animation_is_looked_at() {
+fn first_animation_of_a_lamp_is_shown() {
     let folder = Folder::new("clips");
-    let path = with_clips(&folder);
+    let path = room(&folder, "clips", 1.0, &[moving("Idle"), moving("Walk")]);
     let report = report(&format!("inspect {path} --points 16 --json"));
-    assert_eq!(report["motion"], json!({ "moving": 1, "bending": 0 }));
+    assert_eq!(report["motion"], json!({ "moving": 1 }));
     assert_eq!(report["model"]["updates"], "all");
-    let shown: Vec<&Value> = report["animations"]
-        .as_array()
-        .expect("animations")
-        .iter()
-        .map(|own| &own["shown"])
-        .collect();
-    assert_eq!(shown, [true, false, false]);
+    assert_eq!(report["animations"], json!([{ "number": 0, "name": "Idle" }]));
     let dark = room(&folder, "dark", 0.0, &[]);
     let said = refused(&format!("inspect {dark}"));
     assert!(said.contains("dark"), "{said}");
-}
-
-/// As many and in the order as the file has them.
-#[test]
-fn written_file_keeps_all_animations() {
-    let folder = Folder::new("chosen");
-    let path = with_clips(&folder);
-    let written = folder.file("written.glb");
-    assert!(run(&format!("export {path} -o {written}")).status.success());
-    let bytes = std::fs::read(&written).expect("a scene");
-    let length = u32::from_le_bytes(bytes[12..16].try_into().expect("four")) as usize;
-    let root: Value = serde_json::from_slice(&bytes[20..20 + length]).expect("JSON");
-    let clips = root["animations"].as_array().expect("a list");
-    let names: Vec<&Value> = clips.iter().map(|clip| &clip["name"]).collect();
-    assert_eq!(names, ["Idle", "Walk", "Idle"]);
 }

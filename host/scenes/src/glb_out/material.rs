@@ -74,14 +74,15 @@ impl Textures {
             Wrap::Clamp => 33_071,
             Wrap::Mirror => 33_648,
         };
-        let sampler = json!({
+        self.samplers.push(json!({
             "wrapS": wrap(texture.wrap[0]),
             "wrapT": wrap(texture.wrap[1]),
             "magFilter": if texture.is_nearest { 9728 } else { 9729 },
-        });
-        let sampler = listed(&mut self.samplers, sampler);
-        let own = json!({ "source": texture.picture, "sampler": sampler });
-        let mut info = json!({ "index": listed(&mut self.textures, own) });
+        }));
+        let index = self.textures.len();
+        self.textures
+            .push(json!({ "source": texture.picture, "sampler": index }));
+        let mut info = json!({ "index": index });
         if texture.transform != IN_PLACE {
             self.has_transforms = true;
             let [x, y, offset] = texture.transform.map(|column| column.map(f64::from));
@@ -94,13 +95,4 @@ impl Textures {
         }
         info
     }
-}
-
-/// The number of an entry of a list, which is added where it is not there.
-fn listed(list: &mut Vec<Value>, own: Value) -> usize {
-    let known = list.iter().position(|other| *other == own);
-    known.unwrap_or_else(|| {
-        list.push(own);
-        list.len() - 1
-    })
 }

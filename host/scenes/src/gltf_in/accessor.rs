@@ -1,8 +1,6 @@
 //! Accessors, read with every range checked (glTF 2.0, section 3.6.2).
 
-use std::borrow::Cow;
-
-use gltf::json::accessor::{Accessor, ComponentType, GenericComponentType, IndexComponentType};
+use gltf::json::accessor::{Accessor, ComponentType, GenericComponentType};
 use gltf::json::validation::Checked;
 use gltf::json::{self, Index, buffer};
 
@@ -12,7 +10,7 @@ use super::{DAMAGED, Document};
 /// The elements of an accessor, or of a part of one.
 struct Elements<'a> {
     /// From the first element on.
-    bytes: Cow<'a, [u8]>,
+    bytes: &'a [u8],
     stride: usize,
     count: usize,
     component: ComponentType,
@@ -56,7 +54,7 @@ impl Document<'_> {
         Ok((0..own.count).map(|i| own.unsigned(i)).collect())
     }
 
-    /// Takes memory for all elements, or so many, and replaces those that are sparse.
+    /// Takes memory for all elements, or so many.
     fn elements(
         &self,
         index: Index<Accessor>,
@@ -76,69 +74,16 @@ impl Document<'_> {
         let bytes = taken
             .map_or(count, |taken| taken as u64)
             .saturating_mul(4 * numbers as u64);
-        let take = || self.load.take(name, "the list of elements", bytes);
-        let mut own = match accessor.buffer_view {
-            Some(view) => {
-                let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
-                let own = self.within(name, view, offset, count, (component, numbers))?;
-                take()?;
-                own
-            }
-            None => {
-                // Of a small file there are few zeros.
-                let all_bytes: u64 = self.buffers.iter().map(|buffer| buffer.len() as u64).sum();
-                if count > all_bytes {
-                    let problem = format!(
-                        "is {count} zeros without a bufferView, more than the {all_bytes} bytes of all buffers"
-                    );
-                    return Err(self.malformed(name, problem, "give it a bufferView, or fewer elements"));
-                }
-                take()?;
-                let stride = component.size() * numbers;
-                Elements {
-                    bytes: vec![0; stride * count as usize].into(),
-                    stride,
-                    count: count as usize,
-                    component,
-                    numbers,
-                    normalized: false,
-                }
-            }
+        let (Some(view), None) = (accessor.buffer_view, &accessor.sparse) else {
+            let problem = "has no bufferView, or is sparse, which is not read";
+            return Err(self.malformed(name, problem, "export the file without sparse accessors"));
         };
+        let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
+        let mut own = self.within(name, view, offset, count, (component, numbers))?;
+        self.load.take(name, "the list of elements", bytes)?;
         own.normalized = accessor.normalized;
         check(&own).map_err(|problem| self.malformed(name, problem, DAMAGED))?;
-        if let Some(sparse) = &accessor.sparse {
-            self.substitute(&mut own, sparse, name)?;
-        }
         Ok(own)
-    }
-
-    /// Replaces single elements (glTF 2.0, section 3.6.2.3).
-    fn substitute(
-        &self,
-        own: &mut Elements<'_>,
-        sparse: &json::accessor::sparse::Sparse,
-        name: &str,
-    ) -> Result<(), SceneError> {
-        let Checked::Valid(IndexComponentType(component)) = sparse.indices.component_type else {
-            return Err(self.malformed(name, "has sparse indices of an unknown type", DAMAGED));
-        };
-        let (indices, values, count) = (&sparse.indices, &sparse.values, sparse.count.0);
-        let offsets = [indices.byte_offset.0, values.byte_offset.0];
-        let at = self.within(name, indices.buffer_view, offsets[0], count, (component, 1))?;
-        let shape = (own.component, own.numbers);
-        let new = self.within(name, values.buffer_view, offsets[1], count, shape)?;
-        let size = own.component.size() * own.numbers;
-        for i in 0..at.count {
-            let target = at.unsigned(i) as usize;
-            if target >= own.count {
-                let problem = format!("substitutes element {target} of {}", own.count);
-                return Err(self.malformed(name, problem, DAMAGED));
-            }
-            let (to, from) = (target * own.stride, i * new.stride);
-            own.bytes.to_mut()[to..to + size].copy_from_slice(&new.bytes[from..from + size]);
-        }
-        Ok(())
     }
 
     /// `count` elements of a view from `offset` on, all inside it.
@@ -168,7 +113,7 @@ impl Document<'_> {
             return Err(self.malformed(name, problem, DAMAGED));
         };
         Ok(Elements {
-            bytes: bytes[offset as usize..].into(),
+            bytes: &bytes[offset as usize..],
             stride,
             count: count as usize,
             component,

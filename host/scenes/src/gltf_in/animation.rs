@@ -1,18 +1,19 @@
 //! Animations of nodes.
 
+use std::collections::HashSet;
+use std::mem::discriminant;
+
 use gltf::json;
 use gltf::json::validation::Checked::{Invalid, Valid};
 
 use super::super::error::SceneError;
 use super::super::model::{Animation, Channel, Interpolation, Property};
-use super::{DAMAGED, Document};
+use super::Document;
 
-/// Animations, and the places and names of those that move nothing of the scene.
-type All = (Vec<Animation>, Vec<(u32, String)>);
-
-/// All animations; `place` is where each of the file's nodes went.
-pub(super) fn read(document: &Document<'_>, place: &[Option<u32>]) -> Result<All, SceneError> {
-    let (mut animations, mut idle) = (Vec::new(), Vec::new());
+/// The animations that move something of the scene; `place` is where each of the file's nodes went. One that moves what one before
+/// it does is left out with a note: the format does not say which is meant.
+pub(super) fn read(document: &Document<'_>, place: &[Option<u32>]) -> Result<Vec<Animation>, SceneError> {
+    let (mut animations, mut moved) = (Vec::new(), HashSet::new());
     for (a, animation) in document.root.animations.iter().enumerate() {
         let mut channels = Vec::new();
         for (c, channel) in animation.channels.iter().enumerate() {
@@ -20,17 +21,20 @@ pub(super) fn read(document: &Document<'_>, place: &[Option<u32>]) -> Result<All
             channels.extend(one(document, animation, channel, place, &element)?);
         }
         let name = animation.name.clone().unwrap_or_else(|| format!("animation {a}"));
-        let place = a as u32;
-        match channels.is_empty() {
-            true => idle.push((place, name)),
-            false => animations.push(Animation {
-                name,
-                place,
-                channels,
-            }),
+        let own = Animation {
+            name,
+            place: a as u32,
+            channels,
+        };
+        let what = |own: &Channel| (own.node, discriminant(&own.property));
+        if own.channels.iter().any(|own| moved.contains(&what(own))) {
+            document.note(&own.shown(), "it moves what one before it does, and is left out");
+        } else if !own.channels.is_empty() {
+            moved.extend(own.channels.iter().map(what));
+            animations.push(own);
         }
     }
-    Ok((animations, idle))
+    Ok(animations)
 }
 
 /// One channel, or `None` where it moves nothing that is used.
@@ -70,23 +74,8 @@ fn one(
             let values = document.floats::<4>(sampler.output, element, None)?;
             (Property::Rotation, values.into_flattened())
         }
-        Valid(json::animation::Property::MorphTargetWeights) => {
-            let values = document
-                .floats::<1>(sampler.output, element, None)?
-                .into_flattened();
-            let rows = match interpolation {
-                Interpolation::CubicSpline => 3 * times.len(),
-                _ => times.len(),
-            };
-            let targets = values.len().checked_div(rows).unwrap_or(0);
-            if targets == 0 || targets * rows != values.len() {
-                let problem = format!("has {} weights for {rows} rows of them", values.len());
-                return Err(document.malformed(element, problem, DAMAGED));
-            }
-            (Property::Weights(targets as u32), values)
-        }
-        Invalid => {
-            let what = "skipped, as only translation, rotation, scale and weights are animated";
+        Valid(json::animation::Property::MorphTargetWeights) | Invalid => {
+            let what = "skipped, as only translation, rotation and scale are animated";
             document.note(element, what);
             return Ok(None);
         }

@@ -1,4 +1,4 @@
-//! Extensions: which are read, which change nothing that is used here, which are refused.
+//! Extensions: which are read, which are ignored, which are refused.
 
 use gltf::json;
 use serde::de::DeserializeOwned;
@@ -8,28 +8,18 @@ use super::super::error::{SceneError, not_compiled};
 use super::Document;
 
 /// Extensions that are read, and whether the feature `formats` is needed for it.
-const READ: [(&str, bool); 13] = [
+const READ: [(&str, bool); 11] = [
     ("EXT_lights_ies", false),
-    ("EXT_mesh_gpu_instancing", false),
     ("EXT_meshopt_compression", true),
     ("EXT_texture_webp", true),
     ("KHR_draco_mesh_compression", true),
     ("KHR_lights_punctual", false),
     ("KHR_materials_emissive_strength", false),
-    ("KHR_materials_pbrSpecularGlossiness", false),
     ("KHR_materials_transmission", false),
     ("KHR_mesh_quantization", false),
     ("KHR_meshopt_compression", true),
     ("KHR_texture_basisu", true),
     ("KHR_texture_transform", false),
-];
-
-/// Extensions that only add what a renderer of lights has no use for: a file that requires one is shown nevertheless.
-const HARMLESS: [&str; 4] = [
-    "KHR_xmp",
-    "KHR_xmp_json_ld",
-    "EXT_structural_metadata",
-    "EXT_mesh_features",
 ];
 
 /// What refines surfaces; without it they look plainer.
@@ -42,7 +32,7 @@ impl Document<'_> {
             let name = name.as_str();
             match READ.iter().find(|(read, _)| *read == name) {
                 Some((_, true)) if !cfg!(feature = "formats") => return Err(not_compiled(self.path, name)),
-                None if !HARMLESS.contains(&name) && !name.starts_with(LOOK) => {
+                None if !name.starts_with(LOOK) => {
                     let (element, problem) = (
                         format!("extensionsRequired[{index}]"),
                         format!("{name} is not supported"),
@@ -100,7 +90,7 @@ mod tests {
     fn documentation_names_every_extension_that_is_read() {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/scenes.md");
         let text = std::fs::read_to_string(path).expect("docs/scenes.md");
-        for name in READ.iter().map(|(name, _)| name).chain(&HARMLESS) {
+        for name in READ.iter().map(|(name, _)| name) {
             assert!(text.contains(&format!("`{name}`")), "{name}");
         }
     }

@@ -8,16 +8,14 @@ use image::RgbaImage;
 use super::super::error::SceneError;
 use super::super::glow::Glows;
 use super::super::paint::Picture;
-use super::super::pictures::{self, undecoded};
+use super::super::pictures;
 use super::{Document, container, ktx2};
 
 /// What has been decoded.
 #[derive(Default)]
 pub(super) struct Pictures {
-    /// By number in the file; `None` where it cannot be had.
-    decoded: HashMap<usize, Option<Picture>>,
-    /// Means by picture.
-    pub means: HashMap<usize, [f32; 4]>,
+    /// By number in the file, with its mean; `None` where it cannot be had.
+    decoded: HashMap<usize, Option<(Picture, [f32; 4])>>,
     /// Those that the scene keeps: their numbers in the file.
     kept: Vec<u32>,
     /// What is known of those that glow.
@@ -38,21 +36,25 @@ impl Pictures {
     /// What is kept, by number in the scene.
     pub(super) fn into_kept(mut self) -> Vec<Picture> {
         let kept = self.kept.iter();
-        kept.filter_map(|&index| self.decoded.remove(&(index as usize))?)
+        kept.filter_map(|&index| Some(self.decoded.remove(&(index as usize))??.0))
             .collect()
     }
 }
 
 impl Document<'_> {
-    /// Picture `index`, which must be in the list; `None` where it cannot be had, which is noted.
-    pub(super) fn picture(&self, index: usize) -> Result<Option<Picture>, SceneError> {
+    /// Picture `index`, which must be in the list, and its [mean](pictures::mean_of); `None` where it cannot be had, which is noted.
+    pub(super) fn picture(&self, index: usize) -> Result<Option<(Picture, [f32; 4])>, SceneError> {
         if let Some(known) = self.pictures.borrow().decoded.get(&index) {
             return Ok(known.clone());
         }
         let (image, name) = (&self.root.images[index], format!("images[{index}]"));
         let encoded = container::uri_or_view(self, image.uri.as_deref(), image.buffer_view, &name);
         let picture = match encoded.and_then(|bytes| self.decode(&name, &bytes)) {
-            Ok(pixels) => Some(Picture::from(pixels)),
+            Ok(pixels) => {
+                let picture = Picture::from(pixels);
+                let mean = pictures::mean_of(&picture);
+                Some((picture, mean))
+            }
             Err(error) if error.ends_the_load() => return Err(error),
             Err(error) => {
                 let what = format!("counts as white, where it is what glows as black: {error}");
@@ -66,11 +68,9 @@ impl Document<'_> {
 
     fn decode(&self, name: &str, bytes: &[u8]) -> Result<RgbaImage, SceneError> {
         let pixels = if bytes.starts_with(&ktx2::IDENTIFIER) {
-            let header = ktx2::Header::read(bytes).map_err(|problem| undecoded(name, problem))?;
-            self.load.check(name, "a picture, decoded,", header.bytes())?;
-            header.decode(name, bytes)?
+            ktx2::decode(self.load, name, bytes)?
         } else {
-            pictures::decode_surface(self.load, name, bytes, None)?
+            pictures::decode_surface(self.load, name, bytes)?
         };
         self.load.take(name, "a picture", pixels.as_raw().len() as u64)?;
         Ok(pixels)

@@ -12,7 +12,6 @@ use super::super::glow::Glow;
 use super::super::model::Material;
 use super::super::paint::Paint;
 use super::Document;
-use super::texture::Named;
 
 /// A material, and the texture that its radiance is multiplied by, triangle by triangle.
 #[derive(Clone, Default)]
@@ -48,11 +47,8 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
         roughness: pbr.roughness_factor.0,
         ..Material::default()
     };
-    let (mut factor, mut texture) = (pbr.base_color_factor.0, pbr.base_color_texture.as_ref());
-    if let Some(glossiness) = &extensions.pbr_specular_glossiness {
-        (factor, texture) = (glossiness.diffuse_factor.0, glossiness.diffuse_texture.as_ref());
-        (out.metallic, out.roughness) = (0.0, 1.0 - glossiness.glossiness_factor.0);
-    } else if pbr.metallic_roughness_texture.is_some() {
+    let (mut factor, texture) = (pbr.base_color_factor.0, pbr.base_color_texture.as_ref());
+    if pbr.metallic_roughness_texture.is_some() {
         // A textured metallic factor of 1 (the default) says nothing about the surface; most of such surfaces are not metal.
         out.metallic = 0.0;
     }
@@ -102,7 +98,7 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
         ..Paint::PLAIN
     };
     let of = |info: Option<&Info>| match info {
-        Some(info) => document.placed(&Named::from(info), element),
+        Some(info) => document.placed(info, element),
         None => Ok(None),
     };
     let base = of(texture)?;

@@ -10,7 +10,7 @@ use super::super::error::SceneError;
 use super::super::model::{Mesh, Primitive};
 use super::attributes::Attributes;
 use super::material::Look;
-use super::{DAMAGED, Document, RADIANCE_ATTRIBUTE, bend};
+use super::{DAMAGED, Document, RADIANCE_ATTRIBUTE};
 
 /// All meshes. Primitives without a material get one that is appended to `looks`.
 pub(super) fn read(document: &Document<'_>, looks: &mut Vec<Look>) -> Result<Vec<Mesh>, SceneError> {
@@ -67,6 +67,9 @@ fn one(
     if attributes.accessor(Semantic::Colors(0)).is_some() {
         document.note(element, "its vertex colours are left out");
     }
+    if primitive.targets.is_some() {
+        document.note(element, "its morph targets are left out");
+    }
     let vertices = match &attributes.draco {
         Some(draco) => draco.vertices,
         None => document.count(index, element)?,
@@ -79,8 +82,6 @@ fn one(
         material: material as u32,
         radiance: radiance(document, &attributes, look, &triangles, rows)?,
         coordinates: coordinates(document, &attributes, look, rows)?,
-        targets: bend::targets(document, primitive, rows, element)?,
-        influences: bend::influences(document, &attributes, rows)?,
         triangles,
     }))
 }

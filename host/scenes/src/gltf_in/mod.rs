@@ -5,12 +5,10 @@
 //! allocated for it.
 //!
 //! Read:
-//! - triangles, strips and fans, in plain, sparse and quantised accessors (`KHR_mesh_quantization`), compressed views
+//! - triangles, strips and fans, in plain and quantised accessors (`KHR_mesh_quantization`), compressed views
 //!   (`EXT_meshopt_compression`, `KHR_meshopt_compression`) and Draco streams (`KHR_draco_mesh_compression`);
-//! - instances (`EXT_mesh_gpu_instancing` too), animation of nodes and of weights in all interpolations, skins and morph
-//!   targets, perspective cameras;
-//! - metallic-roughness factors and base colour textures, or specular-glossiness factors
-//!   (`KHR_materials_pbrSpecularGlossiness`); emission by factor, texture (averaged per triangle where lights are chosen) and
+//! - instances, animation of nodes in all interpolations, perspective cameras;
+//! - metallic-roughness factors and base colour textures; emission by factor, texture (averaged per triangle where lights are chosen) and
 //!   `KHR_materials_emissive_strength`; `doubleSided`; alpha that cuts out, blended alpha as if cut at a half;
 //! - pictures in PNG, JPEG, WebP (`EXT_texture_webp`) and KTX 2 by Basis Universal (`KHR_texture_basisu`), placed by
 //!   `KHR_texture_transform`. One that cannot be had is noted and counts
@@ -27,12 +25,10 @@
 mod accessor;
 mod animation;
 mod attributes;
-mod bend;
 mod container;
 mod draco;
 mod extensions;
 mod image;
-mod instancing;
 mod ktx2;
 mod light;
 mod material;
@@ -103,13 +99,11 @@ impl Scene {
         data.meshes = mesh::read(&document, &mut looks)?;
         data.materials = looks.into_iter().map(|look| look.material).collect();
         let order = node::read(&document, &mut data)?;
-        bend::skins(&document, &order, &mut data)?;
         light::punctual(&document, &order, &mut data);
         light::measured(&document, &order, &mut data)?;
-        (data.animations, data.idle) = animation::read(&document, &order)?;
+        data.animations = animation::read(&document, &order)?;
         data.pictures = document.pictures.take().into_kept();
         data.warnings = document.notes.take().into_warnings();
-        data.part_clips();
         Self::loaded(data, load)
     }
 }

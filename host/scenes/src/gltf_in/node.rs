@@ -8,8 +8,7 @@ use gltf::json;
 use super::super::error::SceneError;
 use super::super::model::{Camera, Node, SceneData};
 use super::super::transform::Transform;
-use super::bend::columns;
-use super::{BACKGROUND_EXTRA, Document, instancing};
+use super::{BACKGROUND_EXTRA, Document};
 
 /// Fills nodes, cameras and background; gives the place of each of the file's nodes, `None` where the scene does not
 /// use it. Lowest index first among nodes whose parent is placed: files that are in order keep their order.
@@ -98,14 +97,13 @@ fn add(
     if let Some(mesh) = node.mesh {
         document.get(&document.root.meshes, mesh, "mesh", &element)?;
     }
-    if let Some(skin) = node.skin {
-        document.get(&document.root.skins, skin, "skin", &element)?;
+    if node.skin.is_some() {
+        document.note(
+            &element,
+            "its skin is left out, and its mesh stands as it is modelled",
+        );
     }
     let mesh = node.mesh.map(|mesh| mesh.value() as u32);
-    let skin = node.skin.map(|skin| skin.value() as u32);
-    // A node's own weights come before its mesh's.
-    let of_mesh = mesh.and_then(|mesh| document.root.meshes[mesh as usize].weights.clone());
-    let weights = node.weights.clone().or(of_mesh).unwrap_or_default();
     if let Some(index) = node.camera {
         let camera = document.get(&document.root.cameras, index, "camera", &element)?;
         let node = data.nodes.len() as u32;
@@ -115,37 +113,12 @@ fn add(
         }
     }
     let name = node.name.clone().unwrap_or_else(|| format!("node {index}"));
-    let own = data.nodes.len() as u32;
-    let instances = match mesh {
-        Some(_) => instancing::places(document, node, &element)?,
-        None => None,
-    };
-    let is_repeated = instances.is_some();
-    let node = Node {
+    data.nodes.push(Node {
         name,
         parent,
         transform: transform(node),
         mesh,
-        skin,
-        weights,
-    };
-    let repeated = instances
-        .into_iter()
-        .flatten()
-        .enumerate()
-        .map(|(i, transform)| Node {
-            name: format!("{} {i}", node.name),
-            parent: Some(own),
-            transform,
-            skin: None,
-            ..node.clone()
-        });
-    let repeated: Vec<Node> = repeated.collect();
-    data.nodes.push(Node {
-        mesh: mesh.filter(|_| !is_repeated),
-        ..node
     });
-    data.nodes.extend(repeated);
     Ok(())
 }
 
@@ -158,6 +131,11 @@ fn transform(node: &json::Node) -> Transform {
             scale: node.scale.unwrap_or([1.0; 3]),
         },
     }
+}
+
+/// The columns of an affine matrix, whose last row is (0, 0, 0, 1) (glTF 2.0, section 3.5.3).
+fn columns(m: &[f32; 16]) -> [[f32; 3]; 4] {
+    [0, 4, 8, 12].map(|column| [m[column], m[column + 1], m[column + 2]])
 }
 
 /// From the scene's extras; black where there is none.

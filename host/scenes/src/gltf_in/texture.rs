@@ -9,26 +9,7 @@ use serde::Deserialize;
 use super::super::error::SceneError;
 use super::super::glow::Glow;
 use super::super::paint::{IN_PLACE, Picture, Texture, Wrap};
-use super::super::pictures::mean_of;
 use super::Document;
-
-/// A texture as a material names it.
-pub(super) struct Named {
-    pub index: json::Index<json::Texture>,
-    pub set: u32,
-    pub transform: Option<TextureTransform>,
-}
-
-impl From<&Info> for Named {
-    fn from(info: &Info) -> Self {
-        let extensions = info.extensions.as_ref();
-        Self {
-            index: info.index,
-            set: info.tex_coord,
-            transform: extensions.and_then(|own| own.texture_transform.clone()),
-        }
-    }
-}
 
 /// A texture with its picture, and which set of coordinates it lies by.
 pub(super) struct Placed {
@@ -72,11 +53,11 @@ const SOURCES: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 
 impl Document<'_> {
     /// The texture that a material names; `None` where its picture cannot be had, which is noted.
-    pub(super) fn placed(&self, named: &Named, element: &str) -> Result<Option<Placed>, SceneError> {
-        let Some((number, picture)) = self.picture_of(named.index, element)? else {
+    pub(super) fn placed(&self, info: &Info, element: &str) -> Result<Option<Placed>, SceneError> {
+        let Some((number, (picture, _))) = self.picture_of(info.index, element)? else {
             return Ok(None);
         };
-        let texture = self.get(&self.root.textures, named.index, "texture", element)?;
+        let texture = self.get(&self.root.textures, info.index, "texture", element)?;
         let (mut wrap, mut is_nearest) = ([Wrap::Repeat; 2], false);
         if let Some(sampler) = texture.sampler {
             let sampler = self.get(&self.root.samplers, sampler, "sampler", element)?;
@@ -87,39 +68,34 @@ impl Document<'_> {
                 _ => Wrap::Repeat,
             });
         }
+        let transform = info
+            .extensions
+            .as_ref()
+            .and_then(|own| own.texture_transform.as_ref());
         Ok(Some(Placed {
             texture: Texture {
                 picture: number as u32,
                 is_nearest,
                 wrap,
-                transform: named.transform.as_ref().map_or(IN_PLACE, columns),
+                transform: transform.map_or(IN_PLACE, columns),
             },
             picture,
-            set: named
-                .transform
-                .as_ref()
-                .and_then(|own| own.tex_coord)
-                .unwrap_or(named.set),
+            set: transform.and_then(|own| own.tex_coord).unwrap_or(info.tex_coord),
         }))
     }
 
     /// The mean of a texture, linear red, green, blue, and alpha; `None` as for [`placed`](Self::placed).
     pub(super) fn mean(&self, info: &Info, element: &str) -> Result<Option<[f32; 4]>, SceneError> {
-        let Some((number, picture)) = self.picture_of(info.index, element)? else {
-            return Ok(None);
-        };
-        // Many materials share a picture.
-        let mut pictures = self.pictures.borrow_mut();
-        let mean = pictures.means.entry(number);
-        Ok(Some(*mean.or_insert_with(|| mean_of(&picture))))
+        let found = self.picture_of(info.index, element)?;
+        Ok(found.map(|(_, (_, mean))| mean))
     }
 
-    /// The first picture of a texture that can be decoded, with its number.
+    /// The first picture of a texture that can be decoded, with its number and its mean.
     fn picture_of(
         &self,
         index: json::Index<json::Texture>,
         element: &str,
-    ) -> Result<Option<(usize, Picture)>, SceneError> {
+    ) -> Result<Option<(usize, (Picture, [f32; 4]))>, SceneError> {
         let texture = self.get(&self.root.textures, index, "texture", element)?;
         let name = format!("textures[{}]", index.value());
         let mut pictures = Vec::new();

@@ -21,7 +21,7 @@ use super::{Context, Outcome, table};
 use crate::cli::measure::{NOT_MEASURED, points};
 use crate::cli::table::{news, yes};
 use crate::error::HostError;
-use crate::scene::{Instances, Primitive, Property, Scene, SceneData};
+use crate::scene::{Instances, Primitive, Scene, SceneData};
 use crate::workload::{lights_at, lights_of};
 
 /// Probabilities that are compared at once: a scene of more lights is looked at from fewer points.
@@ -71,13 +71,6 @@ struct Fact {
     reason: String,
 }
 
-/// How many nodes with lights the scene's animations move, and the meshes of how many they deform.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
-struct Motion {
-    moving: usize,
-    bending: usize,
-}
-
 /// Materials by what matters to the choice of a light.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Surfaces {
@@ -92,20 +85,26 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     }
     scene.require_any_light()?;
     let others_alone = scene.emissive_count() == 0;
-    let motion = Motion::of(scene.data(), others_alone);
+    let moving = moving(scene.data(), others_alone);
     let surfaces = Surfaces::of(scene.data());
-    let declared = declared(args, motion);
+    let declared = declared(args, moving);
     // A refitted tree is looked at after a refit.
     let frames = [args.frame, args.frame + u32::from(declared.transforms)];
     let mut report = json!({
         "scene": scene.name(), "frame": frames[0], "checked_frame": frames[1],
-        "motion": motion, "animations": animations(&scene), "surfaces": surfaces,
+        "motion": { "moving": moving }, "animations": animations(&scene), "surfaces": surfaces,
     });
-    let about = line("animation", &motion.said());
+    let about = line(
+        "animation",
+        &match moving {
+            0 => "no: no animation moves a node with lights".to_owned(),
+            _ => format!("yes: nodes with lights move: {moving}"),
+        },
+    );
     if others_alone {
         return without_triangles(context, &scene, (args.frame, declared), (report, &about));
     }
-    if let Some(left_out) = scene.unknown_in_figures() {
+    if let Some(left_out) = scene.unknown_lights() {
         news!("{}: {left_out}", scene.name());
     }
     let (bvh, _) =
@@ -226,82 +225,46 @@ fn without_triangles(
     Ok(Outcome::Good)
 }
 
-/// All animations of the file, by their numbers.
+/// The animations, by their numbers in the file.
 fn animations(scene: &Scene) -> Value {
-    let data = scene.data();
-    let shown = data
-        .animations
-        .iter()
-        .map(|own| (own.place, &own.name, true, true));
-    let clips = data.clips.iter().map(|own| (own.place, &own.name, false, true));
-    let idle = data.idle.iter().map(|(place, name)| (*place, name, false, false));
-    let mut all: Vec<_> = shown.chain(clips).chain(idle).collect();
-    all.sort_by_key(|&(place, ..)| place);
-    all.into_iter()
-        .map(|(place, name, is_shown, moves)| json!({ "number": place, "name": name, "shown": is_shown, "moves": moves }))
+    let all = scene.data().animations.iter();
+    all.map(|own| json!({ "number": own.place, "name": own.name }))
         .collect()
 }
 
-fn declared(args: &Args, motion: Motion) -> Declared {
+fn declared(args: &Args, moving: usize) -> Declared {
     let has = |change| !args.still && args.changes.contains(&change);
     Declared {
-        transforms: has(Change::Transforms) || !args.still && motion.moving > 0,
+        transforms: has(Change::Transforms) || !args.still && moving > 0,
         radiance: has(Change::Radiance),
-        triangles: has(Change::Triangles) || !args.still && motion.bending > 0,
+        triangles: has(Change::Triangles),
         instances: has(Change::Instances),
         meshes: has(Change::Meshes),
     }
 }
 
-impl Motion {
-    /// Of the targets of all animations, shown or not: nodes with emissive meshes, or `with_others` too.
-    fn of(data: &SceneData, with_others: bool) -> Self {
-        let (mut moves, mut morphs) = (vec![false; data.nodes.len()], vec![false; data.nodes.len()]);
-        for channel in data
-            .animations
-            .iter()
-            .chain(&data.clips)
-            .flat_map(|own| &own.channels)
-        {
-            match channel.property {
-                Property::Weights(_) => morphs[channel.node as usize] = true,
-                _ => moves[channel.node as usize] = true,
-            }
-        }
-        // Parents come before their children.
-        for index in 0..data.nodes.len() {
-            let parent = data.nodes[index].parent;
-            moves[index] |= parent.is_some_and(|parent| moves[parent as usize]);
-        }
-        let is_bright = |rgb: &[f32; 3]| rgb.iter().any(|&channel| channel > 0.0);
-        let shines = |primitive: &Primitive| match &primitive.radiance {
-            Some(all) => all.iter().any(is_bright),
-            None => is_bright(&data.materials[primitive.material as usize].radiance),
-        };
-        let mut found = Self::default();
-        for (index, node) in data.nodes.iter().enumerate() {
-            let primitives = node.mesh.map(|mesh| &data.meshes[mesh as usize].primitives);
-            if !primitives.is_some_and(|all| all.iter().any(shines)) {
-                continue;
-            }
-            let skin = node.skin.map(|skin| &data.skins[skin as usize].joints);
-            let bends = skin.is_some_and(|joints| joints.iter().any(|&joint| moves[joint as usize]));
-            found.bending += usize::from(bends || morphs[index]);
-            found.moving += usize::from(skin.is_none() && moves[index]);
-        }
-        let others = data.analytic.iter().filter(|light| light.light().is_some());
-        let moving = others.filter(|light| moves[light.node as usize]).count();
-        found.moving += if with_others { moving } else { 0 };
-        found
+/// How many nodes with emissive meshes the animations move, or with lights of other kinds too.
+fn moving(data: &SceneData, with_others: bool) -> usize {
+    let mut moves = vec![false; data.nodes.len()];
+    for channel in data.animations.iter().flat_map(|own| &own.channels) {
+        moves[channel.node as usize] = true;
     }
-
-    fn said(self) -> String {
-        let Self { moving, bending } = self;
-        match (moving, bending) {
-            (0, 0) => "no: no animation moves a node with lights".to_owned(),
-            _ => format!("yes: nodes with lights move: {moving}; their meshes deform: {bending}"),
-        }
+    // Parents come before their children.
+    for index in 0..data.nodes.len() {
+        let parent = data.nodes[index].parent;
+        moves[index] |= parent.is_some_and(|parent| moves[parent as usize]);
     }
+    let is_bright = |rgb: &[f32; 3]| rgb.iter().any(|&channel| channel > 0.0);
+    let shines = |primitive: &Primitive| match &primitive.radiance {
+        Some(all) => all.iter().any(is_bright),
+        None => is_bright(&data.materials[primitive.material as usize].radiance),
+    };
+    let shining = |mesh: u32| data.meshes[mesh as usize].primitives.iter().any(shines);
+    let nodes = data.nodes.iter().zip(&moves);
+    let lit = nodes.filter(|&(node, &moves)| moves && node.mesh.is_some_and(shining));
+    let others = data.analytic.iter().filter(|light| light.light().is_some());
+    let others = others.filter(|light| with_others && moves[light.node as usize]);
+    lit.count() + others.count()
 }
 
 impl Surfaces {

@@ -37,7 +37,7 @@ pub struct Args {
     /// Light samples per pixel, 1 to 65536.
     #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub(super) spp: u32,
-    /// Number of the scene's camera, from 0; in a scene without one it is chosen by what is lit.
+    /// Number of the scene's camera, from 0; in a scene without one all of it is seen from the front.
     #[arg(long, default_value_t = 0)]
     pub(super) camera: usize,
     /// Look from this place, metres, in place of any camera of the scene.

@@ -3,7 +3,6 @@
 use serde_json::{Value, json};
 
 use super::options::Args;
-use super::view::camera_words;
 use crate::backend::SceneArrays;
 use crate::cli::table::{news, say};
 use crate::cli::{Context, frames};
@@ -81,12 +80,6 @@ impl Sequence<'_> {
                     _ => format!("{exposure:e}"),
                 };
                 say!("{}: {ms:.1} ms on {on}, exposure {factor}", output.display())?;
-            }
-            if reports.is_empty()
-                && let Some(words) = camera_words(self.scene)
-                && !context.json
-            {
-                say!("  camera chosen: {words}")?;
             }
             reports.push(json!({
                 "frame": frame, "render_ms": ms, "exposure": exposure, "output": output,

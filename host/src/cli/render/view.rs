@@ -10,16 +10,13 @@ pub(super) fn seen_by(scene: Scene, camera: usize) -> Result<Scene, HostError> {
         return Ok(scene);
     }
     if camera >= cameras {
-        let expected = match cameras {
-            0 => String::from(
-                "a scene with cameras, and it has none; leave the option out, or give --look-from and --look-at",
-            ),
-            _ => format!("0 to {}: the scene has {cameras}", cameras - 1),
-        };
         return Err(HostError::Refused {
             option: "--camera",
             value: camera.to_string(),
-            problem: format!("is out of range: expected {expected}"),
+            problem: format!(
+                "is out of range: expected 0 to {}: the scene has {cameras}",
+                cameras - 1
+            ),
         });
     }
     let mut data = scene.into_data();
@@ -36,16 +33,4 @@ pub(super) fn check_places(from: [f32; 3], at: [f32; 3]) -> Result<(), HostError
         });
     }
     Ok(())
-}
-
-/// The options that stand for the camera that was chosen for a scene without one.
-pub(super) fn camera_words(scene: &Scene) -> Option<String> {
-    let (from, at, yfov) = scene.chosen_camera()?;
-    let place = |p: [f32; 3]| p.map(|x| x.to_string()).join(",");
-    let fov = yfov.to_degrees().round();
-    Some(format!(
-        "--look-from {} --look-at {} --fov {fov}",
-        place(from),
-        place(at)
-    ))
 }
