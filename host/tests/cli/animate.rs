@@ -3,42 +3,33 @@
 use std::path::Path;
 
 use crate::model::{self, Keys, LAMP};
-use crate::program::{Folder, json, refused, run};
+use crate::program::{Folder, json, refused};
 
 #[test]
 fn sequences_are_numbered_and_hold_what_single_frames_do() {
     let folder = Folder::new("animate");
-    let small = "--width 32 --height 18 --spp 2 --backend cpu --json";
-    for sampler in ["power", "two-level"] {
-        let out = folder.file(&format!("{sampler}.exr"));
-        let line = format!("render street --sampler {sampler} --animate 0..3 -o {out} {small}");
-        let report = json(&line);
-        let frames = report["frames"].as_array().expect("frames");
-        assert_eq!(frames.len(), 3);
-        for (number, frame) in (0..).zip(frames) {
-            let file = folder.file(&format!("{sampler}-000{number}.exr"));
-            assert_eq!(
-                (&frame["frame"], &frame["output"]),
-                (&number.into(), &file.as_str().into())
-            );
-            assert!(Path::new(&file).exists());
-        }
-        assert!(!Path::new(&out).exists());
-        // Nothing is carried from frame to frame without a tree.
-        if sampler == "power" {
-            let single = folder.file("single.exr");
-            json(&format!(
-                "render street --sampler power --frame 2 -o {single} {small}"
-            ));
-            let last = std::fs::read(folder.file("power-0002.exr")).expect("an image");
-            assert!(last == std::fs::read(&single).expect("an image"));
-        }
+    // Nothing is carried from frame to frame without a tree.
+    let small = "--sampler power --width 32 --height 18 --spp 2 --json";
+    let out = folder.file("image.exr");
+    let report = json(&format!("render street --animate 0..3 -o {out} {small}"));
+    let frames = report["frames"].as_array().expect("frames");
+    assert_eq!(frames.len(), 3);
+    for (number, frame) in (0..).zip(frames) {
+        let file = folder.file(&format!("image-000{number}.exr"));
+        assert_eq!(
+            (&frame["frame"], &frame["output"]),
+            (&number.into(), &file.as_str().into())
+        );
+        assert!(Path::new(&file).exists());
     }
-    let last = folder.file("last.exr");
-    json(&format!("render street --frame 4294967295 -o {last} {small}"));
-    let image = folder.file("refused.png");
+    assert!(!Path::new(&out).exists());
+    json(&format!("render street --frame 2 -o {out} {small}"));
+    let [last, single] =
+        [&folder.file("image-0002.exr"), &out].map(|file| std::fs::read(file).expect("an image"));
+    assert!(last == single);
+    json(&format!("render street --frame 4294967295 -o {out} {small}"));
     for wrong in ["--animate 3", "--animate 0..2 --frame 1"] {
-        let said = refused(&format!("render street {wrong} -o {image}"));
+        let said = refused(&format!("render street {wrong} -o {out}"));
         assert!(said.contains("--animate"), "{said}");
     }
 }
@@ -69,35 +60,4 @@ fn a_sequence_is_exposed_as_its_first_frame_that_shows_something() {
         exposure(2)
     );
     assert_eq!(exposure(3), exposure(2));
-}
-
-/// The names of animations come from files: they are cut, and hold no control characters.
-#[test]
-fn animations_are_named_in_errors() {
-    let folder = Folder::new("clips");
-    let moved = |to: f32| {
-        let keys = [(0.0, [0.0, 2.0, 0.0]), (1.0, [to, 2.0, 0.0])];
-        vec![Keys::new(LAMP, "translation", &keys)]
-    };
-    let mut clips = [
-        (String::from("base"), moved(1.0)),
-        ("x".repeat(5000), moved(2.0)),
-        (String::from("\u{1b}[31mbad"), moved(3.0)),
-    ];
-    let small = format!("--width 16 --height 12 --spp 1 -o {}", folder.file("a.png"));
-    let path = model::write(&folder, "long", &clips[..2], |_| ());
-    let output = run(&format!("render {path} {small}"));
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(
-        output.status.success() && said.contains("animations 1") && said.len() < 2000,
-        "{said}"
-    );
-    clips.swap(0, 2);
-    clips[0].1[0].keys.reverse();
-    let path = model::write(&folder, "broken", &clips, |_| ());
-    let said = refused(&format!("render {path} {small}"));
-    assert!(
-        said.contains("animation 0 ") && !said.contains('\u{1b}'),
-        "{said}"
-    );
 }

@@ -1,4 +1,4 @@
-//! Pictures: equal files on both processors, every sampler, numbered sequences.
+//! Pictures: paths and cameras.
 
 use crate::program::{Folder, run};
 
