@@ -11,7 +11,6 @@ mod frames;
 mod info;
 mod inspect;
 mod measure;
-mod progress;
 mod reading;
 mod render;
 mod stability;

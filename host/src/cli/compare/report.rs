@@ -89,31 +89,28 @@ const ERRORS: &[table::Column<Row>] = &[
         r.frame
             .map_or_else(|| "all".to_owned(), |frame| frame.to_string())
     }),
-    ("MSE", |r| measured(r.errors.get("mse"), 1)),
-    ("SSIM", |r| format!("{:.4}", r.errors.get("ssim").0)),
-    ("PSNR", |r| format!("{:.2}", r.errors.get("psnr").0)),
-    ("FLIP", |r| format!("{:.4}", r.errors.get("flip").0)),
-    ("linear MSE", |r| format!("{:.3e}", r.errors.get("linear_mse").0)),
+    ("MSE", |r| measured(r, "mse", 1)),
+    ("SSIM", |r| table::known(r.get("ssim").0, 4)),
+    ("PSNR", |r| table::known(r.get("psnr").0, 2)),
+    ("FLIP", |r| table::known(r.get("flip").0, 4)),
+    ("linear MSE", |r| measured(r, "linear_mse", 4)),
 ];
 
 const TIMES: &[table::Column<Row>] = &[
     ("method", |r| r.method.name().to_owned()),
     ("backend", |r| r.backend.clone()),
-    ("refit", |r| table::known(r.times.refit_ms, 2)),
-    ("rebuild", |r| table::known(r.times.rebuild_ms, 2)),
-    ("waiting", |r| table::known(r.times.wait_ms, 2)),
-    ("image", |r| table::known(r.times.image_ms, 2)),
-    ("frame", |r| match r.times.frame_ms {
-        Some(mean) => measured((mean, r.times.frame_ms_ci95), 2),
-        None => table::known(None, 2),
-    }),
-    ("frames timed", |r| r.times.timed_frames.to_string()),
+    ("refit", |r| table::known(r.get("refit_ms").0, 2)),
+    ("rebuild", |r| table::known(r.get("rebuild_ms").0, 2)),
+    ("waiting", |r| table::known(r.get("wait_ms").0, 2)),
+    ("image", |r| table::known(r.get("image_ms").0, 2)),
+    ("frame", |r| measured(r, "frame_ms", 2)),
+    ("frames timed", |r| r.timed_frames.to_string()),
 ];
 
 /// A mean and half its confidence interval.
-fn measured((mean, ci95): (f64, Option<f64>), decimals: usize) -> String {
-    match ci95 {
-        Some(ci95) => format!("{mean:.decimals$} ± {ci95:.decimals$}"),
-        None => format!("{mean:.decimals$}"),
+fn measured(row: &Row, name: &str, decimals: usize) -> String {
+    match row.get(name) {
+        (Some(mean), Some(ci95)) => format!("{mean:.decimals$} ± {ci95:.decimals$}"),
+        (mean, _) => table::known(mean, decimals),
     }
 }

@@ -4,11 +4,11 @@
 use std::ops::Range;
 
 use bytemuck::cast_slice;
-use indicatif::ProgressBar;
 use lightbvh::exact::hash;
 use serde::Serialize;
 
 use crate::backend::{Integrator, PIXEL_RECORD, Sampler, SceneArrays};
+use crate::cli::table::news;
 use crate::error::HostError;
 use crate::method::{Method, MethodLight, Recipe, Runner, Step, Target};
 use crate::scene::{Scene, SceneLight};
@@ -64,7 +64,6 @@ pub(super) fn compare<L: MethodLight>(
     plan: &Plan,
     targets: &[Target<'_>],
     tallies: &mut Tallies,
-    progress: &ProgressBar,
 ) -> Result<Vec<Tree>, HostError> {
     let (mut lanes, mut trees) = (Vec::new(), Vec::new());
     for frame in plan.frames.clone() {
@@ -78,11 +77,10 @@ pub(super) fn compare<L: MethodLight>(
             }
         }
         for lane in &mut lanes {
-            progress.set_message(format!("{} frame {frame}: {}", scene.name(), lane.recipe.name));
             lane.compare(&step, &arrays, plan, tallies)?;
             trees.extend(lane.tree(&step));
         }
-        progress.inc(1);
+        news!("{}: frame {frame} compared", scene.name());
     }
     Ok(trees)
 }

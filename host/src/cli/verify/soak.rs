@@ -14,7 +14,7 @@ use super::{Args, DeviceReport};
 use crate::backend::{Bvh, DeviceArrays, DeviceBackend, Follow};
 use crate::cli::devices::Opened;
 use crate::cli::measure::times::{Spread, thread_us};
-use crate::cli::table::{self, say};
+use crate::cli::table::{self, news, say};
 use crate::error::HostError;
 use crate::metrics::mean;
 use crate::stability::random::Random;
@@ -93,7 +93,7 @@ pub(super) struct Report {
     devices: Vec<DeviceReport>,
 }
 
-pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened], is_quiet: bool) -> Result<Report, HostError> {
+pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened]) -> Result<Report, HostError> {
     let mut world = World::new(args);
     // Follows as devices do, and so has the offsets of their links.
     let mut layout = Mirror::default();
@@ -108,7 +108,6 @@ pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened], is_quiet: bool) 
     let mut memory: [Vec<f64>; 2] = std::array::from_fn(|_| vec![f64::MAX; frames.div_ceil(ASKED) as usize]);
     let mut counts = Counts::default();
     let mut invalid = None;
-    let bar = super::progress(frames.into(), "frames", is_quiet);
     let mut rebuilder = Rebuilder::default();
     for frame in 0..frames {
         if frame.is_multiple_of(RULED) {
@@ -149,10 +148,9 @@ pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened], is_quiet: bool) 
                 compare(tally, frame, &world.bvh, &device.arrays()?, &words)?;
             }
             counts.checked += 1;
+            news!("frame {frame} checked");
         }
-        bar.inc(1);
     }
-    bar.finish_and_clear();
     // Each quarter sees a round of both rules: else they differ by those.
     let judged = frames >= 4 * 2 * RULED;
     let rows = PHASES.into_iter().zip(times).map(|(what, list)| Row {
