@@ -3,11 +3,10 @@
 use lightbvh::{EmissiveTriangle, INVALID, LightBounds, Random64, ShadingPoint};
 use rayon::prelude::*;
 
-use super::geometry::{contribution, may_lose_its_area};
+use super::geometry::may_lose_its_area;
 use super::random::{ENDS, Random};
 use super::row::{Check, Row};
 use super::subject::Subject;
-use crate::metrics::variance;
 
 /// |Σ pmf − 1|: a tree's probabilities are shares of one range of numbers; each is rounded where the uniform share is added.
 const SUM: f64 = 1.0 / 4_194_304.0;
@@ -101,13 +100,6 @@ pub fn all_pmfs(subject: &Subject<'_>, point: &ShadingPoint) -> Vec<f32> {
         .with_min_len(64)
         .map(|light| subject.pmf(point, light))
         .collect()
-}
-
-/// Relative variance of the estimate of direct light at `point` from one sample; `None` where there is no light.
-pub fn relative_variance(subject: &Subject<'_>, point: &ShadingPoint) -> Option<f64> {
-    let shining = subject.lights.iter().zip(all_pmfs(subject, point));
-    let values = shining.filter(|(light, _)| shines(light));
-    variance(values.map(|(light, pmf)| (contribution(light, point), f64::from(pmf))))
 }
 
 /// Whether the light counts as one: rounding left something of its area, or should have.

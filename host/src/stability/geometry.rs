@@ -1,7 +1,7 @@
-//! Light that arrives at a point, in f64 and independent of the arithmetic under test.
+//! Triangles in f64, independent of the arithmetic under test.
 
 use glam::DVec3;
-use lightbvh::{EmissiveTriangle, ShadingPoint};
+use lightbvh::EmissiveTriangle;
 
 /// A vector of the crate in f64.
 pub fn vector(v: [f32; 3]) -> DVec3 {
@@ -43,38 +43,4 @@ impl Triangle {
 pub fn may_lose_its_area(light: &EmissiveTriangle) -> bool {
     let triangle = Triangle::new(light);
     triangle.area() == 0.0 || triangle.condition.recip() < 1.0 / 2_097_152.0
-}
-
-/// What `light` contributes to `point` if nothing is between, in f64: radiance (green) times both cosines over squared
-/// distance, times area, at four points of the triangle. In a volume there is no cosine at the receiver.
-pub fn contribution(light: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
-    let triangle = Triangle::new(light);
-    let length = triangle.normal.length();
-    if length == 0.0 || light.radiance[1] == 0.0 {
-        return 0.0;
-    }
-    let (p, n) = (vector(point.p), vector(point.n));
-    let normal = triangle.normal / length;
-    let [a, b, c] = triangle.p;
-    let weights = [[1.0, 1.0, 1.0], [4.0, 1.0, 1.0], [1.0, 4.0, 1.0], [1.0, 1.0, 4.0]];
-    let mut sum = 0.0;
-    for [u, v, w] in weights {
-        let d = (a * u + b * v + c * w) / (u + v + w) - p;
-        let squared = d.length_squared();
-        if squared > 0.0 {
-            let received = if n == DVec3::ZERO {
-                1.0
-            } else {
-                (n.dot(d) / squared.sqrt()).max(0.0)
-            };
-            let emitted = -normal.dot(d) / squared.sqrt();
-            let emitted = if light.is_two_sided() {
-                emitted.abs()
-            } else {
-                emitted.max(0.0)
-            };
-            sum += received * emitted / squared;
-        }
-    }
-    f64::from(light.radiance[1]) * triangle.area() * sum / weights.len() as f64
 }

@@ -17,7 +17,7 @@ use self::scenes::Scene;
 use self::world::World;
 use crate::backend::Bvh;
 use crate::cli::measure::times::Spread;
-use crate::cli::measure::{irradiance::irradiance, variance};
+use crate::cli::measure::{irradiance, variance};
 use crate::cli::table::{self, news};
 use crate::cli::{Context, Outcome};
 use crate::error::HostError;

@@ -10,7 +10,7 @@ use lightbvh_kernels::bvh::WIDTH;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::cli::measure::{irradiance::irradiance, mean_of, variance};
+use crate::cli::measure::{irradiance, mean_of, variance};
 use crate::error::HostError;
 use crate::scene::{Instances, Scene};
 

@@ -1,12 +1,11 @@
-//! Measurements of all commands: turns, medians with their intervals, points, the light that arrives at them, references.
+//! Measurements of all commands: turns, medians with their intervals, points, references.
 
 pub(super) mod interval;
-pub(super) mod irradiance;
 pub(super) mod points;
 pub(super) mod reference;
 pub(super) mod times;
 
-pub(super) use crate::metrics::variance;
+pub(super) use crate::metrics::{irradiance, variance};
 
 use crate::metrics::mean;
 

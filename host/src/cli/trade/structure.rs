@@ -8,9 +8,8 @@ use serde::Serialize;
 use super::image::Budget;
 use super::subject::Subject;
 use crate::cli::measure::interval::Interval;
-use crate::cli::measure::irradiance::irradiance;
 use crate::cli::measure::times::in_turns;
-use crate::cli::measure::{mean_of, variance};
+use crate::cli::measure::{irradiance, mean_of, variance};
 use crate::error::HostError;
 use crate::method::Step;
 

@@ -9,7 +9,6 @@ use super::{add, scattered};
 pub(super) fn few() -> Vec<Case> {
     vec![
         Case::new("one light", scattered(1, 91)),
-        Case::new("two lights", scattered(2, 92)),
         Case::new("three lights", scattered(3, 92)),
     ]
 }

@@ -10,7 +10,7 @@ type V = [f64; 3];
 /// above the horizon, times luminance (J. H. Lambert, Photometria, 1760; Arvo, "Analytic methods for simulated light
 /// transport", 1995, section 2). Zero behind a one-sided emitter, and from what is too thin to count as a light: no tree
 /// chooses it.
-pub(in crate::cli) fn irradiance(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
+pub fn irradiance(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
     if LightBounds::of_triangle(triangle).phi <= 0.0 {
         return 0.0;
     }
