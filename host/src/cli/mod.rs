@@ -7,7 +7,6 @@ mod compare;
 mod demo;
 mod devices;
 mod export;
-mod frames;
 mod info;
 mod inspect;
 mod measure;
@@ -39,7 +38,7 @@ struct Args {
 enum Command {
     /// Build, animate, refit and render a street on the CPU and every device
     Demo(OnDevices<demo::Args>),
-    /// Render a frame or an animation of a scene
+    /// Render a frame of a scene
     Render(OnDevices<render::Args>),
     /// Write a scene as a .glb file
     Export(export::Args),

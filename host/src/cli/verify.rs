@@ -30,7 +30,7 @@ pub(super) struct Args {
     #[arg(long, default_value_t = 1)]
     seed: u32,
     /// Frames A to B (B left out) that every method goes through on the CPU and each device.
-    #[arg(long, value_name = "A..B", value_parser = super::frames::parse, default_value = "0..3")]
+    #[arg(long, value_name = "A..B", value_parser = range, default_value = "0..3")]
     frames: Range<u32>,
     /// Scenes, built-in or files; all built-in ones by default. May be repeated.
     #[arg(long)]
@@ -46,6 +46,17 @@ pub(super) struct Args {
     /// Triangles of the largest mesh of --soak, 10 to 10^6.
     #[arg(long, requires = "soak", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(10..=1_000_000))]
     mesh_triangles: u32,
+}
+
+/// Frames `A..B`, B left out.
+fn range(text: &str) -> Result<Range<u32>, String> {
+    let ends = text.split_once("..");
+    let range = ends.and_then(|(a, b)| Some(a.parse().ok()?..b.parse().ok()?));
+    range
+        .filter(|range: &Range<u32>| !range.is_empty())
+        .ok_or_else(|| {
+            "expected two frame numbers as A..B, the second the greater, for example 0..150".to_owned()
+        })
 }
 
 #[derive(Clone, Debug, Serialize)]
