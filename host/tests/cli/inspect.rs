@@ -2,25 +2,19 @@
 
 use serde_json::{Value, json};
 
-use crate::model::{self, Clip, Keys, LAMP};
+use crate::model::{self, Clip};
 use crate::program::{Folder, json as report, refused, run};
 
 /// Writes a floor of two triangles and twelve lamps of two triangles each above it, which emit so much on both sides; returns the
 /// path.
 fn room(folder: &Folder, name: &str, emits: f32, clips: &[Clip]) -> String {
-    model::write_lamps(folder, name, 12, clips, |root| {
+    model::write(folder, name, 12, clips, |root| {
         root["scenes"][0]["nodes"] = json!([0, 1]);
         root["nodes"][0]["translation"] = json!([0, -3, 0]);
         root["nodes"][1] = json!({ "mesh": 1, "name": "lamps" });
         let emissive = [emits; 3];
         root["materials"][1] = json!({ "emissiveFactor": emissive, "doubleSided": true });
     })
-}
-
-/// A clip that moves the lamps for a second.
-fn moving(name: &str) -> Clip {
-    let keys = [(0.0, [0.0; 3]), (1.0, [1.0, 0.5, 0.0])];
-    (name.to_owned(), vec![Keys::new(LAMP, "translation", &keys)])
 }
 
 fn fact<'a>(report: &'a Value, name: &str) -> &'a Value {
@@ -114,18 +108,14 @@ fn one_mesh_of_two_sided_lamps_needs_neither_normals_nor_a_top_level() {
     }
 }
 
-/// The same animation twice, and before them one of the same name that keeps all where it is.
-fn with_clips(folder: &Folder) -> String {
-    let still = vec![Keys::new(LAMP, "translation", &[(0.0, [0.0; 3])])];
-    let clips = [("Idle".to_owned(), still), moving("Walk"), moving("Idle")];
-    room(folder, "clips", 1.0, &clips)
-}
-
 /// A file does not say which of its animations is shown: a lamp that a later one moves does move.
 #[test]
 fn each_animation_is_looked_at() {
     let folder = Folder::new("clips");
-    let path = with_clips(&folder);
+    // The same animation twice, and before them one of the same name that keeps all where it is.
+    let moves = [[0.0; 3], [1.0, 0.5, 0.0]];
+    let clips: [Clip; 3] = [("Idle", &[[0.0; 3]]), ("Walk", &moves), ("Idle", &moves)];
+    let path = room(&folder, "clips", 1.0, &clips);
     let report = report(&format!("inspect {path} --points 16 --json"));
     assert_eq!(report["motion"], json!({ "moving": 1, "bending": 0 }));
     assert_eq!(report["model"]["updates"], "all");

@@ -9,7 +9,7 @@ const NAME: &str = "KHR_lights_punctual";
 
 /// A floor, and lights of these kinds over it that shine down.
 fn stage(folder: &Folder, name: &str, lights: &[Value]) -> String {
-    model::write(folder, name, &[], |root| {
+    model::write(folder, name, 1, &[], |root| {
         let nodes = root["nodes"].as_array_mut().expect("a list");
         let mut shown = vec![json!(FLOOR)];
         for k in 0..lights.len() {
