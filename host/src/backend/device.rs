@@ -13,7 +13,7 @@ use lightbvh_kernels::shading::direct::MAX_CANDIDATES;
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::batches::in_batches;
-use super::device_arrays::{HeldScene, choosing};
+use super::device_arrays::{bind, choosing};
 use super::follow::{DeviceTree, device_time};
 use super::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, node_record};
 use crate::scene::SceneLight;
@@ -31,8 +31,6 @@ const SURFACES_PER_PASS: usize = 1 << 18;
 pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     device: &'d Device,
     tree: DeviceTree<C::Node, C::Light>,
-    /// The scene rendered last.
-    scene: HeldScene,
 }
 
 /// The words of all arrays of a light BVH, as a device holds them.
@@ -56,7 +54,6 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         let mut new = Self {
             device,
             tree: DeviceTree::new(device)?,
-            scene: HeldScene::default(),
         };
         // The copies of the first frame are the upload.
         new.update(bvh)?;
@@ -159,7 +156,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
         };
         let per_pass = per_pass.max(WORKGROUP as usize);
         let kernel = device.kernel(&format!("{pass}{}", C::SUFFIX))?;
-        let inputs = self.scene.bind(device, scene, sampler, &self.tree)?;
+        let inputs = bind(device, scene, sampler, &self.tree)?;
         let pixels = params.width as usize * params.height as usize;
         in_batches(params, integrator, |&params| {
             let mut all = Timed {

@@ -138,8 +138,7 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
     }
 }
 
-/// Does a frame's copies of one buffer. If its length changes, or something else still reads it, another buffer with what it held
-/// replaces it.
+/// Does a frame's copies of one buffer. If its length changes, another buffer with what it held replaces it.
 fn renew<T: Pod, N: Node<W>, I, const W: usize>(
     device: &Device,
     buffer: &mut Buffer<T>,
@@ -159,7 +158,7 @@ fn renew<T: Pod, N: Node<W>, I, const W: usize>(
     if len == buffer.len() && parts.is_empty() {
         return Ok(());
     }
-    if len != buffer.len() || buffer.is_bound() {
+    if len != buffer.len() {
         let new = device.buffer(len)?;
         new.copy_from(buffer)?;
         *buffer = new;

@@ -29,7 +29,7 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
                         table::yes(o.device.probe().float_controls.rounding_mode_rte_32)
                     }),
                     ("keeps denormals", |o| {
-                        table::yes(o.device.probe().float_controls.denorm_preserve_32)
+                        table::yes(o.device.probe().keeps_denormals)
                     }),
                     ("exact", |o| table::yes(o.exactness.exact)),
                 ],

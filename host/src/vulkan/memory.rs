@@ -25,10 +25,10 @@ impl Memory {
         bytes: u64,
         location: MemoryLocation,
     ) -> Result<Self, VulkanError> {
-        let limits = &shared.probe.limits;
+        let range = shared.probe.limits.max_storage_buffer_range;
         for (limit_name, limit) in [
-            ("maxStorageBufferRange", limits.max_storage_buffer_range),
-            ("maxMemoryAllocationSize", limits.max_memory_allocation_size),
+            ("maxStorageBufferRange", range.into()),
+            ("maxMemoryAllocationSize", shared.probe.max_memory_allocation_size),
         ] {
             if bytes > limit {
                 return Err(VulkanError::BufferTooLarge {

@@ -42,7 +42,7 @@ impl Shared {
             queue_family,
             probe,
         } = candidate;
-        let has_clock = probe.limits.timestamp_valid_bits > 0;
+        let has_clock = probe.timestamp_valid_bits > 0;
         let parts = Queue::new(&raw, queue_family, has_clock, &probe.name).and_then(|queue| {
             let allocator = Allocator::new(&AllocatorCreateDesc {
                 instance: instance.raw.clone(),

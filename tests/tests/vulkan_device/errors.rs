@@ -95,10 +95,7 @@ fn objects_of_another_device_are_refused() {
 #[test]
 fn buffers_over_a_limit_say_so() {
     on_each_device(Options::default(), |device| {
-        let limit = device.probe().limits.max_storage_buffer_range;
-        let Ok(words) = usize::try_from(limit / 4 + 1) else {
-            return;
-        };
+        let words = device.probe().limits.max_storage_buffer_range as usize / 4 + 1;
         match device.output::<u32>(words) {
             Err(VulkanError::BufferTooLarge {
                 bytes, limit: named, ..
