@@ -33,21 +33,6 @@ pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     tree: DeviceTree<C::Node, C::Light>,
 }
 
-/// The words of all arrays of a light BVH, as a device holds them.
-#[derive(Clone, Debug)]
-pub struct DeviceArrays {
-    /// In the order of [`node_words`](super::node_words).
-    pub nodes: Vec<u32>,
-    /// Of [`lightbvh::Bvh::roots`].
-    pub roots: Vec<u32>,
-    /// Of [`lightbvh::Bvh::instances`].
-    pub instances: Vec<u32>,
-    /// Of [`lightbvh::Bvh::triangles`].
-    pub triangles: Vec<u32>,
-    /// Trails and links of a [`lightbvh::LightTree`], as the device has them.
-    pub trails: Vec<u32>,
-}
-
 impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// Uploads a BVH and refits all of it, for its own nodes may wait for that.
     pub fn new(device: &'d Device, bvh: &Bvh<C, W>) -> Result<Self, BackendError> {
@@ -58,17 +43,6 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         // The copies of the first frame are the upload.
         new.update(bvh)?;
         Ok(new)
-    }
-
-    /// All arrays as they are, after all that was followed.
-    pub fn arrays(&mut self) -> Result<DeviceArrays, BackendError> {
-        Ok(DeviceArrays {
-            nodes: pod_collect_to_vec(&self.tree.all_nodes()?),
-            roots: self.tree.roots.read_words()?,
-            instances: self.tree.instances.read_words()?,
-            triangles: self.tree.triangles.read_words()?,
-            trails: self.tree.trails.read_words()?,
-        })
     }
 
     /// Overwrites the device's nodes, those of bottom levels and of the top level, so that a refit has something to change.

@@ -14,7 +14,6 @@ mod scene;
 pub use batches::Integrator;
 pub(crate) use batches::mean_image;
 pub use cpu::CpuBackend;
-pub use device::DeviceArrays;
 pub use device::DeviceBackend;
 pub use mirrored::Mirrored;
 pub use record::{PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, node_record};
