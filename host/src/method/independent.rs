@@ -1,8 +1,6 @@
 //! Samples that know nothing of each other: lights chosen by a table, by a tree over all triangles, or by the paper's two
 //! levels.
 
-use std::hint::black_box;
-
 use lightbvh::exact::hash;
 use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::render::RenderParams;
@@ -13,7 +11,6 @@ use crate::backend::{
     Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, mean_image,
 };
 use crate::error::HostError;
-use crate::render::power_thresholds;
 use crate::scene::SceneLight;
 use crate::workload::{build, words_in_use};
 
@@ -76,12 +73,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
                 ..UpdateTimes::default()
             });
         }
-        if self.recipe.lights != Sampler::Power {
-            return Ok(UpdateTimes::default());
-        }
-        // The renderer reads the table that comes with the frame's arrays; here it is made once more, for its time.
-        let made = Timed::of(|| black_box(power_thresholds(step.lights.triangles())).is_some());
-        Ok(UpdateTimes::waited(made.time))
+        Ok(UpdateTimes::default())
     }
 
     fn image(

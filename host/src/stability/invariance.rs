@@ -9,7 +9,6 @@ use super::cases::scattered;
 use super::checks::all_pmfs;
 use super::random::Random;
 use super::row::{Check, Row};
-use super::subject::Subject;
 use crate::backend::{Bvh, Sampler};
 use crate::error::HostError;
 use crate::metrics::{irradiance, mean, variance};
@@ -58,9 +57,8 @@ impl Scene {
     fn deviation(&self, sampler: Sampler) -> Result<f64, HostError> {
         let lights = validated("invariance", self.lights.clone())?;
         let bvh: Bvh = build(&lights, sampler, &BuildParams::default());
-        let tree = Subject::new(&bvh, &lights);
         let of = |point: &ShadingPoint| {
-            let pmfs = all_pmfs(&tree, point);
+            let pmfs = all_pmfs(&bvh, &lights, point);
             let pairs = self.lights.iter().zip(pmfs);
             variance(pairs.map(|(light, pmf)| (irradiance(light, point), f64::from(pmf))))
         };

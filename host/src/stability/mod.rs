@@ -10,7 +10,6 @@ pub mod geometry;
 pub mod invariance;
 pub mod random;
 pub mod row;
-pub mod subject;
 pub mod words;
 
 use lightbvh::{Lights, ShadingPoint};
@@ -18,7 +17,6 @@ use serde::Serialize;
 
 use self::case::{Case, Source, moving_scene, validated};
 use self::row::Row;
-use self::subject::Subject;
 use crate::backend::{Bvh, Sampler};
 use crate::error::HostError;
 use crate::vulkan::{Device, VulkanError};
@@ -106,8 +104,7 @@ fn check(
     devices: &[&Device],
     found: &mut Found,
 ) -> Result<(), HostError> {
-    let tree = Subject::new(bvh, lights);
-    let rows = checks::check(name, structure, &tree, points, samples);
+    let rows = checks::check(name, structure, (bvh, lights), points, samples);
     found.rows.extend(rows);
     for device in devices {
         match words::compare(name, structure, bvh, lights, points, device) {

@@ -66,7 +66,7 @@ fn measure(mut scene: Scene) -> Result<Row, HostError> {
     // A refit that builds uses all threads of its pool; with one thread, all of it counts as thread time.
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let one = one.expect("a pool of one thread");
-    let mut world = World::new(std::mem::take(&mut scene.triangles));
+    let mut world = World::new();
     for (at, radiance) in std::mem::take(&mut scene.lamps) {
         world.add(at, radiance);
     }

@@ -1,4 +1,4 @@
-//! What is lit: points on lights, at the centres of nodes, far away, grazing and behind.
+//! What is lit: points on lights, at the centres of nodes, far away.
 
 use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, Node, ShadingPoint, Summary, exact};
 
@@ -13,7 +13,6 @@ pub(super) fn cases() -> Vec<Case> {
         Case::new("points at the centres of nodes", lights.clone()).at(at_centres(&lights)),
         Case::new("points at 1e15 m", lights.clone()).at(far(1e15)),
         Case::new("points at 2^60 m", lights.clone()).at(far(exact::pow2(60))),
-        Case::new("grazing and back-facing", floor()).at(grazing()),
     ]
 }
 
@@ -76,49 +75,5 @@ fn far(distance: f32) -> Vec<ShadingPoint> {
         .collect();
     points.push(volume([distance; 3]));
     points.push(volume([-distance, distance, 0.0]));
-    points
-}
-
-/// A floor of one-sided lights in the plane y = 0 that face up, and a few walls.
-fn floor() -> Vec<EmissiveTriangle> {
-    let light = |i: u32| {
-        let (x, z) = ((i % 12) as f32, (i / 12) as f32);
-        let p = if i.is_multiple_of(7) {
-            [[x, 0.0, z], [x, 0.5, z], [x, 0.0, z + 0.5]]
-        } else {
-            [[x, 0.0, z], [x, 0.0, z + 0.5], [x + 0.5, 0.0, z]]
-        };
-        EmissiveTriangle {
-            p,
-            radiance: [1.0; 3],
-            mesh: i / 12,
-            flags: 0,
-        }
-    };
-    (0..144).map(light).collect()
-}
-
-/// Just above and below the floor's plane, with normals along it, just out of it, and away from all lights.
-fn grazing() -> Vec<ShadingPoint> {
-    let mut points = Vec::new();
-    for height in [0.0, 1e-6, -1e-6, 1e-5, 1e-3, -1e-3, 1.0, -1.0] {
-        for n in [
-            [1.0, 0.0, 0.0],
-            [-1.0, 1e-5, 0.0],
-            [-1.0, -1e-5, 0.0],
-            [0.0, 1.0, 0.0],
-            [0.0, -1.0, 0.0],
-            [0.0; 3],
-        ] {
-            points.push(ShadingPoint {
-                p: [14.0, height, 5.25],
-                n,
-            });
-            points.push(ShadingPoint {
-                p: [5.25, height, 5.75],
-                n,
-            });
-        }
-    }
     points
 }
