@@ -1,20 +1,20 @@
 //! A frame of a scene on a device.
 
-use bytemuck::Pod;
+use lightbvh::node::Node;
 use lightbvh_kernels::shading::pick::by;
 
-use super::follow::DeviceTree;
+use super::follow::Mirrored;
 use super::{Sampler, SceneArrays};
 use crate::scene::SceneLight;
 use crate::vulkan::{Binding, Device, VulkanError};
 
 /// Uploads a frame's arrays: the buffers in the order in which the render passes take them. Lights that `sampler` finds in `tree`
 /// are the tree's, others those that the frame lists.
-pub(super) fn bind<N: Pod, L: SceneLight>(
+pub(super) fn bind<N: Node<W, Light = L>, L: SceneLight, const W: usize>(
     device: &Device,
     scene: &SceneArrays<L>,
     sampler: Sampler,
-    tree: &DeviceTree<N, L>,
+    tree: &Mirrored<'_, N, W>,
 ) -> Result<Vec<Binding>, VulkanError> {
     let thresholds = match sampler {
         Sampler::Power => &scene.thresholds[..],

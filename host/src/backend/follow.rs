@@ -7,28 +7,33 @@ use bytemuck::{Pod, bytes_of, cast_slice};
 use lightbvh::node::Node;
 use lightbvh::refit::BlasRoot;
 use lightbvh::{Instance, TreeWords};
-use lightbvh_gpu::{Buffer as Array, Frame, Mirror, Pass as RefitPass, Refit};
+use lightbvh_gpu::{Buffer as Array, Frame, KernelSet, Mirror, Refit};
 
+use super::{BackendError, Timed};
 use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
 
-/// The arrays of a light BVH on a device, which follow its edits.
-pub(super) struct DeviceTree<N, L> {
-    pub nodes: Buffer<N>,
+/// The arrays of a light BVH of any layout on a device, which follow its edits, and the kernels over them.
+pub struct Mirrored<'d, N: Node<W>, const W: usize> {
+    device: &'d Device,
+    kernels: KernelSet,
+    pub(super) nodes: Buffer<N>,
     /// How many of them are of bottom levels, and which are of the top level.
-    pub bottoms: usize,
-    pub top: Range<usize>,
-    pub triangles: Buffer<L>,
-    pub instances: Buffer<Instance>,
-    pub roots: Buffer<BlasRoot>,
-    pub trails: Buffer<u32>,
-    pub push: TreeWords,
+    bottoms: usize,
+    pub(super) top: Range<usize>,
+    pub(super) triangles: Buffer<N::Light>,
+    pub(super) instances: Buffer<Instance>,
+    roots: Buffer<BlasRoot>,
+    pub(super) trails: Buffer<u32>,
+    push: TreeWords,
     mirror: Mirror,
 }
 
-impl<N: Pod, L: Pod> DeviceTree<N, L> {
-    /// Empty arrays on `device`.
-    pub fn new(device: &Device) -> Result<Self, VulkanError> {
+impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
+    /// One that holds nothing yet, with the kernels of its layout.
+    pub fn new(device: &'d Device, kernels: KernelSet) -> Result<Self, BackendError> {
         Ok(Self {
+            device,
+            kernels,
             nodes: device.buffer(0)?,
             bottoms: 0,
             top: 0..0,
@@ -41,19 +46,34 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
         })
     }
 
-    /// All nodes: those of bottom levels, then of the top level.
-    pub fn all_nodes(&self) -> Result<Vec<N>, VulkanError> {
+    /// The device.
+    pub fn device(&self) -> &'d Device {
+        self.device
+    }
+
+    /// The kernels.
+    pub(super) fn kernels(&self) -> KernelSet {
+        self.kernels
+    }
+
+    /// All nodes: those of bottom levels, then those of the top level.
+    pub fn nodes(&self) -> Result<Vec<N>, BackendError> {
         let nodes = self.nodes.read()?;
         Ok([&nodes[..self.bottoms], &nodes[self.top.clone()]].concat())
     }
 
-    /// The arguments of the passes of queries.
-    pub fn bindings(&self) -> [Binding; 3] {
-        [self.nodes.bind(), self.instances.bind(), self.trails.bind()]
+    /// Push constants of kernels that walk the tree.
+    pub fn words(&self) -> TreeWords {
+        self.push
+    }
+
+    /// The roots of bottom levels.
+    pub fn roots(&self) -> Result<Vec<BlasRoot>, BackendError> {
+        Ok(self.roots.read()?)
     }
 
     /// The array that a kernel's binding of this name takes.
-    pub fn bind(&self, name: &str) -> Option<Binding> {
+    fn bind(&self, name: &str) -> Option<Binding> {
         Array::named(name).map(|array| match array {
             Array::Nodes => self.nodes.bind(),
             Array::Triangles => self.triangles.bind(),
@@ -63,68 +83,72 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
         })
     }
 
-    /// Copies what changed and refits by the kernels of these names; returns the time of the refit. Nothing of `bvh` depends on
-    /// what becomes of the device: if this fails, all is copied the next time, or to another device.
-    pub fn follow<I, const W: usize>(
-        &mut self,
-        device: &Device,
-        bvh: &lightbvh::Bvh<N, I, W>,
-        kernel: impl Fn(RefitPass) -> String,
-    ) -> Result<Duration, VulkanError>
-    where
-        N: Node<W>,
-    {
+    /// The results of a kernel over `count` invocations. Bindings are matched by name with the tree's arrays and `others`;
+    /// the remaining binding holds the results.
+    pub fn ask<T: Pod>(
+        &self,
+        kernel: &lightbvh_gpu::Kernel,
+        count: usize,
+        push: &[u8],
+        others: &[(&str, Binding)],
+    ) -> Result<Timed<Vec<T>>, BackendError> {
+        let output = self.device.output::<T>(count)?;
+        let bind = |name| {
+            let other = others.iter().find(|(other, _)| *other == name);
+            let own = || self.bind(name).unwrap_or_else(|| output.bind());
+            other.map_or_else(own, |(_, binding)| binding.clone())
+        };
+        let bindings: Vec<_> = kernel.bindings.iter().map(|binding| bind(binding.name)).collect();
+        let compiled = self.device.kernel(kernel.name)?;
+        let mut pass = Pass::new();
+        pass.dispatch(&compiled, &bindings, push, count as u32);
+        let time = device_time(&self.device.run(&pass)?);
+        let value = output.read()?;
+        Ok(Timed { value, time })
+    }
+
+    /// Updates the arrays to `bvh` as of its last refit: the plan's copies, then the passes of a refit, whose time is returned.
+    /// Nothing of `bvh` depends on what becomes of the device: if this fails, all is copied the next time, or to another device.
+    pub fn follow<I>(&mut self, bvh: &lightbvh::Bvh<N, I, W>) -> Result<Duration, BackendError> {
         let frame = self.mirror.frame(bvh);
         let followed = self
-            .copy_changes(device, bvh, &frame)
-            .and_then(|()| self.refit(device, &frame.refit, kernel));
+            .copy_changes(bvh, &frame)
+            .and_then(|()| self.refit(&frame.refit));
         if followed.is_err() {
             // The mirror believes that the frame was followed.
             self.mirror = Mirror::default();
         }
-        followed
+        Ok(followed?)
     }
 
     /// Runs the dispatches of a refit.
-    fn refit(
-        &self,
-        device: &Device,
-        refit: &Refit,
-        kernel: impl Fn(RefitPass) -> String,
-    ) -> Result<Duration, VulkanError> {
+    fn refit(&self, refit: &Refit) -> Result<Duration, VulkanError> {
         if refit.dispatches.is_empty() {
             return Ok(Duration::ZERO);
         }
-        let list = device.upload(&refit.list)?;
+        let list = self.device.upload(&refit.list)?;
         // By which the passes hand over from children to nodes.
-        let children = device.buffer::<u32>(refit.children as usize / size_of::<u32>())?;
+        let children = self
+            .device
+            .buffer::<u32>(refit.children as usize / size_of::<u32>())?;
         let mut pass = Pass::new();
         for dispatch in &refit.dispatches {
-            let kernel = device.kernel(&kernel(dispatch.pass))?;
-            let known = lightbvh_gpu::Kernel::named(kernel.name()).map_or(&[][..], |known| known.bindings);
-            let buffers: Vec<_> = known
-                .iter()
-                .map(|binding| match binding.name {
-                    "list" => list.bind(),
-                    "children" => children.bind().of_elements(binding.stride),
-                    array => self.bind(array).expect("an array of the tree"),
-                })
-                .collect();
+            let known = self.kernels.refit(dispatch.pass);
+            let bind = |binding: &lightbvh_gpu::kernel::Binding| match binding.name {
+                "list" => list.bind(),
+                "children" => children.bind().of_elements(binding.stride),
+                array => self.bind(array).expect("an array of the tree"),
+            };
+            let buffers: Vec<_> = known.bindings.iter().map(bind).collect();
+            let kernel = self.device.kernel(known.name)?;
             pass.dispatch(&kernel, &buffers, bytes_of(&dispatch.push()), dispatch.count);
         }
-        Ok(device_time(&device.run(&pass)?))
+        Ok(device_time(&self.device.run(&pass)?))
     }
 
     /// Makes the device's arrays those of `bvh`, but for the summaries that are refitted.
-    fn copy_changes<I, const W: usize>(
-        &mut self,
-        device: &Device,
-        bvh: &lightbvh::Bvh<N, I, W>,
-        frame: &Frame,
-    ) -> Result<(), VulkanError>
-    where
-        N: Node<W>,
-    {
+    fn copy_changes<I>(&mut self, bvh: &lightbvh::Bvh<N, I, W>, frame: &Frame) -> Result<(), VulkanError> {
+        let device = self.device;
         renew(device, &mut self.nodes, bvh, frame, Array::Nodes)?;
         renew(device, &mut self.instances, bvh, frame, Array::Instances)?;
         renew(device, &mut self.trails, bvh, frame, Array::Trails)?;
