@@ -45,7 +45,7 @@ fn verify_finds_trees_valid_and_compares_words_on_every_device() {
 fn trade_measures_each_choice() {
     let folder = Folder::new("trade");
     let report = json(&format!(
-        "trade --json --quick --axes importance --frame 3 --out {}",
+        "trade --json --quick --axes importance --frame 3 --time 1000 --out {}",
         folder.file("")
     ));
     let page = std::fs::read_to_string(folder.file("trade.html")).expect("a page");
@@ -95,6 +95,7 @@ fn trade_measures_each_choice() {
     }
     // Each choice of the front is in some sentence.
     let steps = report["steps"].to_string();
+    assert!(steps.contains("least error in 1000 ms: "), "{steps}");
     let front: Vec<&Value> = points.iter().filter(|point| point["pareto"] == true).collect();
     for point in &front {
         let choice = point["choice"].as_str().expect("a name");

@@ -205,8 +205,7 @@ impl World {
             let id = world.bvh.add_mesh(triangles.clone()).expect("within the domain");
             world.meshes.push((id, triangles));
         }
-        let mut edits = Vec::new();
-        world.add(world.count, &mut edits);
+        let edits = world.add(world.count);
         world.apply(edits);
         world.bvh.refit();
         world
@@ -250,149 +249,118 @@ impl World {
         (0..count).map(one).collect()
     }
 
-    /// Turned at random, at a place, or else anywhere.
+    /// Turned at random, near a place, or else anywhere.
     fn turned(&mut self, place: Option<[f32; 3]>) -> Transform {
         let random = &mut self.random;
         let (s, c) = libm::sincosf(random.between(0.0, std::f32::consts::TAU));
+        let place = place.map(|p| p.map(|x| (x + random.between(-NEAR, NEAR)).clamp(0.0, SIDE)));
         Transform {
             columns: [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]],
             translation: place.unwrap_or_else(|| std::array::from_fn(|_| random.between(0.0, SIDE))),
         }
     }
 
-    /// How many of `all` a batch has: most often one, seldom many.
-    fn few(&mut self, all: usize) -> usize {
-        let most = match self.below(64) {
-            0 => all / 4,
-            1..4 => all / 64,
-            4..16 => 8,
-            _ => 1,
-        };
-        (1 + self.below(most.max(1))).min(all)
-    }
-
-    /// The edits of a frame.
+    /// The edits of a frame, all of one kind: most often one, seldom many.
     fn edits(&mut self, counts: &mut Counts) -> Vec<Edit> {
-        let mut edits = Vec::new();
-        for _ in 0..1 + self.below(3) {
-            let mut done = ("added", 0);
-            match self.below(16) {
-                // Nothing happens in some frames.
-                0 => {}
-                1..4 => {
-                    // The more there are, the fewer come.
-                    let room = (self.count + self.count / 10).saturating_sub(self.instances.len());
-                    let count = self.few(self.count).min(room);
-                    self.add(count, &mut edits);
-                    done = ("added", count);
-                }
-                4..7 => {
-                    let least = self.count - self.count / 10;
-                    let spare = self.instances.len().saturating_sub(least);
-                    let count = self.few(self.count).min(spare);
-                    for _ in 0..count {
-                        let at = self.below(self.instances.len());
-                        edits.push(Edit::RemoveInstance(self.instances.swap_remove(at).0));
-                    }
-                    done = ("removed", count);
-                }
-                kind @ 7..14 => {
-                    let count = self.few(self.instances.len());
-                    let is_far = self.below(4) == 0;
-                    for _ in 0..count {
-                        let at = self.below(self.instances.len());
-                        let instance = self.instances[at].0;
-                        edits.push(match kind {
-                            13 => {
-                                let radiance = match self.below(8) {
-                                    0 => [0.0; 3],
-                                    _ => [0; 3].map(|_| self.random.between(0.1, 1.1)),
-                                };
-                                Edit::SetRadiance { instance, radiance }
-                            }
-                            _ => {
-                                let old = self.bvh.instances()[instance.index() as usize].translation;
-                                let step = |x: f32| (x + self.random.between(-NEAR, NEAR)).clamp(0.0, SIDE);
-                                let near = old.map(step);
-                                let transform = self.turned((!is_far).then_some(near));
-                                Edit::SetTransform { instance, transform }
-                            }
-                        });
-                    }
-                    done = (if kind == 13 { "dimmed" } else { "moved" }, count);
-                }
-                14 => {
-                    edits.push(self.deform());
-                    done = ("deformed", 1);
-                }
-                _ => done = ("exchanged", usize::from(self.exchange(&mut edits))),
+        let most = [1, 1, 8, self.count / 64, self.count / 4][self.below(5)];
+        let count = 1 + self.below(most.max(1));
+        let (present, tenth) = (self.instances.len(), self.count / 10);
+        let (what, edits) = match self.below(8) {
+            0 => (
+                "added",
+                self.add(count.min((self.count + tenth).saturating_sub(present))),
+            ),
+            1 => {
+                let spare = present.saturating_sub(self.count - tenth);
+                let removed = (0..count.min(spare)).map(|_| {
+                    let at = self.below(self.instances.len());
+                    Edit::RemoveInstance(self.instances.swap_remove(at).0)
+                });
+                ("removed", removed.collect())
             }
-            *counts.entry(done.0).or_default() += done.1 as u32;
-        }
+            2..5 => ("moved", (0..count).map(|_| self.moved()).collect()),
+            5 => ("dimmed", (0..count).map(|_| self.dimmed()).collect()),
+            6 => ("deformed", vec![self.deform()]),
+            _ => ("exchanged", self.exchange()),
+        };
+        let done = if what == "exchanged" { 1 } else { edits.len() };
+        *counts.entry(what).or_default() += done as u32;
         edits
     }
 
-    fn add(&mut self, count: usize, edits: &mut Vec<Edit>) {
-        for _ in 0..count {
+    fn add(&mut self, count: usize) -> Vec<Edit> {
+        let added = (0..count).map(|_| {
             let at = self.below(self.meshes.len());
             let (mesh, transform) = (self.meshes[at].0, self.turned(None));
             self.new_instances.push(mesh);
-            edits.push(Edit::AddInstance {
+            Edit::AddInstance {
                 mesh,
                 transform,
                 radiance: [1.0; 3],
                 mask: u32::MAX,
-            });
-        }
+            }
+        });
+        added.collect()
+    }
+
+    /// One of four moves far.
+    fn moved(&mut self) -> Edit {
+        let at = self.below(self.instances.len());
+        let instance = self.instances[at].0;
+        let old = self.bvh.instances()[instance.index() as usize].translation;
+        let place = (self.below(4) > 0).then_some(old);
+        let transform = self.turned(place);
+        Edit::SetTransform { instance, transform }
+    }
+
+    /// One of eight is turned off.
+    fn dimmed(&mut self) -> Edit {
+        let at = self.below(self.instances.len());
+        let bright = if self.below(8) == 0 { 0.0 } else { 1.0 };
+        let radiance = [0; 3].map(|_| bright * self.random.between(0.1, 1.1));
+        let instance = self.instances[at].0;
+        Edit::SetRadiance { instance, radiance }
     }
 
     /// A mesh jitters, or is scrambled, as a whole or in a range of its triangles.
     fn deform(&mut self) -> Edit {
         let at = self.below(self.meshes.len());
-        let count = self.meshes[at].1.len();
+        let (mesh, mut triangles) = self.meshes[at].clone();
         let step = if self.below(4) == 0 { 2.0 } else { 0.05 };
         let is_whole = self.below(2) == 0;
-        let first = if is_whole { 0 } else { self.below(count) };
-        let end = if is_whole {
-            count
-        } else {
-            count.min(first + 1 + self.below(32))
-        };
-        let mut triangles = self.meshes[at].1[first..end].to_vec();
+        let first = if is_whole { 0 } else { self.below(triangles.len()) };
+        triangles.drain(..first);
+        if !is_whole {
+            triangles.truncate(1 + self.below(32));
+        }
         for triangle in &mut triangles {
             let by: [f32; 3] = std::array::from_fn(|_| step * self.random.between(-0.5, 0.5));
             triangle.p = triangle.p.map(|p| std::array::from_fn(|k| p[k] + by[k]));
         }
-        let mesh = self.meshes[at].0;
+        let first = first as u32;
         match is_whole {
             true => Edit::SetTriangles { mesh, triangles },
             false => Edit::SetTriangleRange {
                 mesh,
-                first: first as u32,
+                first,
                 triangles,
             },
         }
     }
 
-    /// A mesh is removed with all its instances; another is added, with as many. Only once a frame, and no mesh that an edit of
-    /// this frame has placed.
-    fn exchange(&mut self, edits: &mut Vec<Edit>) -> bool {
+    /// A mesh is removed with all its instances; another is added, and as many instances of any.
+    fn exchange(&mut self) -> Vec<Edit> {
         let at = self.below(self.meshes.len());
-        let id = self.meshes[at].0;
-        if self.new_mesh.is_some() || self.new_instances.contains(&id) {
-            return false;
-        }
+        let id = self.meshes.swap_remove(at).0;
         let users = self.instances.extract_if(.., |(_, mesh)| *mesh == id);
-        let users: Vec<Edit> = users.map(|(own, _)| Edit::RemoveInstance(own)).collect();
-        let count = users.len();
-        edits.extend(users);
-        self.meshes.swap_remove(at);
+        let mut edits: Vec<Edit> = users.map(|(own, _)| Edit::RemoveInstance(own)).collect();
+        let count = edits.len();
         edits.push(Edit::RemoveMesh(id));
         let triangles = self.mesh(false);
         self.new_mesh = Some(triangles.clone());
         edits.push(Edit::AddMesh { triangles });
-        self.add(count, edits);
-        true
+        edits.extend(self.add(count));
+        edits
     }
 }
 
