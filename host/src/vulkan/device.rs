@@ -120,14 +120,7 @@ impl Device {
         if Arc::into_inner(self.shared).is_none() {
             return Err(VulkanError::StillHeld { device, holders });
         }
-        match messages {
-            Some(messages) if messages.count() > 0 => Err(VulkanError::Validation {
-                device,
-                count: messages.count(),
-                first: messages.first(),
-            }),
-            _ => Ok(()),
-        }
+        messages.map_or(Ok(()), |messages| messages.check(&device))
     }
 }
 

@@ -49,7 +49,7 @@ fn scenes_of_points_and_spots_are_verified_and_inspected() {
     assert!(rows.iter().all(|row| row["lights"] == 3), "{rows:?}");
 
     let found = report(&format!("inspect {path} --json"));
-    assert_eq!(found["kinds"]["said"], "2 points, 1 spot");
+    assert_eq!(found["kinds"]["said"], "2 PointLight, 1 SpotLight");
     assert_eq!(found["kinds"]["node"], "Lit<SpotMomentNode<8>, AnyLight>");
 }
 

@@ -13,16 +13,16 @@ pub(super) struct LightKinds {
     limited: usize,
 }
 
-/// The kinds by their number: one, several, and the type.
-const NAMES: [[&str; 3]; 8] = [
-    ["triangle", "triangles", "EmissiveTriangle"],
-    ["point", "points", "PointLight"],
-    ["spot", "spots", "SpotLight"],
-    ["sphere", "spheres", "SphereLight"],
-    ["rectangle", "rectangles", "RectangleLight"],
-    ["disc", "discs", "DiscLight"],
-    ["box", "boxes", "BoxLight"],
-    ["profile", "profiles", "ProfileLight"],
+/// The kinds by their number.
+const NAMES: [&str; 8] = [
+    "EmissiveTriangle",
+    "PointLight",
+    "SpotLight",
+    "SphereLight",
+    "RectangleLight",
+    "DiscLight",
+    "BoxLight",
+    "ProfileLight",
 ];
 
 impl LightKinds {
@@ -43,7 +43,7 @@ impl LightKinds {
     fn light_type(&self) -> &'static str {
         let mut there = (0..8).filter(|&kind| self.counts[kind] > 0);
         match (there.next(), there.next()) {
-            (Some(kind), None) => NAMES[kind][2],
+            (Some(kind), None) => NAMES[kind],
             _ => "AnyLight",
         }
     }
@@ -61,9 +61,9 @@ impl LightKinds {
 
     /// How many there are of each, in words; empty where there is none.
     fn said(&self) -> String {
-        let named = self.counts.iter().zip(NAMES).filter(|(count, _)| **count > 0);
-        let parts = named.map(|(count, names)| format!("{count} {}", names[usize::from(*count > 1)]));
-        parts.collect::<Vec<_>>().join(", ")
+        let parts = self.counts.iter().zip(NAMES).filter(|(count, _)| **count > 0);
+        let parts: Vec<String> = parts.map(|(count, name)| format!("{count} {name}")).collect();
+        parts.join(", ")
     }
 
     /// The same, and how many have a cone or a range.
@@ -110,13 +110,13 @@ mod tests {
             })
         };
         for (lights, node, said) in [
-            (&[point][..], "Lit<MomentNode<8>, PointLight>", "1 point"),
+            (&[point][..], "Lit<MomentNode<8>, PointLight>", "1 PointLight"),
             // A cone of a right angle and one without light need no cones.
-            (&[spot(0.0, 1.0)], "Lit<MomentNode<8>, SpotLight>", "1 spot"),
+            (&[spot(0.0, 1.0)], "Lit<MomentNode<8>, SpotLight>", "1 SpotLight"),
             (
                 &[point, spot(0.5, 0.0)],
                 "Lit<MomentNode<8>, AnyLight>",
-                "1 point, 1 spot",
+                "1 PointLight, 1 SpotLight",
             ),
         ] {
             let kinds = LightKinds::of(lights);

@@ -115,7 +115,10 @@ fn pick(points: &[Point], samples: u32, time: f64) -> String {
         Some((error, rays, Point { scene, choice, .. })) => format!(
             "{scene}: least error in {time} ms: {choice}, {error:.2} by {rays:.1} shadow rays of a pixel"
         ),
-        None => format!("{}: no choice traces a shadow ray of each pixel in {time} ms", points[0].scene),
+        None => format!(
+            "{}: no choice traces a shadow ray of each pixel in {time} ms",
+            points[0].scene
+        ),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The costs of a tree and how well it chooses: bytes, times, the variance of unshadowed light.
 
 use lightbvh::exact::hash;
-use lightbvh::{Lights, Random64, ShadingPoint};
+use lightbvh::{Lights, ShadingPoint};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -15,8 +15,6 @@ use crate::method::Step;
 
 /// Builds of each tree.
 const BUILDS: u32 = 3;
-/// Trials of several candidates at each point.
-const TRIALS: u32 = 32;
 
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Structure {
@@ -36,8 +34,7 @@ pub(super) struct Structure {
     pub variances: Variances,
 }
 
-/// Of the estimate of diffuse light by one sample without shadows, over the squared mean. Exact for one candidate, by trials for
-/// more.
+/// Of the estimate of diffuse light by one sample without shadows, over the squared mean; `None` for several candidates.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Variances {
     /// Mean over the points that any light reaches; `None` if there is no such point.
@@ -96,11 +93,9 @@ impl<'a> Arriving<'a> {
     }
 
     fn variances(&self, subject: &dyn Subject) -> Variances {
-        let points = (0..).zip(self.points.iter().zip(&self.sent));
-        let of = |(number, (point, sent)): (u32, (&ShadingPoint, &Vec<f64>))| {
-            if subject.config().candidates > 1 {
-                return variance_of_trials(subject, number, point, sent);
-            }
+        let is_one = subject.config().candidates == 1;
+        let points = self.points.iter().zip(&self.sent).filter(|_| is_one);
+        let of = |(point, sent): (&ShadingPoint, &Vec<f64>)| {
             let lights = (0..).zip(sent).filter(|(_, sent)| **sent > 0.0);
             variance(lights.map(|(light, sent)| (*sent, subject.pmf(self.lights, point, light).into())))
         };
@@ -110,19 +105,4 @@ impl<'a> Arriving<'a> {
             variance_median: (!all.is_empty()).then(|| Interval::of(all).median),
         }
     }
-}
-
-/// The relative variance by several candidates: the mean over trials, around the known mean, so that few trials do.
-fn variance_of_trials(subject: &dyn Subject, number: u32, point: &ShadingPoint, sent: &[f64]) -> Option<f64> {
-    let mean: f64 = sent.iter().sum();
-    let mut found = Vec::new();
-    let squares = (0..TRIALS).map(|trial| {
-        subject.candidates(point, Random64::from(hash(number * TRIALS + trial)), &mut found);
-        let of = |&(light, pmf): &(u32, f32)| match sent.get(light as usize) {
-            Some(light) if pmf > 0.0 => light / f64::from(pmf),
-            _ => 0.0,
-        };
-        (found.iter().map(of).sum::<f64>() / found.len() as f64 - mean).powi(2)
-    });
-    (mean > 0.0).then(|| squares.sum::<f64>() / f64::from(TRIALS) / (mean * mean))
 }
