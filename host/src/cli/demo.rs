@@ -73,8 +73,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             let step = Step::new(&scene, FRAMES[k], &arrays.lights);
             let params = render_params(size, SAMPLES, FRAMES[k], scene.data().background);
             times[0].push(runner.advance(&step)?.refit);
-            let words = runner.backend().nodes()?;
-            let nodes = runner.words_in_use(words);
+            let nodes = runner.nodes()?;
             let image = runner.image(&step, arrays, &params)?;
             times[1].push(image.time);
             let record = runner.backend().node_record();

@@ -124,11 +124,9 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
         &mut *self.backend
     }
 
-    fn words_in_use(&self, nodes: Vec<u32>) -> Vec<u32> {
-        match self.bvh() {
-            Some(bvh) => words_in_use(bvh, &nodes),
-            None => nodes,
-        }
+    fn nodes(&mut self) -> Result<Vec<u32>, HostError> {
+        let nodes = self.backend.nodes()?;
+        Ok(self.bvh().map_or_else(Vec::new, |bvh| words_in_use(bvh, &nodes)))
     }
 
     fn tree(&self) -> Option<TreeFacts> {

@@ -105,8 +105,8 @@ pub trait Runner<L: SceneLight = EmissiveTriangle> {
     /// The backend, as of the frame last advanced to.
     fn backend(&mut self) -> &mut dyn Backend<L>;
 
-    /// The words in use, out of the words of all nodes of the [`backend`](Self::backend).
-    fn words_in_use(&self, nodes: Vec<u32>) -> Vec<u32>;
+    /// The words of the nodes in use of the [`backend`](Self::backend).
+    fn nodes(&mut self) -> Result<Vec<u32>, HostError>;
 
     /// The light BVH; none where lights are chosen by a table.
     fn tree(&self) -> Option<TreeFacts>;

@@ -2,7 +2,6 @@
 
 use glam::{DMat3, DQuat, DVec3};
 use lightbvh::{BuildParams, EmissiveTriangle, ShadingPoint};
-use rayon::prelude::*;
 
 use super::case::{around, validated};
 use super::cases::scattered;
@@ -11,7 +10,7 @@ use super::random::Random;
 use super::row::{Check, Row};
 use crate::backend::{Bvh, Sampler};
 use crate::error::HostError;
-use crate::metrics::{irradiance, mean, variance};
+use crate::metrics::{mean, variances};
 use crate::workload::build;
 
 /// Greatest factor on the standard deviation; see [`Check::Deviation`].
@@ -57,12 +56,11 @@ impl Scene {
     fn deviation(&self, sampler: Sampler) -> Result<f64, HostError> {
         let lights = validated("invariance", self.lights.clone())?;
         let bvh: Bvh = build(&lights, sampler, &BuildParams::default());
-        let of = |point: &ShadingPoint| {
-            let pmfs = all_pmfs(&bvh, &lights, point);
-            let pairs = self.lights.iter().zip(pmfs);
-            variance(pairs.map(|(light, pmf)| (irradiance(light, point), f64::from(pmf))))
-        };
-        let variances: Vec<f64> = self.points.par_iter().filter_map(of).collect();
+        let pmfs = self.points.iter().map(|point| all_pmfs(&bvh, &lights, point));
+        let pmfs: Vec<Vec<f32>> = pmfs.collect();
+        let pmf = |k: usize, light: u32| pmfs[k][light as usize];
+        let variances = variances(&self.lights, &self.points, pmf).into_iter();
+        let variances: Vec<f64> = variances.flatten().collect();
         Ok(mean(&variances).sqrt())
     }
 }

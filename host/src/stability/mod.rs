@@ -29,8 +29,6 @@ pub struct Effort {
     pub samples: u32,
     /// Lights of the largest scene.
     pub most_lights: u32,
-    /// Lights of the scene of equal lights.
-    pub equal_lights: u32,
 }
 
 impl Effort {
@@ -38,13 +36,11 @@ impl Effort {
     pub const FULL: Self = Self {
         samples: 20_000,
         most_lights: 10_000_000,
-        equal_lights: 1 << 22,
     };
     /// Less than a minute.
     pub const QUICK: Self = Self {
         samples: 2_000,
         most_lights: 1_000_000,
-        equal_lights: 1 << 18,
     };
 }
 

@@ -10,7 +10,7 @@ use lightbvh_kernels::bvh::WIDTH;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::cli::measure::{irradiance, mean_of, variance};
+use crate::cli::measure::{mean_of, variances};
 use crate::error::HostError;
 use crate::scene::{Instances, Scene};
 
@@ -123,14 +123,12 @@ fn bytes<N: LightNode<WIDTH>, I>(bvh: Bvh<N, I, WIDTH>, updates: Updates) -> [us
     }
 }
 
-/// A scene's lights in the frame that trees are looked at in, and the light that they send to its points.
+/// A scene's lights in the frame that trees are looked at in.
 struct Source<'a> {
     scene: &'a Scene,
     /// Trees are built in the first, and moved to the second.
     frames: [u32; 2],
     lights: &'a Lights,
-    /// Light that arrives, by point and light.
-    sent: Vec<Vec<f64>>,
 }
 
 impl Source<'_> {
@@ -173,15 +171,10 @@ impl Source<'_> {
     }
 
     /// Relative variances of one sample by these probabilities, at the points that any light reaches.
-    fn variances(&self, pmfs: &[f32]) -> Vec<f64> {
-        let points = self
-            .sent
-            .iter()
-            .zip(pmfs.chunks(self.lights.triangles().len().max(1)));
-        let of = |sent: &Vec<f64>, pmfs: &[f32]| {
-            variance(sent.iter().zip(pmfs).map(|(&sent, &pmf)| (sent, f64::from(pmf))))
-        };
-        points.filter_map(|(sent, pmfs)| of(sent, pmfs)).collect()
+    fn variances(&self, pmfs: &[f32], points: &[ShadingPoint]) -> Vec<f64> {
+        let lights = self.lights.triangles();
+        let pmf = |k: usize, light: u32| pmfs[k * lights.len() + light as usize];
+        variances(lights, points, pmf).into_iter().flatten().collect()
     }
 
     fn cost(&self, subject: &Subject) -> Cost {
@@ -224,17 +217,14 @@ pub(super) fn check(
     lights: &Lights,
     points: &[ShadingPoint],
 ) -> Result<Checked, HostError> {
-    let sent = points.par_iter();
-    let sent = sent.map(|point| lights.triangles().iter().map(|t| irradiance(t, point)).collect());
     let source = Source {
         scene,
         frames,
         lights,
-        sent: sent.collect(),
     };
     let mut model = Model::DEFAULT;
     let mut subject = source.build(&model, points)?;
-    let mut variances_before = source.variances(&subject.pmfs);
+    let mut variances_before = source.variances(&subject.pmfs, points);
     let mut rows = vec![Row {
         part: "default",
         promise: None,
@@ -270,7 +260,7 @@ pub(super) fn check(
         let different = pairs.clone().filter(|(a, b)| a.to_bits() != b.to_bits()).count();
         let most = pairs.clone().map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs());
         let (compared, most) = (pairs.clone().count(), most.fold(0.0, f64::max));
-        let variances = source.variances(&new.pmfs);
+        let variances = source.variances(&new.pmfs, points);
         let variance_ratio = (!variances.is_empty()).then(|| MeanRatio::of(&variances_before, &variances));
         let held = match promise {
             Promise::Variance => variance_ratio.is_none_or(|ratio| ratio.high <= MOST_VARIANCE),

@@ -18,7 +18,7 @@ use self::check::{Checked, MOST_VARIANCE, MeanRatio, Promise, Row, check};
 use self::kinds::LightKinds;
 use super::reading::Reading;
 use super::{Context, Outcome, table};
-use crate::cli::measure::{NOT_MEASURED, points};
+use crate::cli::measure::points;
 use crate::cli::table::{news, say, yes};
 use crate::error::HostError;
 use crate::scene::{Instances, Primitive, Property, Scene, SceneData};
@@ -358,7 +358,7 @@ fn reasons(found: &Requirements) -> [String; 3] {
 fn print_check(checked: &Checked, points: u32, [frame, moved]: [u32; 2]) -> std::io::Result<()> {
     let (default, last) = (&checked.rows[0], &checked.rows[checked.last]);
     if default.variance.is_none() {
-        say!("\n{NOT_MEASURED}; what parts promise of the variance is not known to hold")?;
+        say!("\nno point receives light of a tree: what parts promise of the variance is not known to hold")?;
     }
     let refitted = match moved == frame {
         true => String::new(),

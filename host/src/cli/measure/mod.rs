@@ -5,13 +5,9 @@ pub(super) mod points;
 pub(super) mod reference;
 pub(super) mod times;
 
-pub(super) use crate::metrics::{irradiance, variance};
+pub(super) use crate::metrics::variances;
 
 use crate::metrics::mean;
-
-/// Said where no figure is known.
-pub(super) const NOT_MEASURED: &str =
-    "no point receives light of a light that a tree would hold, and nothing is measured";
 
 /// The mean; `None` of no values.
 pub(super) fn mean_of(values: &[f64]) -> Option<f64> {

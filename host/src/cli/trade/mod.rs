@@ -17,7 +17,7 @@ use self::choices::all;
 use self::front::{Point, front};
 use self::image::{Budget, Measured};
 use self::report::Report;
-use self::structure::{Arriving, structures};
+use self::structure::structures;
 use self::subject::Axis;
 use super::measure::points;
 use super::reading::{Reading, positive};
@@ -159,8 +159,7 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
     news!("{name}: times and variances of samples");
     let lights = lights_at(scene, last)?;
     let points = points::on_surfaces(scene, last, budget.points);
-    let arriving = Arriving::new(&lights, &points);
-    let structures = structures(&subjects, &Step::new(scene, last, &lights), &arriving, budget)?;
+    let structures = structures(&subjects, &Step::new(scene, last, &lights), &points, budget)?;
     let (images, judge) = measured.finish();
     let all = subjects.iter().zip(structures.into_iter().zip(images));
     let points = all.map(|(subject, (structure, images))| Point {

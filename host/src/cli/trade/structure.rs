@@ -2,14 +2,13 @@
 
 use lightbvh::exact::hash;
 use lightbvh::{Lights, ShadingPoint};
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::image::Budget;
 use super::subject::Subject;
 use crate::cli::measure::interval::Interval;
 use crate::cli::measure::times::in_turns;
-use crate::cli::measure::{irradiance, mean_of, variance};
+use crate::cli::measure::{self, mean_of};
 use crate::error::HostError;
 use crate::method::Step;
 
@@ -42,23 +41,16 @@ pub(super) struct Variances {
     pub variance_median: Option<f64>,
 }
 
-/// The light that arrives at points: of each light, the irradiance without shadows, up to a common factor.
-pub(super) struct Arriving<'a> {
-    lights: &'a Lights,
-    points: &'a [ShadingPoint],
-    sent: Vec<Vec<f64>>,
-}
-
 pub(super) fn structures(
     subjects: &[Box<dyn Subject>],
     frame: &Step<'_>,
-    arriving: &Arriving<'_>,
+    points: &[ShadingPoint],
     budget: &Budget,
 ) -> Result<Vec<Structure>, HostError> {
-    let items = budget.passes * arriving.points.len() as u32;
+    let items = budget.passes * points.len() as u32;
     let sampled = in_turns(subjects.len(), budget.turns, items, |at, turn| {
         let first = |pass| hash(turn * budget.passes + pass);
-        let passes = (0..budget.passes).map(|pass| subjects[at].sample(arriving.points, first(pass)));
+        let passes = (0..budget.passes).map(|pass| subjects[at].sample(points, first(pass)));
         Ok(passes.sum())
     })?;
     let built = in_turns(subjects.len(), BUILDS, 1, |at, _| subjects[at].build(frame))?;
@@ -71,38 +63,23 @@ pub(super) fn structures(
         beside_ms: subject.updates().beside_ms(),
         sample_ratio: Interval::of_ratios(own, &sampled[0]),
         ns_per_sample: Interval::of(own.clone()).median,
-        variances: arriving.variances(&**subject),
+        variances: variances(&**subject, frame.lights, points),
     });
     Ok(all.collect())
 }
 
-impl<'a> Arriving<'a> {
-    pub fn new(lights: &'a Lights, points: &'a [ShadingPoint]) -> Self {
-        let all = |point| {
-            lights
-                .triangles()
-                .iter()
-                .map(|light| irradiance(light, point))
-                .collect()
-        };
-        Self {
-            lights,
-            points,
-            sent: points.par_iter().map(all).collect(),
-        }
-    }
-
-    fn variances(&self, subject: &dyn Subject) -> Variances {
-        let is_one = subject.config().candidates == 1;
-        let points = self.points.iter().zip(&self.sent).filter(|_| is_one);
-        let of = |(point, sent): (&ShadingPoint, &Vec<f64>)| {
-            let lights = (0..).zip(sent).filter(|(_, sent)| **sent > 0.0);
-            variance(lights.map(|(light, sent)| (*sent, subject.pmf(self.lights, point, light).into())))
-        };
-        let all: Vec<f64> = points.filter_map(of).collect();
-        Variances {
-            variance: mean_of(&all),
-            variance_median: (!all.is_empty()).then(|| Interval::of(all).median),
-        }
+/// Exact, by all lights.
+fn variances(subject: &dyn Subject, lights: &Lights, points: &[ShadingPoint]) -> Variances {
+    let points = if subject.config().candidates > 1 {
+        &[]
+    } else {
+        points
+    };
+    let pmf = |k: usize, light| subject.pmf(lights, &points[k], light);
+    let all = measure::variances(lights.triangles(), points, pmf);
+    let all: Vec<f64> = all.into_iter().flatten().collect();
+    Variances {
+        variance: mean_of(&all),
+        variance_median: (!all.is_empty()).then(|| Interval::of(all).median),
     }
 }

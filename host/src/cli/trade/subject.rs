@@ -163,7 +163,7 @@ impl fmt::Display for Config {
 }
 
 /// A configuration over the lights of a scene.
-pub(super) trait Subject {
+pub(super) trait Subject: Sync {
     fn config(&self) -> Config;
 
     fn bytes(&self) -> usize;

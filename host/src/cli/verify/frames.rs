@@ -133,8 +133,7 @@ impl<'d, L: MethodLight> Lane<'d, L> {
             let record = self.cpu.backend().node_record();
             let mut side = self.side();
             side.compare(tallies, Kind::Nodes, &what("refit"), &record, |runner| {
-                let words = runner.backend().nodes()?;
-                Ok(runner.words_in_use(words))
+                runner.nodes()
             })?;
             let lights = (arrays.lights.triangles(), recipe.lights == Sampler::SingleLevel);
             let seed = hash(plan.seed.wrapping_add(step.frame));
