@@ -3,7 +3,6 @@
 use lightbvh::{EmissiveTriangle, INVALID, LightBounds, Lights, Moments, Random64, ShadingPoint};
 use rayon::prelude::*;
 
-use super::geometry::may_lose_its_area;
 use super::random::{ENDS, Random};
 use super::row::{Check, Row};
 use crate::backend::Bvh;
@@ -64,9 +63,7 @@ pub fn check(
         }
         let lost = |i: &usize| {
             let light = &lights[*i];
-            light.luminance() > 0.0
-                && shines(light)
-                && weights.pmf(point, *i as u32, instance_of(bvh, all, *i as u32)) == 0.0
+            has_flux(light) && weights.pmf(point, *i as u32, instance_of(bvh, all, *i as u32)) == 0.0
         };
         let lost: Vec<usize> = (0..lights.len()).into_par_iter().filter(lost).collect();
         starved.count(lost.len(), || {
@@ -106,11 +103,6 @@ pub fn all_pmfs(bvh: &Bvh, lights: &Lights, point: &ShadingPoint) -> Vec<f32> {
         .with_min_len(64)
         .map(|light| tree.pmf(point, light, instance_of(bvh, lights, light)))
         .collect()
-}
-
-/// Whether the light counts as one: rounding left something of its area, or should have.
-fn shines(light: &EmissiveTriangle) -> bool {
-    has_flux(light) || !may_lose_its_area(light)
 }
 
 fn has_flux(light: &EmissiveTriangle) -> bool {

@@ -6,7 +6,6 @@
 pub mod case;
 pub mod cases;
 pub mod checks;
-pub mod geometry;
 pub mod invariance;
 pub mod random;
 pub mod row;

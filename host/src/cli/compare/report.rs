@@ -37,20 +37,17 @@ pub(super) struct Noise {
 }
 
 /// Notes of the tables.
-pub(super) const NOTES: [&str; 7] = [
+pub(super) const NOTES: [&str; 5] = [
     "All methods trace the same number of shadow rays per pixel, through the same camera rays: what differs is the light that \
      each ray goes to.",
-    "Methods with moments in their names choose lights by the default importance, over trees of 8 children to a node built \
-     by Ward's criterion; the other light BVHs by the paper's Eq. 4, over trees of 4 children to a node built by SAH or SAOH.",
     "MSE, SSIM, PSNR and FLIP are of tone-mapped 8-bit sRGB at one exposure per scene (MSE in steps squared, 0 to 255²), as \
      in the paper; linear MSE is of radiance.",
     "± is half the 95 % confidence interval of the mean over the seeds (Student's t); one seed gives none. Of an average, \
      each seed's mean over the frames is one measurement.",
     "References come from the two-level light BVH with many samples and random numbers of their own. Their own noise, \
      estimated from two halves, is in every MSE; compare it with the differences you look at.",
-    "Refit and waiting and image times add up to the frame; a rebuild beside the frame counts only as far as the frame \
-     waits for it. Image times of devices are the kernels' own where the device has a clock; transfers are left out.",
-    "Rebuild times are of the CPU on every backend.",
+    "Refit and waiting and image times add up to the frame; a rebuild, always by the CPU, runs beside it. Image times of \
+     devices are the kernels' own where the device has a clock; transfers are left out.",
 ];
 
 /// Tables of each scene; the JSON has more.

@@ -5,6 +5,7 @@ use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, Node, ShadingPoi
 use super::super::case::Case;
 use super::super::random::Random;
 use super::scattered;
+use crate::vector::{dot, normal};
 
 pub(super) fn cases() -> Vec<Case> {
     let lights = scattered(200, 41);
@@ -26,11 +27,9 @@ fn on_lights(lights: &[EmissiveTriangle]) -> Vec<ShadingPoint> {
     let mut points = Vec::new();
     for light in lights.iter().step_by(12) {
         let [a, b, c] = light.p;
-        let normal = super::super::geometry::Triangle::new(light)
-            .normal
-            .normalize()
-            .to_array()
-            .map(|x| x as f32);
+        let m = normal(light.p);
+        let length = dot(m, m).sqrt();
+        let normal = m.map(|x| (x / length) as f32);
         let places = [
             a,
             std::array::from_fn(|k| 0.5 * (a[k] + b[k])),
