@@ -180,7 +180,7 @@ fn print(context: &Context, cases: &[Case]) -> Result<(), HostError> {
             ("structure", |c| c.structure.to_owned()),
             ("lights", |c| c.lights.to_string()),
             ("backend", |c| c.backend.clone()),
-            ("threads", |c| table::threads(c.threads)),
+            ("threads", |c| c.threads.to_string()),
             ("ns/item", |c| format!("{:.1}", c.ns_per_item)),
             ("least", |c| format!("{:.1}", c.ns_least)),
             ("most", |c| format!("{:.1}", c.ns_most)),

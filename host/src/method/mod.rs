@@ -3,7 +3,6 @@
 //! [`Method`] names each; its [`Recipe`] says what it does, and makes the [`Runner`] that does it.
 
 mod independent;
-mod moving;
 mod names;
 
 pub use names::{Builder, Importance, Method, Recipe};
@@ -53,17 +52,6 @@ pub struct UpdateTimes {
     pub rebuild: Duration,
     /// How long the frame waited for a rebuild: all of it if it does not run in the background.
     pub wait: Duration,
-}
-
-impl UpdateTimes {
-    /// A rebuild that the frame waits for.
-    fn waited(rebuild: Duration) -> Self {
-        Self {
-            rebuild,
-            wait: rebuild,
-            ..Self::default()
-        }
-    }
 }
 
 /// The unit of [`RenderParams::samples`].
