@@ -51,12 +51,6 @@ pub enum HostError {
     Store { path: PathBuf, source: std::io::Error },
     #[error("cannot create the folder {path}: {source}; choose another with --out")]
     Folder { path: PathBuf, source: std::io::Error },
-    #[error("{option} {value} {problem}")]
-    Refused {
-        option: &'static str,
-        value: String,
-        problem: String,
-    },
     #[error("{option} needs {needs}")]
     Usage {
         option: &'static str,

@@ -8,7 +8,7 @@ use lightbvh::exact::hash;
 use lightbvh_kernels::query::Query;
 use serde::Serialize;
 
-use crate::backend::{Backend, BackendError, PMF_RECORD, SAMPLED_RECORD};
+use crate::backend::{Backend, PMF_RECORD, SAMPLED_RECORD};
 use crate::error::HostError;
 use crate::scene::SceneLight;
 use crate::words::{Record, compare_words};
@@ -22,8 +22,6 @@ pub(crate) enum Kind {
     Samples,
     Pmfs,
     Pixels,
-    /// Whole arrays of a light BVH.
-    Arrays,
 }
 
 impl Kind {
@@ -85,13 +83,13 @@ impl Tally {
     }
 }
 
-/// One backend on the CPU and on each device.
-pub(crate) struct Side<'a, L: SceneLight> {
-    pub cpu: &'a mut dyn Backend<L>,
-    pub devices: Vec<&'a mut dyn Backend<L>>,
+/// A backend, or a method, on the CPU and on each device.
+pub(crate) struct Side<'a, B: ?Sized> {
+    pub cpu: &'a mut B,
+    pub devices: Vec<&'a mut B>,
 }
 
-impl<L: SceneLight> Side<'_, L> {
+impl<B: ?Sized> Side<'_, B> {
     /// Compares what `work` gives on each device with what it gives on the CPU, which is returned.
     pub fn compare<T: NoUninit>(
         &mut self,
@@ -99,7 +97,7 @@ impl<L: SceneLight> Side<'_, L> {
         kind: Kind,
         what: &str,
         record: &Record,
-        work: impl Fn(&mut dyn Backend<L>) -> Result<Vec<T>, BackendError>,
+        work: impl Fn(&mut B) -> Result<Vec<T>, HostError>,
     ) -> Result<Vec<T>, HostError> {
         let expected = work(self.cpu)?;
         for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
@@ -108,7 +106,9 @@ impl<L: SceneLight> Side<'_, L> {
         }
         Ok(expected)
     }
+}
 
+impl<L: SceneLight> Side<'_, dyn Backend<L> + '_> {
     /// Sample, then pmf: of the light sampled for every query but each eighth, which asks for some of the `lights` in the
     /// world, of one level or two. What the CPU evaluates again must be what it sampled.
     pub fn compare_queries(
@@ -157,7 +157,9 @@ mod tests {
     use lightbvh_kernels::render::RenderParams;
 
     use super::*;
-    use crate::backend::{Bvh, CpuBackend, Integrator, PIXEL_RECORD, Sampler, SceneArrays, Timed};
+    use crate::backend::{
+        BackendError, Bvh, CpuBackend, Integrator, PIXEL_RECORD, Sampler, SceneArrays, Timed,
+    };
     use crate::scene::Scene;
     use crate::workload::{arrays_at, build, queries, render_params};
 
@@ -231,13 +233,13 @@ mod tests {
                 devices: vec![Tally::default()],
                 ..Tallies::default()
             };
-            let mut side = Side {
+            let mut side: Side<'_, dyn Backend> = Side {
                 cpu: &mut cpu,
                 devices: vec![&mut device],
             };
             let (what, record) = (|kernel: &str| format!("street {kernel}"), side.cpu.node_record());
             side.compare(&mut tallies, Kind::Nodes, &what("nodes"), &record, |backend| {
-                backend.nodes()
+                Ok(backend.nodes()?)
             })
             .expect("nodes");
             let lights = (arrays.lights.triangles(), true);

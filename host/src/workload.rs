@@ -1,6 +1,6 @@
 //! From a scene to what the backends run: arrays of a frame, light BVHs, queries.
 
-use lightbvh::exact::{hash, unit_f32};
+use lightbvh::exact::hash;
 use lightbvh::light::Light;
 use lightbvh::node::{Holds, Node};
 use lightbvh::{BuildParams, Bvh, INVALID, Lights, Random64, ShadingPoint};
@@ -11,6 +11,8 @@ use crate::backend::{Sampler, SceneArrays, nodes_in_use};
 use crate::error::HostError;
 use crate::render::{RayBvh, camera};
 use crate::scene::{Scene, SceneLight, SkinArrays};
+use crate::stability::random::Random;
+use crate::vector::{dot, normal};
 
 /// Parameters of an image of this size, lit by single candidates.
 pub const fn render_params(
@@ -130,27 +132,26 @@ fn query<L: SceneLight>(
     bounds: &([f32; 3], [f32; 3]),
     random: u32,
 ) -> Query {
-    let draw = |k: u32| unit_f32(hash(random.wrapping_add(k)));
-    let pick = |k: u32, n: usize| ((draw(k) * n as f32) as usize).min(n - 1);
-    let kind = draw(0);
+    let random = &mut Random::new(random);
+    let kind = random.unit();
     let lights = scene.lights.triangles();
     // A scene may be lit by its sky alone.
     let is_empty = lights.is_empty() && surfaces.is_empty();
     let (mut p, mut n) = if !(0.75..0.98).contains(&kind) && !is_empty {
         let on_surface = (kind < 0.75 && !surfaces.is_empty()) || lights.is_empty();
         let corners = match on_surface {
-            true => surfaces[pick(1, surfaces.len())],
-            false => lights[pick(1, lights.len())].corners(),
+            true => surfaces[random.below(surfaces.len() as u32) as usize],
+            false => lights[random.below(lights.len() as u32) as usize].corners(),
         };
-        on_triangle(&corners, draw(2), draw(3), draw(4) < 0.5)
+        let (p, n) = on_triangle(&corners, random.unit(), random.unit());
+        let side = if random.below(2) == 0 { -1.0 } else { 1.0 };
+        (p, n.map(|x| x * side))
     } else {
-        let p = std::array::from_fn(|k| {
-            let (low, high) = (bounds.0[k], bounds.1[k]);
-            low + (high - low) * (1.5 * draw(5 + k as u32) - 0.25)
-        });
-        (p, direction(draw(2), draw(3), draw(4)))
+        let (low, high) = bounds;
+        let p = std::array::from_fn(|k| low[k] + (high[k] - low[k]) * random.between(-0.25, 1.25));
+        (p, random.direction())
     };
-    if draw(8) < 0.0625 {
+    if random.below(16) == 0 {
         n = [0.0; 3];
     }
     if kind >= 0.997 {
@@ -158,42 +159,25 @@ fn query<L: SceneLight>(
     } else if kind >= 0.995 {
         p = [0.0; 3];
     }
-    let number = Random64::from(hash(random ^ 0x5555_5555));
+    let number = Random64::from(random.bits());
     Query {
         point: ShadingPoint { p, n },
         words: [number.high, number.low],
     }
 }
 
-/// A point of a triangle and its unit normal on one side; an arbitrary normal if it has no area.
-fn on_triangle(p: &[[f32; 3]; 3], u: f32, v: f32, flip: bool) -> ([f32; 3], [f32; 3]) {
+/// A point of a triangle and its unit normal; an arbitrary normal if it has no area.
+pub(crate) fn on_triangle(p: &Corners, u: f32, v: f32) -> ([f32; 3], [f32; 3]) {
     let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
-    let e1: [f32; 3] = std::array::from_fn(|k| p[1][k] - p[0][k]);
-    let e2: [f32; 3] = std::array::from_fn(|k| p[2][k] - p[0][k]);
-    let point = std::array::from_fn(|k| p[0][k] + e1[k] * u + e2[k] * v);
-    let m: [f64; 3] = std::array::from_fn(|k| {
-        let (a, b) = ((k + 1) % 3, (k + 2) % 3);
-        f64::from(e1[a]) * f64::from(e2[b]) - f64::from(e1[b]) * f64::from(e2[a])
-    });
-    let length = m.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let sign = if flip { -1.0 } else { 1.0 };
-    let normal = if length > 0.0 {
-        m.map(|x| (x / length * sign) as f32)
+    let point = std::array::from_fn(|k| p[0][k] + (p[1][k] - p[0][k]) * u + (p[2][k] - p[0][k]) * v);
+    let m = normal(*p);
+    let length = dot(m, m).sqrt();
+    let n = if length > 0.0 {
+        m.map(|x| (x / length) as f32)
     } else {
         [0.0, 1.0, 0.0]
     };
-    (point, normal)
-}
-
-/// A direction: from the centre of a cube to a point of it, so denser towards its corners, which does not matter here.
-fn direction(u: f32, v: f32, w: f32) -> [f32; 3] {
-    let d = [u, v, w].map(|x| 2.0 * x - 1.0);
-    let length = d.iter().map(|x| x * x).sum::<f32>().sqrt();
-    if length > 0.0 {
-        d.map(|x| x / length)
-    } else {
-        [0.0, 1.0, 0.0]
-    }
+    (point, n)
 }
 
 /// Of surfaces; a metre around the origin where there is none.

@@ -1,13 +1,52 @@
-//! Oracles in f64, independent of the arithmetic under test: angles, cones, sums and orders here; which light can arrive where is
-//! shared with `lightbvh stability`.
+//! Oracles in f64, independent of the arithmetic under test: angles, cones, sums and orders, triangles.
 
 use glam::DVec3;
 use lightbvh::device::cone::Cone;
 use lightbvh::device::trail::leaf_parts;
 use lightbvh::node::kind;
-use lightbvh::{BuildParams, Bvh, ImportanceModel, LightBounds, LightNode, LightTree, Lights, ShadingPoint};
+use lightbvh::{
+    BuildParams, Bvh, EmissiveTriangle, ImportanceModel, LightBounds, LightNode, LightTree, Lights,
+    ShadingPoint,
+};
 pub use lightbvh_fuzz::input::{pmf_of, sum_is_one};
-pub use lightbvh_host::stability::geometry::{Triangle, vector};
+
+/// A vector of the crate in f64.
+#[must_use]
+pub fn vector(v: [f32; 3]) -> DVec3 {
+    DVec3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))
+}
+
+/// A triangle in f64.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle {
+    /// Vertices, metres.
+    pub p: [DVec3; 3],
+    /// (p1 − p0) × (p2 − p0), twice the area long.
+    pub normal: DVec3,
+    /// By how much rounding of the edges is enlarged in the direction of the normal: |e1| |e2| / |e1 × e2|.
+    pub condition: f64,
+}
+
+impl Triangle {
+    /// The triangle of a light.
+    #[must_use]
+    pub fn new(light: &EmissiveTriangle) -> Self {
+        let p = light.p.map(vector);
+        let (e1, e2) = (p[1] - p[0], p[2] - p[0]);
+        let normal = e1.cross(e2);
+        Self {
+            p,
+            normal,
+            condition: e1.length() * e2.length() / normal.length(),
+        }
+    }
+
+    /// Area, m².
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        0.5 * self.normal.length()
+    }
+}
 
 /// The angle between two vectors of any length, precise at every angle.
 #[must_use]

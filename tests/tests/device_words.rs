@@ -80,7 +80,7 @@ impl<'d, N: Node<W>, const W: usize> Held<'d, N, W> {
         let push = query_push(words.len() as u32, self.arrays.words());
         let others = [("queries", asked.bind())];
         let answers = self.arrays.ask(kernel, words.len(), bytes_of(&push), &others);
-        answers.expect("the answers")
+        answers.expect("the answers").value
     }
 
     /// Follows `bvh`, and compares everything; returns the samples.
@@ -158,7 +158,8 @@ impl<'d, N: Node<W>, const W: usize> Held<'d, N, W> {
         let found: Vec<LightPoint> = self
             .arrays
             .ask(kernel, picked.len(), bytes_of(&PointsPush { count }), &others)
-            .expect("the answers");
+            .expect("the answers")
+            .value;
         let expected: Vec<_> = (0..picked.len())
             .map(|k| {
                 let SampledLight { light, instance, .. } = picked[k];

@@ -63,43 +63,35 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for CpuB
         integrator: Integrator,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         let view = self.view(scene, sampler);
+        let camera = &scene.camera;
         in_batches(params, integrator, |params| {
-            let image = Image {
-                scene: &view,
-                camera: &scene.camera,
-                params,
-                integrator,
-            };
             Ok(Timed::of(|| match sampler {
-                Sampler::Uniform => image.by(&Uniform {
-                    count: scene.lights.triangles().len() as u32,
-                }),
-                Sampler::Power => image.by(&Power {
-                    thresholds: &scene.thresholds,
-                }),
-                Sampler::SingleLevel | Sampler::TwoLevel => image.by(&self.bvh.tree()),
+                Sampler::Uniform => {
+                    let count = scene.lights.triangles().len() as u32;
+                    image(&view, camera, params, integrator, &Uniform { count })
+                }
+                Sampler::Power => {
+                    let thresholds = &scene.thresholds;
+                    image(&view, camera, params, integrator, &Power { thresholds })
+                }
+                Sampler::SingleLevel | Sampler::TwoLevel => {
+                    image(&view, camera, params, integrator, &self.bvh.tree())
+                }
             }))
         })
     }
 }
 
-/// An image, but for how its lights are chosen.
-struct Image<'a, 's, L: SceneLight> {
-    scene: &'a Scene<'s, L>,
-    camera: &'a Camera,
-    params: &'a RenderParams,
+fn image<L: SceneLight, P: PickLight + Sync>(
+    scene: &Scene<'_, L>,
+    camera: &Camera,
+    params: &RenderParams,
     integrator: Integrator,
-}
-
-impl<L: SceneLight> Image<'_, '_, L> {
-    /// The image with lights from `picker`.
-    fn by<P: PickLight + Sync>(&self, picker: &P) -> Vec<[f32; 3]> {
-        match self.integrator {
-            Integrator::Direct => render(self.scene, self.camera, self.params, picker),
-            Integrator::Path { bounces } => {
-                render_path(self.scene, self.camera, self.params, bounces, picker)
-            }
-        }
+    picker: &P,
+) -> Vec<[f32; 3]> {
+    match integrator {
+        Integrator::Direct => render(scene, camera, params, picker),
+        Integrator::Path { bounces } => render_path(scene, camera, params, bounces, picker),
     }
 }
 

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use bytemuck::{bytes_of, pod_collect_to_vec};
 use lightbvh::SampledLight;
-use lightbvh_gpu::Pass as RefitPass;
+use lightbvh_gpu::{EQ4, KernelSet, MOMENTS};
 use lightbvh_kernels::WORKGROUP;
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
 use lightbvh_kernels::query::{Query, QueryPush};
@@ -13,8 +13,8 @@ use lightbvh_kernels::shading::direct::MAX_CANDIDATES;
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::batches::in_batches;
-use super::device_arrays::{HeldScene, choosing};
-use super::follow::{DeviceTree, device_time};
+use super::device_arrays::{bind, choosing};
+use super::follow::{Mirrored, device_time};
 use super::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, node_record};
 use crate::scene::SceneLight;
 use crate::vulkan::{Device, Pass};
@@ -29,49 +29,22 @@ const SURFACES_PER_PASS: usize = 1 << 18;
 
 /// A light BVH on a device.
 pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
-    device: &'d Device,
-    tree: DeviceTree<C::Node, C::Light>,
-    /// The scene rendered last.
-    scene: HeldScene,
-}
-
-/// The words of all arrays of a light BVH, as a device holds them.
-#[derive(Clone, Debug)]
-pub struct DeviceArrays {
-    /// In the order of [`node_words`](super::node_words).
-    pub nodes: Vec<u32>,
-    /// Of [`lightbvh::Bvh::roots`].
-    pub roots: Vec<u32>,
-    /// Of [`lightbvh::Bvh::instances`].
-    pub instances: Vec<u32>,
-    /// Of [`lightbvh::Bvh::triangles`].
-    pub triangles: Vec<u32>,
-    /// Trails and links of a [`lightbvh::LightTree`], as the device has them.
-    pub trails: Vec<u32>,
+    tree: Mirrored<'d, C::Node, W>,
 }
 
 impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// Uploads a BVH and refits all of it, for its own nodes may wait for that.
     pub fn new(device: &'d Device, bvh: &Bvh<C, W>) -> Result<Self, BackendError> {
-        let mut new = Self {
-            device,
-            tree: DeviceTree::new(device)?,
-            scene: HeldScene::default(),
+        let kernels = match C::SUFFIX {
+            "" => MOMENTS,
+            "_eq4" => EQ4,
+            _ => KernelSet::ANY,
         };
+        let tree = Mirrored::new(device, kernels)?;
+        let mut new = Self { tree };
         // The copies of the first frame are the upload.
-        new.update(bvh)?;
+        new.tree.follow(bvh)?;
         Ok(new)
-    }
-
-    /// All arrays as they are, after all that was followed.
-    pub fn arrays(&mut self) -> Result<DeviceArrays, BackendError> {
-        Ok(DeviceArrays {
-            nodes: pod_collect_to_vec(&self.tree.all_nodes()?),
-            roots: self.tree.roots.read_words()?,
-            instances: self.tree.instances.read_words()?,
-            triangles: self.tree.triangles.read_words()?,
-            trails: self.tree.trails.read_words()?,
-        })
     }
 
     /// Overwrites the device's nodes, those of bottom levels and of the top level, so that a refit has something to change.
@@ -80,36 +53,26 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         Ok(self.tree.nodes.write(&parts)?)
     }
 
-    /// Copies the changes in `bvh`, and refits; returns the time of the refit.
-    fn update(&mut self, bvh: &Bvh<C, W>) -> Result<Duration, BackendError> {
-        let kernel = |pass: RefitPass| format!("{}{}", pass.name(), C::SUFFIX);
-        Ok(self.tree.follow(self.device, bvh, kernel)?)
-    }
-
     /// Answers queries pass by pass.
     fn query<T: bytemuck::Pod>(
         &mut self,
-        kernel: &str,
+        kernel: &lightbvh_gpu::Kernel,
         queries: &[Query],
     ) -> Result<Timed<Vec<T>>, BackendError> {
-        let kernel = self.device.kernel(&format!("{kernel}{}", C::SUFFIX))?;
         let mut all = Timed {
             value: Vec::with_capacity(queries.len()),
             time: Duration::ZERO,
         };
         for part in queries.chunks(QUERIES_PER_PASS) {
-            let input = self.device.upload(part)?;
-            let output = self.device.output::<T>(part.len())?;
+            let input = self.tree.device().upload(part)?;
             let push = QueryPush {
                 count: part.len() as u32,
-                tree: self.tree.push,
+                tree: self.tree.words(),
             };
-            let mut bindings = self.tree.bindings().to_vec();
-            bindings.extend([input.bind(), output.bind()]);
-            let mut pass = Pass::new();
-            pass.dispatch(&kernel, &bindings, bytes_of(&push), push.count);
-            all.time += device_time(&self.device.run(&pass)?);
-            all.value.extend(output.read()?);
+            let others = [("queries", input.bind())];
+            let answers = self.tree.ask::<T>(kernel, part.len(), bytes_of(&push), &others)?;
+            all.time += answers.time;
+            all.value.extend(answers.value);
         }
         Ok(all)
     }
@@ -121,15 +84,15 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
     }
 
     fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
-        Ok(pod_collect_to_vec(&self.tree.all_nodes()?))
+        Ok(pod_collect_to_vec(&self.tree.nodes()?))
     }
 
     fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError> {
-        self.query("sample", queries)
+        self.query(self.tree.kernels().sample, queries)
     }
 
     fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, BackendError> {
-        self.query("pmf", queries)
+        self.query(self.tree.kernels().pmf, queries)
     }
 
     fn render(
@@ -139,8 +102,8 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
         sampler: Sampler,
         integrator: Integrator,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
-        let device = self.device;
-        let tree = self.tree.push;
+        let device = self.tree.device();
+        let tree = self.tree.words();
         let candidates = params.candidates.clamp(1, MAX_CANDIDATES);
         let most = integrator.samples_per_invocation(candidates);
         let samples = params.samples.clamp(1, most) as usize;
@@ -159,7 +122,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
         };
         let per_pass = per_pass.max(WORKGROUP as usize);
         let kernel = device.kernel(&format!("{pass}{}", C::SUFFIX))?;
-        let inputs = self.scene.bind(device, scene, sampler, &self.tree)?;
+        let inputs = bind(device, scene, sampler, &self.tree)?;
         let pixels = params.width as usize * params.height as usize;
         in_batches(params, integrator, |&params| {
             let mut all = Timed {
@@ -190,7 +153,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
 
 impl<C: Choice<W, Light: SceneLight>, const W: usize> Follow<C, W> for DeviceBackend<'_, C, W> {
     fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError> {
-        let time = self.update(bvh)?;
+        let time = self.tree.follow(bvh)?;
         Ok(Timed { time, value: () })
     }
 }

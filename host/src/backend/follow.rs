@@ -7,30 +7,35 @@ use bytemuck::{Pod, bytes_of, cast_slice};
 use lightbvh::node::Node;
 use lightbvh::refit::BlasRoot;
 use lightbvh::{Instance, TreeWords};
-use lightbvh_gpu::{DeviceBuffer, Frame, Mirror, Pass as RefitPass, Step};
+use lightbvh_gpu::{DeviceBuffer, Frame, KernelSet, Mirror, Step};
 
+use super::{BackendError, Timed};
 use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
 
-/// The arrays of a light BVH on a device, which follow its edits.
-pub(super) struct DeviceTree<N, L> {
-    pub nodes: Buffer<N>,
+/// The arrays of a light BVH of any layout on a device, which follow its edits, and the kernels over them.
+pub struct Mirrored<'d, N: Node<W>, const W: usize> {
+    device: &'d Device,
+    kernels: KernelSet,
+    pub(super) nodes: Buffer<N>,
     /// How many of them are of bottom levels, and which are of the top level.
-    pub bottoms: usize,
-    pub top: Range<usize>,
-    pub triangles: Buffer<L>,
-    pub instances: Buffer<Instance>,
-    pub roots: Buffer<BlasRoot>,
-    pub trails: Buffer<u32>,
+    bottoms: usize,
+    pub(super) top: Range<usize>,
+    pub(super) triangles: Buffer<N::Light>,
+    pub(super) instances: Buffer<Instance>,
+    roots: Buffer<BlasRoot>,
+    pub(super) trails: Buffer<u32>,
     list: Buffer<u32>,
     children: Buffer<u32>,
-    pub push: TreeWords,
+    push: TreeWords,
     mirror: Mirror,
 }
 
-impl<N: Pod, L: Pod> DeviceTree<N, L> {
-    /// Empty arrays on `device`.
-    pub fn new(device: &Device) -> Result<Self, VulkanError> {
+impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
+    /// One that holds nothing yet, with the kernels of its layout.
+    pub fn new(device: &'d Device, kernels: KernelSet) -> Result<Self, BackendError> {
         Ok(Self {
+            device,
+            kernels,
             nodes: device.buffer(0)?,
             bottoms: 0,
             top: 0..0,
@@ -45,19 +50,34 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
         })
     }
 
-    /// All nodes: those of bottom levels, then of the top level.
-    pub fn all_nodes(&self) -> Result<Vec<N>, VulkanError> {
+    /// The device.
+    pub fn device(&self) -> &'d Device {
+        self.device
+    }
+
+    /// The kernels.
+    pub(super) fn kernels(&self) -> KernelSet {
+        self.kernels
+    }
+
+    /// All nodes: those of bottom levels, then those of the top level.
+    pub fn nodes(&self) -> Result<Vec<N>, BackendError> {
         let nodes = self.nodes.read()?;
         Ok([&nodes[..self.bottoms], &nodes[self.top.clone()]].concat())
     }
 
-    /// The arguments of the passes of queries.
-    pub fn bindings(&self) -> [Binding; 3] {
-        [self.nodes.bind(), self.instances.bind(), self.trails.bind()]
+    /// Push constants of kernels that walk the tree.
+    pub fn words(&self) -> TreeWords {
+        self.push
+    }
+
+    /// The roots of bottom levels.
+    pub fn roots(&self) -> Result<Vec<BlasRoot>, BackendError> {
+        Ok(self.roots.read()?)
     }
 
     /// The array that a kernel's binding of this name takes.
-    pub fn bind(&self, name: &str) -> Option<Binding> {
+    fn bind(&self, name: &str) -> Option<Binding> {
         DeviceBuffer::named(name).map(|buffer| match buffer {
             DeviceBuffer::Nodes => self.nodes.bind(),
             DeviceBuffer::Triangles => self.triangles.bind(),
@@ -69,21 +89,35 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
         })
     }
 
-    /// Copies what changed and refits by the kernels of these names; returns the time of the refit. Nothing of `bvh` depends on
-    /// what becomes of the device: if this fails, all is copied the next time, or to another device.
-    pub fn follow<I, const W: usize>(
-        &mut self,
-        device: &Device,
-        bvh: &lightbvh::Bvh<N, I, W>,
-        kernel: impl Fn(RefitPass) -> String,
-    ) -> Result<Duration, VulkanError>
-    where
-        N: Node<W>,
-    {
+    /// The results of a kernel over `count` invocations. Bindings are matched by name with the tree's arrays and `others`;
+    /// the remaining binding holds the results.
+    pub fn ask<T: Pod>(
+        &self,
+        kernel: &lightbvh_gpu::Kernel,
+        count: usize,
+        push: &[u8],
+        others: &[(&str, Binding)],
+    ) -> Result<Timed<Vec<T>>, BackendError> {
+        let output = self.device.output::<T>(count)?;
+        let bind = |name| {
+            let other = others.iter().find(|(other, _)| *other == name);
+            let own = || self.bind(name).unwrap_or_else(|| output.bind());
+            other.map_or_else(own, |(_, binding)| binding.clone())
+        };
+        let bindings: Vec<_> = kernel.bindings.iter().map(|binding| bind(binding.name)).collect();
+        let compiled = self.device.kernel(kernel.name)?;
+        let mut pass = Pass::new();
+        pass.dispatch(&compiled, &bindings, push, count as u32);
+        let time = device_time(&self.device.run(&pass)?);
+        let value = output.read()?;
+        Ok(Timed { value, time })
+    }
+
+    /// Updates the arrays to `bvh` as of its last refit: the plan's copies, then the passes of a refit, whose time is returned.
+    /// Nothing of `bvh` depends on what becomes of the device: if this fails, all is copied the next time, or to another device.
+    pub fn follow<I>(&mut self, bvh: &lightbvh::Bvh<N, I, W>) -> Result<Duration, BackendError> {
         let frame = self.mirror.frame(bvh);
-        let followed = self
-            .write(device, &frame)
-            .and_then(|()| self.refit(device, &frame, kernel));
+        let followed = self.write(&frame).and_then(|()| self.refit(&frame));
         if followed.is_err() {
             // The mirror believes that the frame was followed.
             self.mirror = Mirror::default();
@@ -92,44 +126,38 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
         self.bottoms = bvh.nodes().len();
         self.top = top..top + bvh.top_nodes().len();
         self.push = frame.words;
-        followed
+        Ok(followed?)
     }
 
     /// Runs the dispatches of a refit.
-    fn refit(
-        &self,
-        device: &Device,
-        frame: &Frame<'_>,
-        kernel: impl Fn(RefitPass) -> String,
-    ) -> Result<Duration, VulkanError> {
+    fn refit(&self, frame: &Frame<'_>) -> Result<Duration, VulkanError> {
         let mut all = Pass::new();
         let mut is_empty = true;
         for step in frame.steps() {
             let Step::Dispatch { pass, push, count } = step else {
                 continue;
             };
-            let kernel = device.kernel(&kernel(pass))?;
-            let known = lightbvh_gpu::Kernel::named(kernel.name()).map_or(&[][..], |known| known.bindings);
-            let buffer =
-                |binding: &lightbvh_gpu::Binding| self.bind(binding.name).expect("a buffer of the tree");
-            let buffers: Vec<_> = known
-                .iter()
-                .map(|binding| match binding.name {
-                    "children" => buffer(binding).of_elements(binding.stride),
-                    _ => buffer(binding),
-                })
-                .collect();
-            all.dispatch(&kernel, &buffers, bytes_of(&push), count);
+            let known = self.kernels.refit(pass);
+            let bind = |binding: &lightbvh_gpu::kernel::Binding| {
+                let buffer = self.bind(binding.name).expect("a buffer of the tree");
+                match binding.name {
+                    "children" => buffer.of_elements(binding.stride),
+                    _ => buffer,
+                }
+            };
+            let buffers: Vec<_> = known.bindings.iter().map(bind).collect();
+            all.dispatch(&self.device.kernel(known.name)?, &buffers, bytes_of(&push), count);
             is_empty = false;
         }
         match is_empty {
             true => Ok(Duration::ZERO),
-            false => Ok(device_time(&device.run(&all)?)),
+            false => Ok(device_time(&self.device.run(&all)?)),
         }
     }
 
     /// Does the resizes and uploads of a frame.
-    fn write(&mut self, device: &Device, frame: &Frame<'_>) -> Result<(), VulkanError> {
+    fn write(&mut self, frame: &Frame<'_>) -> Result<(), VulkanError> {
+        let device = self.device;
         write(device, &mut self.nodes, frame, DeviceBuffer::Nodes)?;
         write(device, &mut self.triangles, frame, DeviceBuffer::Triangles)?;
         write(device, &mut self.instances, frame, DeviceBuffer::Instances)?;
@@ -140,7 +168,7 @@ impl<N: Pod, L: Pod> DeviceTree<N, L> {
     }
 }
 
-/// Does a frame's resize and uploads of one buffer. If something else still reads it, another with what it held replaces it.
+/// Does a frame's resize and uploads of one buffer.
 fn write<T: Pod>(
     device: &Device,
     buffer: &mut Buffer<T>,
@@ -148,26 +176,21 @@ fn write<T: Pod>(
     own: DeviceBuffer,
 ) -> Result<(), VulkanError> {
     let mut parts: Vec<(usize, &[T])> = Vec::new();
-    let mut size = None;
     for step in frame.steps() {
         match step {
-            Step::Resize { buffer, bytes } if buffer == own => size = Some(bytes as usize / size_of::<T>()),
-            Step::Upload { buffer, at, bytes } if buffer == own => {
+            Step::Resize { buffer: resized, bytes } if resized == own => {
+                *buffer = device.buffer(bytes as usize / size_of::<T>())?;
+            }
+            Step::Upload { buffer: written, at, bytes } if written == own => {
                 parts.push((at as usize / size_of::<T>(), cast_slice(bytes)));
             }
             _ => {}
         }
     }
-    if let Some(size) = size {
-        *buffer = device.buffer(size)?;
-    } else if parts.is_empty() {
-        return Ok(());
-    } else if buffer.is_bound() {
-        let new = device.buffer(buffer.len())?;
-        new.copy_from(buffer)?;
-        *buffer = new;
+    match parts.is_empty() {
+        true => Ok(()),
+        false => buffer.write(&parts),
     }
-    buffer.write(&parts)
 }
 
 /// The kernels' own time by the device's clock, or else by ours.

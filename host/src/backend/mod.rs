@@ -7,16 +7,14 @@ mod cpu;
 mod device;
 mod device_arrays;
 mod follow;
-mod mirrored;
 mod record;
 mod scene;
 
 pub use batches::Integrator;
 pub(crate) use batches::mean_image;
 pub use cpu::CpuBackend;
-pub use device::DeviceArrays;
 pub use device::DeviceBackend;
-pub use mirrored::Mirrored;
+pub use follow::Mirrored;
 pub use record::{PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, node_record};
 pub use scene::{Sampler, SceneArrays};
 

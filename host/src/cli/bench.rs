@@ -31,10 +31,10 @@ pub(super) struct Args {
     #[arg(long, default_value_t = 200_000, value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     queries: u32,
     /// Measure frames of moving lights instead: time, variance relative to a fresh build, bytes.
-    #[arg(long, conflicts_with = "device")]
+    #[arg(long)]
     dynamic: bool,
     /// Count nodes and time of single samples and pmfs in adversarial scenes instead.
-    #[arg(long, conflicts_with_all = ["dynamic", "device"])]
+    #[arg(long, conflicts_with = "dynamic")]
     worst: bool,
 }
 
@@ -62,6 +62,12 @@ struct Case {
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    if context.device.is_some() && (args.worst || args.dynamic) {
+        return Err(HostError::Usage {
+            option: "--device",
+            needs: "neither --dynamic nor --worst, which run on the CPU",
+        });
+    }
     if args.worst {
         return worst::run(context);
     }
@@ -174,7 +180,7 @@ fn print(context: &Context, cases: &[Case]) -> Result<(), HostError> {
             ("structure", |c| c.structure.to_owned()),
             ("lights", |c| c.lights.to_string()),
             ("backend", |c| c.backend.clone()),
-            ("threads", |c| table::threads(c.threads)),
+            ("threads", |c| c.threads.to_string()),
             ("ns/item", |c| format!("{:.1}", c.ns_per_item)),
             ("least", |c| format!("{:.1}", c.ns_least)),
             ("most", |c| format!("{:.1}", c.ns_most)),

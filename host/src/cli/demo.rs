@@ -4,20 +4,19 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use bytemuck::cast_slice;
-use lightbvh::Lights;
 use serde::Serialize;
 use serde_json::json;
 
 use super::measure::times::{ms, spread_ms};
 use super::{Context, Outcome, devices, table, target};
-use crate::backend::{PIXEL_RECORD, Timed};
+use crate::backend::{PIXEL_RECORD, SceneArrays, Timed};
 use crate::cli::table::{news, say};
 use crate::error::HostError;
-use crate::method::{Method, Runner, Step, Target};
+use crate::method::{Method, Step, Target};
 use crate::render::Film;
 use crate::scene::Scene;
 use crate::tally::{Kind, Tally};
-use crate::workload::{arrays_at, lights_at, render_params};
+use crate::workload::{arrays_at, render_params};
 
 const SCENE: &str = "street";
 /// Frames shown: those of the paper's Table 1.
@@ -51,60 +50,54 @@ struct Row {
     first_difference: Option<String>,
 }
 
-/// A backend, and what is measured of it: the build, and refit and image of each frame.
-struct Lane<'d> {
-    name: String,
-    runner: Box<dyn Runner + 'd>,
-    build: Duration,
-    times: [Vec<Duration>; 2],
-    tally: Tally,
-}
-
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let size = (args.width, args.height);
     target::folder(&args.out)?;
     let opened = devices::open(context)?;
     let scene = Scene::open(SCENE)?;
-    let lights: Lights = lights_at(&scene, FRAMES[0])?;
-    let recipe = Method::TwoLevelMoments.recipe();
+    let arrays = FRAMES
+        .iter()
+        .map(|&frame| arrays_at(&scene, frame, size.0, size.1));
+    let arrays: Vec<SceneArrays> = arrays.collect::<Result<_, _>>()?;
     let on_devices = opened.iter().map(|o| Target::Device(&o.device));
-    let mut lanes = Vec::new();
+    // Nodes and image of each frame by the CPU, which comes first.
+    let mut expected = Vec::new();
+    let mut rows = Vec::new();
     for target in std::iter::once(Target::Cpu).chain(on_devices) {
-        let built = Timed::of(|| recipe.runner(&Step::new(&scene, FRAMES[0], &lights), target));
-        lanes.push(Lane {
-            name: target.name().to_owned(),
-            runner: built.value?,
-            build: built.time,
-            times: Default::default(),
-            tally: Tally::default(),
+        news!("{}", target.name());
+        let first = Step::new(&scene, FRAMES[0], &arrays[0].lights);
+        let built = Timed::of(|| Method::TwoLevelMoments.recipe().runner(&first, target));
+        let mut runner = built.value?;
+        let (mut tally, mut times): (_, [Vec<Duration>; 2]) = (Tally::default(), Default::default());
+        for (k, arrays) in arrays.iter().enumerate() {
+            let step = Step::new(&scene, FRAMES[k], &arrays.lights);
+            let params = render_params(size, SAMPLES, FRAMES[k], scene.data().background);
+            times[0].push(runner.advance(&step)?.refit);
+            let nodes = runner.nodes()?;
+            let image = runner.image(&step, arrays, &params)?;
+            times[1].push(image.time);
+            let record = runner.backend().node_record();
+            let Some((own, pixels)) = expected.get(k) else {
+                expected.push((nodes, image.value));
+                continue;
+            };
+            tally.take(Kind::Nodes, "refit", &record, own, &nodes)?;
+            let (pixels, found) = (cast_slice(pixels), cast_slice(&image.value));
+            tally.take(Kind::Pixels, "render", &PIXEL_RECORD, pixels, found)?;
+        }
+        let [refit_ms, render_ms] = times.map(|own| spread_ms(&own).median);
+        rows.push(Row {
+            backend: target.name().to_owned(),
+            build_ms: ms(built.time),
+            refit_ms,
+            render_ms,
+            compared: tally.compared,
+            different: tally.different,
+            first_difference: tally.first_difference,
         });
     }
     let (mut written, mut exposure) = (Vec::new(), None);
-    for frame in FRAMES {
-        news!("frame {frame}");
-        let arrays = arrays_at(&scene, frame, size.0, size.1)?;
-        let step = Step::new(&scene, frame, &arrays.lights);
-        let params = render_params(size, SAMPLES, frame, scene.frame(frame).background);
-        let mut expected = None;
-        for lane in &mut lanes {
-            let runner = &mut lane.runner;
-            lane.times[0].push(runner.advance(&step)?.refit);
-            let words = runner.backend().nodes()?;
-            let nodes = runner.words_in_use(words);
-            let image = runner.image(&step, &arrays, &params)?;
-            lane.times[1].push(image.time);
-            // The CPU comes first.
-            let Some((own, pixels)) = &expected else {
-                expected = Some((nodes, image.value));
-                continue;
-            };
-            let record = runner.backend().node_record();
-            lane.tally.take(Kind::Nodes, "refit", &record, own, &nodes)?;
-            let (pixels, found) = (cast_slice(pixels), cast_slice(&image.value));
-            lane.tally
-                .take(Kind::Pixels, "render", &PIXEL_RECORD, pixels, found)?;
-        }
-        let image = expected.map(|(_, image)| image).unwrap_or_default();
+    for (frame, (_, image)) in FRAMES.into_iter().zip(expected) {
         let film = Film::new(size.0, size.1, image)?;
         // One exposure for all frames, so that they can be compared.
         let exposure = *exposure.get_or_insert_with(|| film.auto_exposure());
@@ -112,16 +105,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         film.write(&path, exposure)?;
         written.push(path);
     }
-    let row = |lane: Lane<'_>| Row {
-        backend: lane.name,
-        build_ms: ms(lane.build),
-        refit_ms: spread_ms(&lane.times[0]).median,
-        render_ms: spread_ms(&lane.times[1]).median,
-        compared: lane.tally.compared,
-        different: lane.tally.different,
-        first_difference: lane.tally.first_difference,
-    };
-    let rows: Vec<Row> = lanes.into_iter().map(row).collect();
     devices::close(opened)?;
     let outcome = Outcome::good_if(rows.iter().all(|row| row.different == 0));
     if context.json {

@@ -1,6 +1,7 @@
 //! `lightbvh export`: a scene as a `.glb` file.
 
 use std::ffi::OsString;
+use std::io::{Error, ErrorKind};
 use std::path::PathBuf;
 
 use super::reading::Reading;
@@ -22,34 +23,22 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<Outcome, HostError> {
-    if !target::ends_in(&args.output, &["glb"]) {
-        return Err(HostError::Refused {
-            option: "--output",
-            value: args.output.display().to_string(),
-            problem: String::from("is not what is written: expected a file that ends in .glb, binary glTF"),
-        });
-    }
     let unwritten = |source| SceneError::Write(args.output.clone(), source);
+    if !target::ends_in(&args.output, &["glb"]) {
+        let problem = "expected a file that ends in .glb, binary glTF";
+        return Err(unwritten(Error::new(ErrorKind::InvalidInput, problem)).into());
+    }
     target::check(&args.output).map_err(unwritten)?;
     let scene = args.reading.open(&args.scene)?;
     for warning in scene.warnings() {
         news!("{}: {warning}", scene.name());
     }
-    let known = |kind| {
-        matches!(
-            kind,
-            AnalyticKind::Directional
-                | AnalyticKind::Point
-                | AnalyticKind::Spot { .. }
-                | AnalyticKind::Profile { .. }
-        )
+    let is_lost = |kind| {
+        use AnalyticKind::{Directional, Point, Profile, Spot};
+        !matches!(kind, Directional | Point | Spot { .. } | Profile { .. })
     };
-    let lost = scene
-        .data()
-        .analytic
-        .iter()
-        .filter(|light| !known(light.kind))
-        .count();
+    let lights = scene.data().analytic.iter();
+    let lost = lights.filter(|light| is_lost(light.kind)).count();
     if lost > 0 {
         news!(
             "{}: glTF has no word for spheres, rectangles, discs and boxes that shine: {lost} left out",

@@ -22,15 +22,6 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
                     ("device", |o| o.device.name().to_owned()),
                     ("driver", |o| o.device.probe().driver.to_string()),
                     ("Vulkan", |o| o.device.probe().api_version.clone()),
-                    ("keeps ±0/inf/nan", |o| {
-                        table::yes(o.device.probe().float_controls.signed_zero_inf_nan_preserve_32)
-                    }),
-                    ("rounds to even", |o| {
-                        table::yes(o.device.probe().float_controls.rounding_mode_rte_32)
-                    }),
-                    ("keeps denormals", |o| {
-                        table::yes(o.device.probe().float_controls.denorm_preserve_32)
-                    }),
                     ("exact", |o| table::yes(o.exactness.exact)),
                 ],
             )?;

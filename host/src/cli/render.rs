@@ -1,56 +1,170 @@
-//! `lightbvh render`: one frame of a scene or a sequence, on the CPU or a device.
+//! `lightbvh render`: one frame of a scene, on the CPU or a device.
 
-mod options;
-mod sequence;
-mod view;
-
+use std::ffi::OsString;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use lightbvh::EmissiveTriangle;
 use lightbvh::light::AnyLight;
-use serde_json::json;
+use serde_json::{Value, json};
 
-use self::options::recipe;
-use self::sequence::Sequence;
-use self::view::{check_places, seen_by};
-use super::reading::BackendName;
-use super::{Context, Outcome, devices, frames, table, target};
-use crate::cli::table::news;
+use super::reading::{BackendName, Reading, positive};
+use super::{Context, Outcome, devices, table, target};
+use crate::backend::Integrator;
+use crate::cli::table::{news, say};
 use crate::error::HostError;
-use crate::method::MethodLight;
+use crate::method::{Method, MethodLight, Recipe, SampleBudget, Step, Target};
+use crate::render::Film;
 use crate::scene::{Scene, read_environment};
 use crate::vulkan::VulkanError;
+use crate::workload::{arrays_lit_by, render_params};
 
-pub(super) use self::options::Args;
+/// Most reflections of a path.
+const BOUNCES: u32 = 8;
+
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .obj or .ply file.
+    scene: OsString,
+    #[command(flatten)]
+    reading: Reading,
+    /// Frame of the animation, 25 per second.
+    #[arg(long, default_value_t = 0)]
+    frame: u32,
+    /// Columns, 1 to 16384.
+    #[arg(long, default_value_t = 640, value_parser = clap::value_parser!(u32).range(1..=16_384))]
+    width: u32,
+    /// Rows, 1 to 16384.
+    #[arg(long, default_value_t = 360, value_parser = clap::value_parser!(u32).range(1..=16_384))]
+    height: u32,
+    /// Light samples per pixel, 1 to 65536.
+    #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    spp: u32,
+    /// Look from this place, metres, in place of the scene's camera.
+    #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true, requires = "look_at")]
+    look_from: Option<[f32; 3]>,
+    /// Look at this place, which is in the middle of the image then; +Y is up.
+    #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true, requires = "look_from")]
+    look_at: Option<[f32; 3]>,
+    /// Vertical field of view with --look-from, degrees, 1 to 170.
+    #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=170), requires = "look_from")]
+    fov: u32,
+    /// An environment map that lights the scene: a .hdr or .exr picture by longitude and latitude.
+    #[arg(long, value_name = "FILE.hdr|FILE.exr")]
+    environment: Option<PathBuf>,
+    /// Factor on the environment map's radiance.
+    #[arg(long, default_value_t = 1.0, value_parser = positive::<f32>, requires = "environment")]
+    environment_scale: f32,
+    /// Show the mean of each texture, and no cut-outs.
+    #[arg(long)]
+    no_textures: bool,
+    /// How lights are chosen.
+    #[arg(long, value_enum, default_value_t = Method::TwoLevelMoments)]
+    sampler: Method,
+    /// Light reflected once, or along paths of up to 8 reflections.
+    #[arg(long, value_enum, default_value_t = IntegratorName::Direct)]
+    integrator: IntegratorName,
+    /// What renders.
+    #[arg(long, value_enum, default_value_t = BackendName::Cpu)]
+    backend: BackendName,
+    /// Seed of the random numbers.
+    #[arg(long, default_value_t = 0)]
+    seed: u32,
+    /// Factor on radiance [default: chosen by the image, up to 1000]; EXR files are linear.
+    #[arg(long, value_parser = positive::<f32>)]
+    exposure: Option<f32>,
+    /// The file to write: .png (tone-mapped) or .exr (linear).
+    #[arg(short, long, value_name = "FILE.png|FILE.exr")]
+    output: PathBuf,
+}
+
+/// The light that is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum IntegratorName {
+    /// Light reflected once.
+    Direct,
+    /// Light along whole paths.
+    Path,
+}
+
+/// Three coordinates.
+fn place(text: &str) -> Result<[f32; 3], String> {
+    let numbers: Option<Vec<f32>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, z]) if [x, y, z].iter().all(|x| x.is_finite()) => Ok([x, y, z]),
+        _ => Err(format!("{text} is no place; write three numbers, as 1,2.5,-3")),
+    }
+}
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
-    let recipe = recipe(args)?;
-    if context.device.is_some() && args.backend == BackendName::Cpu {
-        return Err(HostError::Usage {
-            option: "--device",
-            needs: "--backend vulkan",
-        });
+    let usage = |option, needs| Err(HostError::Usage { option, needs });
+    let mut recipe = Recipe {
+        budget: SampleBudget::CameraRays,
+        ..args.sampler.recipe()
+    };
+    if args.integrator == IntegratorName::Path {
+        if recipe.candidates > 1 {
+            return usage("--integrator path", "a --sampler without candidates");
+        }
+        recipe.integrator = Integrator::Path { bounces: BOUNCES };
     }
-    // Of a sequence the first: all have one folder and one ending.
-    let first = args
-        .animate
-        .as_ref()
-        .map(|shown| frames::numbered(&args.output, shown.start));
-    target::picture(first.as_ref().unwrap_or(&args.output))?;
+    if context.device.is_some() && args.backend == BackendName::Cpu {
+        return usage("--device", "--backend vulkan");
+    }
+    target::picture(&args.output)?;
+    let scene = scene(args, &recipe)?;
+    let render = match scene.has_kinds() {
+        true => render::<AnyLight>,
+        false => render::<EmissiveTriangle>,
+    };
+    let report = match args.backend {
+        BackendName::Cpu => render(args, &recipe, &scene, Target::Cpu)?,
+        BackendName::Vulkan => {
+            let opened = devices::open(context)?;
+            let Some(first) = opened.first() else {
+                return Err(VulkanError::NoDevice {
+                    notes: "--backend vulkan needs one".to_owned(),
+                }
+                .into());
+            };
+            let report = render(args, &recipe, &scene, Target::Device(&first.device))?;
+            devices::close(opened)?;
+            report
+        }
+    };
+    if context.json {
+        table::print_json(&report)?;
+        return Ok(Outcome::Good);
+    }
+    // All digits of the exposure: given back as an option, it makes the same picture.
+    let (output, on) = (
+        args.output.display(),
+        report["backend"].as_str().unwrap_or_default(),
+    );
+    say!(
+        "{output}: {:.1} ms on {on}, exposure {}",
+        report["render_ms"].as_f64().unwrap_or_default(),
+        report["exposure"]
+    )?;
+    Ok(Outcome::Good)
+}
+
+/// The scene as the options show it.
+fn scene(args: &Args, recipe: &Recipe) -> Result<Scene, HostError> {
     let mut scene = args.reading.open(&args.scene)?;
-    scene = seen_by(scene, args.camera)?;
     if let (Some(from), Some(at)) = (args.look_from, args.look_at) {
-        check_places(from, at)?;
+        if from == at {
+            return Err(HostError::Usage {
+                option: "--look-at",
+                needs: "another place than --look-from",
+            });
+        }
         scene = scene.seen_from(from, at, (args.fov as f32).to_radians())?;
     }
     if let Some(path) = &args.environment {
         let mut data = scene.into_data();
-        let map = read_environment(
-            path,
-            args.environment_scale,
-            &args.reading.limits(),
-            &mut data.warnings,
-        )?;
+        let (scale, limits) = (args.environment_scale, args.reading.limits());
+        let map = read_environment(path, scale, &limits, &mut data.warnings)?;
         data.environment = Some(Arc::new(map));
         scene = Scene::new(data)?;
     }
@@ -65,38 +179,32 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             scene.name()
         );
     }
-    if is_painted && (args.no_textures || !is_known) {
-        scene = scene.unpainted();
+    Ok(match is_painted && (args.no_textures || !is_known) {
+        true => scene.unpainted(),
+        false => scene,
+    })
+}
+
+/// Renders and writes the image; returns what the report says of it.
+fn render<L: MethodLight>(
+    args: &Args,
+    recipe: &Recipe,
+    scene: &Scene,
+    target: Target<'_>,
+) -> Result<Value, HostError> {
+    let arrays = arrays_lit_by::<L>(scene, args.frame, args.width, args.height)?;
+    let step = Step::new(scene, args.frame, &arrays.lights);
+    let size = (args.width, args.height);
+    let params = render_params(size, args.spp, args.seed, scene.data().background);
+    let image = recipe.runner(&step, target)?.image(&step, &arrays, &params)?;
+    let film = Film::new(args.width, args.height, image.value)?;
+    if let (None, Some(words)) = (args.exposure, film.darkness()) {
+        news!("{}: {words}", scene.name());
     }
-    let sequence = Sequence {
-        args,
-        recipe,
-        scene: &scene,
-    };
-    let render = match scene.has_kinds() {
-        true => Sequence::render::<AnyLight>,
-        false => Sequence::render::<EmissiveTriangle>,
-    };
-    let (shown, name) = match args.backend {
-        BackendName::Cpu => (render(&sequence, context, None)?, "cpu".to_owned()),
-        BackendName::Vulkan => {
-            let opened = devices::open(context)?;
-            let Some(first) = opened.first() else {
-                return Err(VulkanError::NoDevice {
-                    notes: "--backend vulkan needs one".to_owned(),
-                }
-                .into());
-            };
-            let shown = render(&sequence, context, Some(&first.device))?;
-            let name = first.device.name().to_owned();
-            devices::close(opened)?;
-            (shown, name)
-        }
-    };
-    if context.json {
-        table::print_json(&json!({
-            "scene": scene.name(), "backend": name, "frames": shown,
-        }))?;
-    }
-    Ok(Outcome::Good)
+    let exposure = args.exposure.unwrap_or_else(|| film.auto_exposure());
+    film.write(&args.output, exposure)?;
+    Ok(json!({
+        "scene": scene.name(), "backend": target.name(), "frame": args.frame, "output": args.output,
+        "render_ms": image.time.as_secs_f64() * 1e3, "exposure": exposure,
+    }))
 }

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::{Context, Outcome, devices, progress, table};
+use super::{Context, Outcome, devices, table};
+use crate::cli::table::news;
 use crate::error::HostError;
 use crate::stability::row::{Check, Row};
 use crate::stability::{Effort, Found, Skipped, cases, invariance, run as run_case};
@@ -31,26 +32,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let opened = devices::open(context)?;
     let each: Vec<&Device> = opened.iter().map(|o| &o.device).collect();
     let small = cases::small();
-    let progress = progress::bar(small.len() as u64 + 3, "{bar:40} {pos}/{len} {msg}", context.json);
     let mut found = Found::default();
     for case in &small {
-        progress.set_message(case.name.clone());
         run_case(case, &effort, &each, &mut found)?;
-        progress.inc(1);
     }
-    progress.set_message("invariance");
+    news!("invariance");
     found.rows.extend(invariance::rows()?);
-    progress.inc(1);
-    // One after the other, and gone before the next: each takes gigabytes.
-    for (make, count) in [
-        (cases::equal as fn(u32) -> _, effort.equal_lights),
-        (cases::many, effort.most_lights),
-    ] {
-        progress.set_message(format!("{count} lights"));
-        run_case(&make(count), &effort, &each, &mut found)?;
-        progress.inc(1);
-    }
-    progress.finish_and_clear();
+    news!("{} lights", effort.most_lights);
+    run_case(&cases::many(effort.most_lights), &effort, &each, &mut found)?;
     devices::close(opened)?;
 
     let report = Report {

@@ -45,15 +45,6 @@ pub(super) fn known(value: Option<f64>, digits: usize) -> String {
     value.map_or_else(|| "-".to_owned(), |value| format!("{value:.digits$}"))
 }
 
-/// Threads in a cell; a device has none.
-pub(super) fn threads(count: usize) -> String {
-    if count == 0 {
-        "-".to_owned()
-    } else {
-        count.to_string()
-    }
-}
-
 /// Prints one JSON object.
 pub(super) fn print_json(value: &impl serde::Serialize) -> io::Result<()> {
     let mut out = io::stdout().lock();

@@ -6,7 +6,6 @@ mod soak;
 
 use std::ops::Range;
 
-use indicatif::ProgressBar;
 use lightbvh::EmissiveTriangle;
 use lightbvh::light::AnyLight;
 use serde::Serialize;
@@ -14,7 +13,7 @@ use serde_json::json;
 
 use super::devices::Opened;
 use super::reading::Reading;
-use super::{Context, Outcome, devices, progress, table};
+use super::{Context, Outcome, devices, table};
 use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::method::{Importance, Target};
@@ -31,7 +30,7 @@ pub(super) struct Args {
     #[arg(long, default_value_t = 1)]
     seed: u32,
     /// Frames A to B (B left out) that every method goes through on the CPU and each device.
-    #[arg(long, value_name = "A..B", value_parser = super::frames::parse, default_value = "0..3")]
+    #[arg(long, value_name = "A..B", value_parser = range, default_value = "0..3")]
     frames: Range<u32>,
     /// Scenes, built-in or files; all built-in ones by default. May be repeated.
     #[arg(long)]
@@ -47,6 +46,17 @@ pub(super) struct Args {
     /// Triangles of the largest mesh of --soak, 10 to 10^6.
     #[arg(long, requires = "soak", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(10..=1_000_000))]
     mesh_triangles: u32,
+}
+
+/// Frames `A..B`, B left out.
+fn range(text: &str) -> Result<Range<u32>, String> {
+    let ends = text.split_once("..");
+    let range = ends.and_then(|(a, b)| Some(a.parse().ok()?..b.parse().ok()?));
+    range
+        .filter(|range: &Range<u32>| !range.is_empty())
+        .ok_or_else(|| {
+            "expected two frame numbers as A..B, the second the greater, for example 0..150".to_owned()
+        })
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -92,7 +102,7 @@ struct Report {
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     if let Some(frames) = args.soak {
         let opened = devices::open(context)?;
-        let report = soak::soak(frames, args, &opened, context.json)?;
+        let report = soak::soak(frames, args, &opened)?;
         devices::close(opened)?;
         match context.json {
             true => table::print_json(&json!({ "soak": report }))?,
@@ -125,15 +135,13 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         seed: args.seed,
     };
     let targets: Vec<_> = opened.iter().map(|o| Target::Device(&o.device)).collect();
-    let bar = progress((args.frames.len() * scenes.len()) as u64, "frames", context.json);
     for scene in &scenes {
         let compare = match scene.has_kinds() {
             false => frames::compare::<EmissiveTriangle>,
             true => frames::compare::<AnyLight>,
         };
-        rows.extend(compare(scene, &plan, &targets, &mut tallies, &bar)?);
+        rows.extend(compare(scene, &plan, &targets, &mut tallies)?);
     }
-    bar.finish_and_clear();
     let valid = rows.iter().all(|tree| tree.valid);
     let report = Report {
         valid,
@@ -158,11 +166,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     devices::close(opened)?;
     print(context, &report, tallies.cpu.first_difference.as_deref())?;
     Ok(Outcome::good_if(report.different == 0 && valid))
-}
-
-fn progress(length: u64, of: &str, hidden: bool) -> ProgressBar {
-    let template = format!("{{bar:40}} {{pos}}/{{len}} {of}, {{eta}} left  {{wide_msg}}");
-    progress::bar(length, &template, hidden)
 }
 
 fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Result<(), HostError> {

@@ -1,20 +1,20 @@
 //! Samples that know nothing of each other: lights chosen by a table, by a tree over all triangles, or by the paper's two
 //! levels.
 
-use std::hint::black_box;
+use std::time::Instant;
 
+use lightbvh::bvh::Swap;
 use lightbvh::exact::hash;
+use lightbvh::{Rebuilder, RebuilderParams};
 use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::render::RenderParams;
 
-use super::moving::Moving;
 use super::{Recipe, Runner, SampleBudget, Step, Target, TreeFacts, UpdateTimes};
 use crate::backend::{
     Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, mean_image,
 };
 use crate::error::HostError;
-use crate::render::power_thresholds;
-use crate::scene::SceneLight;
+use crate::scene::{Instances, SceneLight};
 use crate::workload::{build, words_in_use};
 
 /// Camera rays per pixel that make edges smooth; the light samples of a pixel are shared out among them.
@@ -25,63 +25,79 @@ pub(super) struct Independent<'d, C: Choice<W, Light: SceneLight>, const W: usiz
     recipe: Recipe,
     target: Target<'d>,
     backend: Box<dyn Follow<C, W> + 'd>,
-    /// The lights of two levels.
-    moving: Option<Moving<C, W>>,
-    /// The tree over all lights.
-    single: Option<Bvh<C, W>>,
+    /// No table walks it.
+    bvh: Bvh<C, W>,
+    /// Of two levels: where lights stand, and what builds trees in the background.
+    moving: Option<(Instances<C::Light>, Rebuilder<C::Node, W>)>,
 }
 
 impl<'d, C: Choice<W, Light: SceneLight>, const W: usize> Independent<'d, C, W> {
     pub fn new(recipe: Recipe, first: &Step<'_, C::Light>, target: Target<'d>) -> Result<Self, HostError> {
         let params = recipe.builder.params();
-        let moving = (recipe.lights == Sampler::TwoLevel)
-            .then(|| Moving::<C, W>::new(first, params))
-            .transpose()?;
-        let bvh: Bvh<C, W> = match &moving {
-            Some(moving) => moving.scene().clone(),
-            // Backends come with a tree, which no table walks.
-            None => build(first.lights, recipe.lights, &params),
+        let (bvh, moving) = match recipe.lights {
+            Sampler::TwoLevel => {
+                let made = Instances::new(first.scene, first.frame, params);
+                let (bvh, instances) = made.map_err(|source| first.refused(source))?;
+                // A tree for every frame, as in the paper, and the same one on all backends, for which a frame may wait.
+                let mut params = RebuilderParams::default();
+                (params.swap, params.idle) = (Swap::Deterministic, 0.0);
+                let mut rebuilder = Rebuilder::new(params);
+                rebuilder.end_frame(&bvh);
+                (bvh, Some((instances, rebuilder)))
+            }
+            lights => (build(first.lights, lights, &params), None),
         };
         Ok(Self {
             recipe,
             target,
-            single: (recipe.lights == Sampler::SingleLevel).then(|| bvh.clone()),
-            backend: target.backend::<C, W>(bvh)?,
+            backend: target.backend::<C, W>(bvh.clone())?,
+            bvh,
             moving,
         })
-    }
-
-    fn bvh(&self) -> Option<&Bvh<C, W>> {
-        self.moving.as_ref().map(Moving::scene).or(self.single.as_ref())
     }
 }
 
 impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Independent<'_, C, W> {
+    /// Time of refit is all that the frame's thread does for it: swapping in trees built in the background (paper sections 3.4 and
+    /// 3.5), the edits, and new summaries, and those of the backend.
     fn advance(&mut self, step: &Step<'_, C::Light>) -> Result<UpdateTimes, HostError> {
-        if let Some(moving) = &mut self.moving {
-            return moving.advance(step, &mut *self.backend);
-        }
-        if let Some(bvh) = &mut self.single {
-            if self.recipe.rebuilt {
-                let params = self.recipe.builder.params();
-                let built = Timed::of(|| build(step.lights, Sampler::SingleLevel, &params));
-                *bvh = built.value;
-                self.backend = self.target.backend::<C, W>(bvh.clone())?;
-                return Ok(UpdateTimes::waited(built.time));
-            }
-            let followed = Timed::of(|| bvh.follow(step.lights));
-            followed.value.map_err(BackendError::from)?;
+        let bvh = &mut self.bvh;
+        if let Some((instances, rebuilder)) = &mut self.moving {
+            // Following the animation is the scene's business, whichever method renders it.
+            let edits = instances.edits(step.scene, step.frame);
+            let began = Instant::now();
+            let start = rebuilder.begin_frame(bvh)?;
+            bvh.apply(edits).map_err(|source| step.refused(source))?;
+            bvh.refit();
+            let own = began.elapsed().saturating_sub(start.waited);
+            let refit = own + self.backend.follow(bvh)?.time;
+            rebuilder.end_frame(bvh);
             return Ok(UpdateTimes {
-                refit: followed.time + self.backend.follow(bvh)?.time,
+                refit,
+                rebuild: start.built,
+                wait: start.waited,
+            });
+        }
+        if !self.recipe.lights.needs_bvh() {
+            return Ok(UpdateTimes::default());
+        }
+        if self.recipe.rebuilt {
+            let params = self.recipe.builder.params();
+            let built = Timed::of(|| build(step.lights, Sampler::SingleLevel, &params));
+            *bvh = built.value;
+            self.backend = self.target.backend::<C, W>(bvh.clone())?;
+            return Ok(UpdateTimes {
+                rebuild: built.time,
+                wait: built.time,
                 ..UpdateTimes::default()
             });
         }
-        if self.recipe.lights != Sampler::Power {
-            return Ok(UpdateTimes::default());
-        }
-        // The renderer reads the table that comes with the frame's arrays; here it is made once more, for its time.
-        let made = Timed::of(|| black_box(power_thresholds(step.lights.triangles())).is_some());
-        Ok(UpdateTimes::waited(made.time))
+        let followed = Timed::of(|| bvh.follow(step.lights));
+        followed.value.map_err(BackendError::from)?;
+        Ok(UpdateTimes {
+            refit: followed.time + self.backend.follow(bvh)?.time,
+            ..UpdateTimes::default()
+        })
     }
 
     fn image(
@@ -132,15 +148,13 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
         &mut *self.backend
     }
 
-    fn words_in_use(&self, nodes: Vec<u32>) -> Vec<u32> {
-        match self.bvh() {
-            Some(bvh) => words_in_use(bvh, &nodes),
-            None => nodes,
-        }
+    fn nodes(&mut self) -> Result<Vec<u32>, HostError> {
+        Ok(words_in_use(&self.bvh, &self.backend.nodes()?))
     }
 
     fn tree(&self) -> Option<TreeFacts> {
-        self.bvh().map(|bvh| TreeFacts {
+        let bvh = &self.bvh;
+        self.recipe.lights.needs_bvh().then(|| TreeFacts {
             violation: bvh.validate().err().map(|violation| violation.to_string()),
             nodes: bvh.nodes().len() + bvh.top_nodes().len(),
             depth: bvh.depth(),

@@ -3,7 +3,6 @@
 //! [`Method`] names each; its [`Recipe`] says what it does, and makes the [`Runner`] that does it.
 
 mod independent;
-mod moving;
 mod names;
 
 pub use names::{Builder, Importance, Method, Recipe};
@@ -55,17 +54,6 @@ pub struct UpdateTimes {
     pub wait: Duration,
 }
 
-impl UpdateTimes {
-    /// A rebuild that the frame waits for.
-    fn waited(rebuild: Duration) -> Self {
-        Self {
-            rebuild,
-            wait: rebuild,
-            ..Self::default()
-        }
-    }
-}
-
 /// The unit of [`RenderParams::samples`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleBudget {
@@ -105,8 +93,8 @@ pub trait Runner<L: SceneLight = EmissiveTriangle> {
     /// The backend, as of the frame last advanced to.
     fn backend(&mut self) -> &mut dyn Backend<L>;
 
-    /// The words in use, out of the words of all nodes of the [`backend`](Self::backend).
-    fn words_in_use(&self, nodes: Vec<u32>) -> Vec<u32>;
+    /// The words of the nodes in use of the [`backend`](Self::backend).
+    fn nodes(&mut self) -> Result<Vec<u32>, HostError>;
 
     /// The light BVH; none where lights are chosen by a table.
     fn tree(&self) -> Option<TreeFacts>;

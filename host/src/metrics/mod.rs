@@ -6,11 +6,13 @@
 
 mod estimate;
 mod flip;
+mod irradiance;
 mod mse;
 mod ssim;
 
 pub use estimate::{Estimate, mean, variance};
 pub use flip::{flip_map, mean_flip};
+pub use irradiance::{irradiance, variances};
 pub use mse::{mean_squared_error, psnr, relative_mean_squared_error, relative_squared_error, squared_error};
 pub use ssim::{luma, ssim};
 

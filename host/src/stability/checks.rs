@@ -1,13 +1,12 @@
 //! The checks of one tree on the CPU.
 
-use lightbvh::{EmissiveTriangle, INVALID, LightBounds, Random64, ShadingPoint};
+use lightbvh::{EmissiveTriangle, INVALID, LightBounds, Lights, Moments, Random64, ShadingPoint};
 use rayon::prelude::*;
 
-use super::geometry::{contribution, may_lose_its_area};
 use super::random::{ENDS, Random};
 use super::row::{Check, Row};
-use super::subject::Subject;
-use crate::metrics::variance;
+use crate::backend::Bvh;
+use crate::workload::instance_of;
 
 /// |Σ pmf − 1|: a tree's probabilities are shares of one range of numbers; each is rounded where the uniform share is added.
 const SUM: f64 = 1.0 / 4_194_304.0;
@@ -37,22 +36,25 @@ impl Worst {
     }
 }
 
-/// Runs every check of `subject` at `points`, with `samples` samples at each.
+/// Runs every check of a tree over `lights` at `points`, with `samples` samples at each.
 pub fn check(
     extreme: &str,
     structure: &str,
-    subject: &Subject<'_>,
+    (bvh, lights): (&Bvh, &Lights),
     points: &[ShadingPoint],
     samples: u32,
 ) -> Vec<Row> {
-    let lights = subject.lights;
+    let (tree, all) = (bvh.tree(), lights);
+    let lights = all.triangles();
+    // Without a uniform share.
+    let weights = tree.by::<Moments>();
     // Without any flux a uniform share may still choose lights, and the other samples none.
     let lit = lights.par_iter().any(has_flux);
     let mut seed = Random::new(lights.len() as u32 ^ 0x1f3d_5b79);
     let [mut finite, mut sum, mut equal, mut starved]: [Worst; 4] = Default::default();
     for point in points {
         let place = |more: &str| format!("{more} at {:?}, normal {:?}", point.p, point.n);
-        let pmfs = all_pmfs(subject, point);
+        let pmfs = all_pmfs(bvh, all, point);
         let total: f64 = pmfs.par_iter().map(|&p| f64::from(p)).sum();
         let bad = |p: &f32| !(0.0..=1.0 + 1e-5).contains(p);
         finite.count(pmfs.par_iter().filter(|p| bad(p)).count(), || place("pmf"));
@@ -61,7 +63,7 @@ pub fn check(
         }
         let lost = |i: &usize| {
             let light = &lights[*i];
-            light.luminance() > 0.0 && shines(light) && subject.pmf_by_weights(point, *i as u32) == 0.0
+            has_flux(light) && weights.pmf(point, *i as u32, instance_of(bvh, all, *i as u32)) == 0.0
         };
         let lost: Vec<usize> = (0..lights.len()).into_par_iter().filter(lost).collect();
         starved.count(lost.len(), || {
@@ -73,7 +75,7 @@ pub fn check(
         let numbers: Vec<Random64> = random.chain(ENDS).collect();
         let drawn = numbers
             .par_iter()
-            .map(|&random| (random, subject.sample(point, random)));
+            .map(|&random| (random, tree.sample(point, random)));
         let wrong = drawn.filter(|(_, sampled)| match pmfs.get(sampled.light as usize) {
             Some(pmf) => sampled.pmf.to_bits() != pmf.to_bits() || sampled.pmf <= 0.0,
             None => lit || sampled.light != INVALID || sampled.pmf != 0.0,
@@ -94,25 +96,13 @@ pub fn check(
 }
 
 /// Probabilities of all lights at a point.
-pub fn all_pmfs(subject: &Subject<'_>, point: &ShadingPoint) -> Vec<f32> {
-    let count = subject.lights.len() as u32;
+pub fn all_pmfs(bvh: &Bvh, lights: &Lights, point: &ShadingPoint) -> Vec<f32> {
+    let (tree, count) = (bvh.tree(), lights.triangles().len() as u32);
     (0..count)
         .into_par_iter()
         .with_min_len(64)
-        .map(|light| subject.pmf(point, light))
+        .map(|light| tree.pmf(point, light, instance_of(bvh, lights, light)))
         .collect()
-}
-
-/// Relative variance of the estimate of direct light at `point` from one sample; `None` where there is no light.
-pub fn relative_variance(subject: &Subject<'_>, point: &ShadingPoint) -> Option<f64> {
-    let shining = subject.lights.iter().zip(all_pmfs(subject, point));
-    let values = shining.filter(|(light, _)| shines(light));
-    variance(values.map(|(light, pmf)| (contribution(light, point), f64::from(pmf))))
-}
-
-/// Whether the light counts as one: rounding left something of its area, or should have.
-fn shines(light: &EmissiveTriangle) -> bool {
-    has_flux(light) || !may_lose_its_area(light)
 }
 
 fn has_flux(light: &EmissiveTriangle) -> bool {

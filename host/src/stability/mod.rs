@@ -6,11 +6,9 @@
 pub mod case;
 pub mod cases;
 pub mod checks;
-pub mod geometry;
 pub mod invariance;
 pub mod random;
 pub mod row;
-pub mod subject;
 pub mod words;
 
 use lightbvh::{Lights, ShadingPoint};
@@ -18,7 +16,6 @@ use serde::Serialize;
 
 use self::case::{Case, Source, moving_scene, validated};
 use self::row::Row;
-use self::subject::Subject;
 use crate::backend::{Bvh, Sampler};
 use crate::error::HostError;
 use crate::vulkan::{Device, VulkanError};
@@ -31,8 +28,6 @@ pub struct Effort {
     pub samples: u32,
     /// Lights of the largest scene.
     pub most_lights: u32,
-    /// Lights of the scene of equal lights.
-    pub equal_lights: u32,
 }
 
 impl Effort {
@@ -40,13 +35,11 @@ impl Effort {
     pub const FULL: Self = Self {
         samples: 20_000,
         most_lights: 10_000_000,
-        equal_lights: 1 << 22,
     };
     /// Less than a minute.
     pub const QUICK: Self = Self {
         samples: 2_000,
         most_lights: 1_000_000,
-        equal_lights: 1 << 18,
     };
 }
 
@@ -106,8 +99,7 @@ fn check(
     devices: &[&Device],
     found: &mut Found,
 ) -> Result<(), HostError> {
-    let tree = Subject::new(bvh, lights);
-    let rows = checks::check(name, structure, &tree, points, samples);
+    let rows = checks::check(name, structure, (bvh, lights), points, samples);
     found.rows.extend(rows);
     for device in devices {
         match words::compare(name, structure, bvh, lights, points, device) {

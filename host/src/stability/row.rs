@@ -40,7 +40,6 @@ checks! {
     Equal: "samples whose pmf differs from the evaluated one in any bit, or without a light though one has a probability; \
         both come from the same range of numbers, so none",
     Starved: "lights with flux that have no probability by weights alone; weights are positive wherever there is flux, so none",
-    SameBits: "probabilities that differ in any bit; the arithmetic is that of significands, so none",
     Deviation: "standard deviation of the estimate (root mean square over points), against the untouched scene; another \
         tree may be worse, within a factor of 2",
     RefitWords: "words of refitted nodes that the device computes otherwise than the CPU; none may be",

@@ -1,6 +1,6 @@
 //! Words of a device against those of the CPU.
 
-use lightbvh::{Lights, Random64, ShadingPoint};
+use lightbvh::{EmissiveTriangle, Lights, Random64, ShadingPoint};
 use lightbvh_kernels::bvh::WIDTH;
 use lightbvh_kernels::query::Query;
 
@@ -31,16 +31,11 @@ pub fn compare(
         devices: vec![Tally::default()],
         ..Tallies::default()
     };
-    let record = cpu.node_record();
-    let mut side = Side {
+    let mut side: Side<'_, dyn Backend> = Side {
         cpu: &mut cpu,
         devices: vec![&mut other],
     };
-    side.compare(&mut tallies, Kind::Nodes, "refit", &record, |backend| {
-        Ok(words_in_use(bvh, &backend.nodes()?))
-    })?;
-    let lights = (lights.triangles(), bvh.is_single_level());
-    side.compare_queries(&mut tallies, &str::to_owned, queries(points), lights)?;
+    compare_bvh(&mut side, &mut tallies, "", (bvh, lights.triangles()), points)?;
     let tally = &tallies.devices[0];
     let row = |(check, kind)| {
         let row = Row::new(
@@ -58,6 +53,22 @@ pub fn compare(
         (Check::PmfWords, Kind::Pmfs),
     ];
     Ok(rows.map(row).into())
+}
+
+/// Compares the nodes in use of a BVH over these lights of the world, and samples and probabilities at points.
+pub(crate) fn compare_bvh(
+    side: &mut Side<'_, dyn Backend + '_>,
+    tallies: &mut Tallies,
+    place: &str,
+    (bvh, lights): (&Bvh, &[EmissiveTriangle]),
+    points: &[ShadingPoint],
+) -> Result<(), HostError> {
+    let what = |kernel: &str| format!("{place} {kernel}").trim_start().to_owned();
+    let record = side.cpu.node_record();
+    side.compare(tallies, Kind::Nodes, &what("refit"), &record, |backend| {
+        Ok(words_in_use(bvh, &backend.nodes()?))
+    })?;
+    side.compare_queries(tallies, &what, queries(points), (lights, bvh.is_single_level()))
 }
 
 /// The same with links alone in its nodes, so that a refit has everything to compute.

@@ -95,11 +95,6 @@ impl<T: Pod> Buffer<T> {
         self.len * Self::ELEMENT_BYTES
     }
 
-    /// Whether a binding of it is held.
-    pub(crate) fn is_bound(&self) -> bool {
-        Arc::strong_count(&self.memory) > 1
-    }
-
     /// The buffer as an argument of a dispatch.
     pub fn bind(&self) -> Binding {
         Binding {

@@ -2,7 +2,6 @@
 
 use super::error::{CallContext, VulkanError};
 use super::instance::Instance;
-use super::options::Options;
 use super::probe::{Candidate, Probe};
 use super::shared::Shared;
 use ash::vk;
@@ -26,6 +25,13 @@ pub struct DeviceList {
     pub devices: Vec<DeviceInfo>,
     /// One sentence for each thing that is missing: no loader, no driver, a device that cannot be used and why.
     pub notes: Vec<String>,
+}
+
+/// How to open a device.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// Run under `VK_LAYER_KHRONOS_validation`: any message of it becomes an error of the call that drew it.
+    pub validation: bool,
 }
 
 /// An open device. Buffers and kernels are made from it; it closes when the last of them is dropped.
@@ -114,14 +120,7 @@ impl Device {
         if Arc::into_inner(self.shared).is_none() {
             return Err(VulkanError::StillHeld { device, holders });
         }
-        match messages {
-            Some(messages) if messages.count() > 0 => Err(VulkanError::Validation {
-                device,
-                count: messages.count(),
-                first: messages.first(),
-            }),
-            _ => Ok(()),
-        }
+        messages.map_or(Ok(()), |messages| messages.check(&device))
     }
 }
 
@@ -176,7 +175,7 @@ fn create(instance: &Instance, candidate: &Candidate, options: Options) -> Resul
     let queues = [vk::DeviceQueueCreateInfo::default()
         .queue_family_index(candidate.queue_family)
         .queue_priorities(&priorities)];
-    let available = candidate.probe.features;
+    let available = &candidate.probe;
     // Under validation an access beyond a buffer must not take the process down before the layer has reported.
     let features = vk::PhysicalDeviceFeatures::default()
         .robust_buffer_access(options.validation && available.robust_buffer_access);

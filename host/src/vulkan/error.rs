@@ -28,12 +28,8 @@ pub enum VulkanError {
         "VK_LAYER_KHRONOS_validation is not installed (Debian: vulkan-validationlayers); install it or run without"
     )]
     NoValidationLayer,
-    #[error("{count} validation message(s) on {device}, a bug in this program; the first: {}", first.join(" | "))]
-    Validation {
-        device: String,
-        count: u64,
-        first: Vec<String>,
-    },
+    #[error("validation messages on {device}, a bug in this program: {}", messages.join(" | "))]
+    Validation { device: String, messages: Vec<String> },
     #[error("{call} failed on {device}: {result}")]
     Call {
         call: &'static str,

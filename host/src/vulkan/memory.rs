@@ -25,10 +25,10 @@ impl Memory {
         bytes: u64,
         location: MemoryLocation,
     ) -> Result<Self, VulkanError> {
-        let limits = &shared.probe.limits;
+        let range = shared.probe.limits.max_storage_buffer_range;
         for (limit_name, limit) in [
-            ("maxStorageBufferRange", limits.max_storage_buffer_range),
-            ("maxMemoryAllocationSize", limits.max_memory_allocation_size),
+            ("maxStorageBufferRange", range.into()),
+            ("maxMemoryAllocationSize", shared.probe.max_memory_allocation_size),
         ] {
             if bytes > limit {
                 return Err(VulkanError::BufferTooLarge {
@@ -39,16 +39,41 @@ impl Memory {
                 });
             }
         }
+        let (device, name) = (&shared.raw, shared.probe.name.as_str());
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER
             | vk::BufferUsageFlags::TRANSFER_SRC
             | vk::BufferUsageFlags::TRANSFER_DST;
-        let (buffer, allocation) = create(shared, bytes, usage, location)?;
-        Ok(Self {
+        let info = vk::BufferCreateInfo::default().size(bytes).usage(usage);
+        // SAFETY: the device is alive; the size is not zero.
+        let buffer = unsafe { device.create_buffer(&info, None) }.during("vkCreateBuffer", name)?;
+        // Destroyed with all that it has by then, if what follows fails.
+        let mut memory = Self {
             shared: Arc::clone(shared),
             buffer,
             bytes,
-            allocation: Some(allocation),
-        })
+            allocation: None,
+        };
+        // SAFETY: the buffer belongs to this device.
+        let requirements = unsafe { device.get_buffer_memory_requirements(buffer) };
+        let allocated = shared.allocator().allocate(&AllocationCreateDesc {
+            name: "storage",
+            requirements,
+            location,
+            linear: true,
+            allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+        });
+        let allocation = allocated.map_err(|error| VulkanError::OutOfMemory {
+            device: name.into(),
+            bytes,
+            reserved: shared.allocator().capacity(),
+            reason: error.to_string(),
+        })?;
+        let allocation = memory.allocation.insert(allocation);
+        // SAFETY: the memory was allocated for this buffer's requirements and is bound once, at the offset that the
+        // allocator chose to meet their alignment.
+        unsafe { device.bind_buffer_memory(buffer, allocation.memory(), allocation.offset()) }
+            .during("vkBindBufferMemory", name)?;
+        Ok(memory)
     }
 
     /// Copies each part's bytes to its place in the buffer, which holds them: through a staging buffer, many parts by one copy.
@@ -140,52 +165,4 @@ pub(super) fn region(from: u64, to: u64, bytes: u64) -> vk::BufferCopy {
         dst_offset: to,
         size: bytes,
     }
-}
-
-/// A buffer of `bytes`, more than none, with memory of its own.
-fn create(
-    shared: &Shared,
-    bytes: u64,
-    usage: vk::BufferUsageFlags,
-    location: MemoryLocation,
-) -> Result<(vk::Buffer, Allocation), VulkanError> {
-    let (device, name) = (&shared.raw, shared.probe.name.as_str());
-    let info = vk::BufferCreateInfo::default().size(bytes).usage(usage);
-    // SAFETY: the device is alive; the size is not zero.
-    let buffer = unsafe { device.create_buffer(&info, None) }.during("vkCreateBuffer", name)?;
-    // SAFETY: the buffer belongs to this device.
-    let requirements = unsafe { device.get_buffer_memory_requirements(buffer) };
-    let mut allocator = shared.allocator();
-    let allocated = allocator.allocate(&AllocationCreateDesc {
-        name: "storage",
-        requirements,
-        location,
-        linear: true,
-        allocation_scheme: AllocationScheme::GpuAllocatorManaged,
-    });
-    let bound = match allocated {
-        Ok(allocation) => {
-            // SAFETY: the memory was allocated for this buffer's requirements and is bound once, at the offset that the
-            // allocator chose to meet their alignment.
-            let bound =
-                unsafe { device.bind_buffer_memory(buffer, allocation.memory(), allocation.offset()) };
-            match bound.during("vkBindBufferMemory", name) {
-                Ok(()) => return Ok((buffer, allocation)),
-                Err(error) => {
-                    // An error would be an inconsistency of the allocator itself; there is nothing to undo.
-                    let _ = allocator.free(allocation);
-                    error
-                }
-            }
-        }
-        Err(error) => VulkanError::OutOfMemory {
-            device: name.into(),
-            bytes,
-            reserved: allocator.capacity(),
-            reason: error.to_string(),
-        },
-    };
-    // SAFETY: it was made above, and nothing uses it.
-    unsafe { device.destroy_buffer(buffer, None) };
-    Err(bound)
 }

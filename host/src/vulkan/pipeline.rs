@@ -72,7 +72,7 @@ impl Kernel {
             source,
         };
         let interface = Interface::read(words).map_err(bad_module)?;
-        let words = with_float_modes(words, shared.probe.float_controls.into()).map_err(bad_module)?;
+        let words = with_float_modes(words, shared.probe.float_controls).map_err(bad_module)?;
         check_limits(shared, name, &interface)?;
         let mut kernel = Self {
             name: name.into(),
@@ -153,22 +153,20 @@ impl Kernel {
 /// Compares what the kernel declares with what the device has.
 fn check_limits(shared: &Shared, kernel: &str, interface: &Interface) -> Result<(), VulkanError> {
     let limits = &shared.probe.limits;
-    let [x, y, z] = interface.workgroup;
-    let invocations = x.saturating_mul(y).saturating_mul(z);
-    let [max_x, max_y, max_z] = limits.max_workgroup_size;
+    let invocations = interface
+        .workgroup
+        .iter()
+        .fold(1, |all: u32, own| all.saturating_mul(*own));
     for (what, needed, limit) in [
-        ("a workgroup width of", x, max_x),
-        ("a workgroup height of", y, max_y),
-        ("a workgroup depth of", z, max_z),
         (
             "invocations per workgroup:",
             invocations,
-            limits.max_workgroup_invocations,
+            limits.max_compute_work_group_invocations,
         ),
         (
             "storage buffers:",
             interface.buffers.len() as u32,
-            limits.max_storage_buffers,
+            limits.max_per_stage_descriptor_storage_buffers,
         ),
         (
             "bytes of push constants:",
@@ -177,10 +175,9 @@ fn check_limits(shared: &Shared, kernel: &str, interface: &Interface) -> Result<
         ),
     ] {
         if needed > limit {
-            let (kernel, device) = (kernel.into(), shared.probe.name.clone());
             return Err(VulkanError::KernelOverLimit {
-                kernel,
-                device,
+                kernel: kernel.into(),
+                device: shared.probe.name.clone(),
                 what,
                 needed,
                 limit,

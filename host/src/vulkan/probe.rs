@@ -2,6 +2,7 @@
 
 use super::instance::Instance;
 use ash::vk;
+use lightbvh_gpu::FloatControls;
 use serde::Serialize;
 use std::ffi::CStr;
 use std::fmt;
@@ -11,18 +12,26 @@ use std::fmt;
 pub struct Probe {
     /// Device name as the driver gives it.
     pub name: String,
-    /// `cpu`, `integrated`, `discrete`, `virtual` or `other`.
-    pub kind: &'static str,
     /// Highest Vulkan version of the device, `major.minor.patch`.
     pub api_version: String,
     /// The driver.
     pub driver: Driver,
-    /// Floating-point execution modes for 32-bit floats.
+    /// Floating-point execution modes for 32-bit floats that kernels get.
+    #[serde(skip)]
     pub float_controls: FloatControls,
-    /// Optional features this program looks at.
-    pub features: Features,
-    /// Limits this program checks.
-    pub limits: Limits,
+    /// `shaderDenormPreserveFloat32`.
+    pub keeps_denormals: bool,
+    /// `scalarBlockLayout`: arrays of 12-byte structures in buffers.
+    pub scalar_block_layout: bool,
+    /// `robustBufferAccess`: accesses beyond a buffer are defined.
+    pub robust_buffer_access: bool,
+    /// Limits.
+    #[serde(skip)]
+    pub limits: vk::PhysicalDeviceLimits,
+    /// Largest single memory allocation, bytes.
+    pub max_memory_allocation_size: u64,
+    /// Meaningful low bits of a timestamp on the compute queue; 0 where there are none.
+    pub timestamp_valid_bits: u32,
 }
 
 /// Driver identity; belongs into every report about bits or times.
@@ -34,64 +43,12 @@ pub struct Driver {
     pub name: String,
     /// Free text, often with the version.
     pub info: String,
-    /// Version number in the driver's own encoding.
-    pub version: u32,
 }
 
 impl fmt::Display for Driver {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {}", self.name, self.info)
     }
-}
-
-/// Which execution modes for 32-bit floats the device offers (`VkPhysicalDeviceFloatControlsProperties`).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct FloatControls {
-    /// `shaderSignedZeroInfNanPreserveFloat32`.
-    pub signed_zero_inf_nan_preserve_32: bool,
-    /// `shaderRoundingModeRTEFloat32`.
-    pub rounding_mode_rte_32: bool,
-    /// `shaderDenormPreserveFloat32`.
-    pub denorm_preserve_32: bool,
-}
-
-impl From<FloatControls> for lightbvh_gpu::FloatControls {
-    fn from(controls: FloatControls) -> Self {
-        Self {
-            signed_zero_inf_nan_preserve_32: controls.signed_zero_inf_nan_preserve_32,
-            rounding_mode_rte_32: controls.rounding_mode_rte_32,
-        }
-    }
-}
-
-/// Optional features.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
-pub struct Features {
-    /// `scalarBlockLayout`: arrays of 12-byte structures in buffers.
-    pub scalar_block_layout: bool,
-    /// `robustBufferAccess`: accesses beyond a buffer are defined.
-    pub robust_buffer_access: bool,
-}
-
-/// Limits; bytes unless said otherwise.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
-pub struct Limits {
-    /// Largest range of one storage buffer binding.
-    pub max_storage_buffer_range: u64,
-    /// Largest single memory allocation.
-    pub max_memory_allocation_size: u64,
-    /// Storage buffers per kernel.
-    pub max_storage_buffers: u32,
-    /// Push constant block.
-    pub max_push_constants_size: u32,
-    /// Invocations per workgroup, x, y, z.
-    pub max_workgroup_size: [u32; 3],
-    /// Invocations per workgroup, all together.
-    pub max_workgroup_invocations: u32,
-    /// Nanoseconds per timestamp tick.
-    pub timestamp_period: f32,
-    /// Meaningful low bits of a timestamp on the compute queue; 0 where there are none.
-    pub timestamp_valid_bits: u32,
 }
 
 /// A physical device that can run this program's kernels.
@@ -140,55 +97,31 @@ impl Candidate {
             return Err(format!("{name}: no vulkanMemoryModel, which the kernels need"));
         }
 
-        let limits = &basic.limits;
         let probe = Probe {
             name,
-            kind: kind(basic.device_type),
             api_version: version(basic.api_version),
             driver: Driver {
                 id: driver.driver_id.as_raw(),
                 name: text(driver.driver_name_as_c_str().ok()),
                 info: text(driver.driver_info_as_c_str().ok()),
-                version: basic.driver_version,
             },
             float_controls: FloatControls {
                 signed_zero_inf_nan_preserve_32: float_controls.shader_signed_zero_inf_nan_preserve_float32
                     == vk::TRUE,
                 rounding_mode_rte_32: float_controls.shader_rounding_mode_rte_float32 == vk::TRUE,
-                denorm_preserve_32: float_controls.shader_denorm_preserve_float32 == vk::TRUE,
             },
-            features: Features {
-                scalar_block_layout: vulkan12.scalar_block_layout == vk::TRUE,
-                robust_buffer_access,
-            },
-            limits: Limits {
-                max_storage_buffer_range: u64::from(limits.max_storage_buffer_range),
-                max_memory_allocation_size: maintenance3.max_memory_allocation_size,
-                max_storage_buffers: limits
-                    .max_per_stage_descriptor_storage_buffers
-                    .min(limits.max_descriptor_set_storage_buffers),
-                max_push_constants_size: limits.max_push_constants_size,
-                max_workgroup_size: limits.max_compute_work_group_size,
-                max_workgroup_invocations: limits.max_compute_work_group_invocations,
-                timestamp_period: limits.timestamp_period,
-                timestamp_valid_bits: family.timestamp_valid_bits,
-            },
+            keeps_denormals: float_controls.shader_denorm_preserve_float32 == vk::TRUE,
+            scalar_block_layout: vulkan12.scalar_block_layout == vk::TRUE,
+            robust_buffer_access,
+            limits: basic.limits,
+            max_memory_allocation_size: maintenance3.max_memory_allocation_size,
+            timestamp_valid_bits: family.timestamp_valid_bits,
         };
         Ok(Self {
             physical,
             queue_family,
             probe,
         })
-    }
-}
-
-fn kind(device_type: vk::PhysicalDeviceType) -> &'static str {
-    match device_type {
-        vk::PhysicalDeviceType::CPU => "cpu",
-        vk::PhysicalDeviceType::INTEGRATED_GPU => "integrated",
-        vk::PhysicalDeviceType::DISCRETE_GPU => "discrete",
-        vk::PhysicalDeviceType::VIRTUAL_GPU => "virtual",
-        _ => "other",
     }
 }
 

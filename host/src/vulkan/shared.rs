@@ -42,7 +42,7 @@ impl Shared {
             queue_family,
             probe,
         } = candidate;
-        let has_clock = probe.limits.timestamp_valid_bits > 0;
+        let has_clock = probe.timestamp_valid_bits > 0;
         let parts = Queue::new(&raw, queue_family, has_clock, &probe.name).and_then(|queue| {
             let allocator = Allocator::new(&AllocatorCreateDesc {
                 instance: instance.raw.clone(),
@@ -103,14 +103,8 @@ impl Shared {
 
     /// An error once the validation layer has said anything.
     pub(crate) fn check_validation(&self) -> Result<(), VulkanError> {
-        match self.instance.messages() {
-            Some(messages) if messages.count() > 0 => Err(VulkanError::Validation {
-                device: self.probe.name.clone(),
-                count: messages.count(),
-                first: messages.first(),
-            }),
-            _ => Ok(()),
-        }
+        let messages = self.instance.messages();
+        messages.map_or(Ok(()), |messages| messages.check(&self.probe.name))
     }
 }
 

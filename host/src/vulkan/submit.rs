@@ -101,9 +101,8 @@ impl Shared {
                     .get_query_pool_results(queue.queries, 0, &mut ticks, flags)
             })
             .during("vkGetQueryPoolResults", &self.probe.name)?;
-        let limits = &self.probe.limits;
-        let elapsed = elapsed(ticks[0], ticks[1], limits.timestamp_valid_bits);
-        let nanoseconds = elapsed as f64 * f64::from(limits.timestamp_period);
+        let elapsed = elapsed(ticks[0], ticks[1], self.probe.timestamp_valid_bits);
+        let nanoseconds = elapsed as f64 * f64::from(self.probe.limits.timestamp_period);
         Ok(Some(Duration::from_nanos(nanoseconds as u64)))
     }
 }

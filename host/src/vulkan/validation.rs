@@ -1,43 +1,32 @@
-//! The validation layer's messages: counted, and the first ones kept.
+//! The validation layer's messages.
 
+use super::error::VulkanError;
 use ash::vk;
 use std::ffi::{CStr, c_void};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
-
-/// Messages kept in full; the rest only count.
-const KEPT: usize = 8;
+use std::sync::{Mutex, MutexGuard};
 
 /// Name of the layer.
 pub(crate) const LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
 /// What the layer has said so far.
 #[derive(Debug, Default)]
-pub(crate) struct Messages {
-    count: AtomicU64,
-    first: Mutex<Vec<String>>,
-}
+pub(crate) struct Messages(Mutex<Vec<String>>);
 
 impl Messages {
-    /// Number of messages so far.
-    pub(crate) fn count(&self) -> u64 {
-        self.count.load(Ordering::Acquire)
-    }
-
-    /// The first few messages.
-    pub(crate) fn first(&self) -> Vec<String> {
-        self.first
-            .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner())
-            .clone()
-    }
-
-    fn add(&self, message: String) {
-        self.count.fetch_add(1, Ordering::AcqRel);
-        let mut first = self.first.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        if first.len() < KEPT {
-            first.push(message);
+    /// An error once there is any message.
+    pub(crate) fn check(&self, device: &str) -> Result<(), VulkanError> {
+        let messages = self.all();
+        match messages.is_empty() {
+            true => Ok(()),
+            false => Err(VulkanError::Validation {
+                device: device.to_owned(),
+                messages: messages.clone(),
+            }),
         }
+    }
+
+    fn all(&self) -> MutexGuard<'_, Vec<String>> {
+        self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
     /// Create-info of a messenger that reports here: warnings and errors about this program's use of Vulkan.
@@ -75,7 +64,7 @@ unsafe extern "system" fn receive(
             .map_or_else(String::new, |text| text.to_string_lossy().into_owned())
     });
     if let Some(messages) = messages {
-        messages.add(text.unwrap_or_default());
+        messages.all().push(text.unwrap_or_default());
     }
     vk::FALSE // TRUE would abort the call that was complained about.
 }

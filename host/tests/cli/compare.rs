@@ -65,10 +65,3 @@ fn the_report_has_every_measure() {
         "{said}"
     );
 }
-
-#[test]
-fn quick_compares_all_methods_on_all_scenes() {
-    let report = report("--quick --width 24 --height 16 --seeds 1 --backend cpu");
-    // Three scenes, nine methods, three frames.
-    assert_eq!(rows(&report).len(), 3 * 9 * 3);
-}

@@ -9,7 +9,7 @@ const NAME: &str = "KHR_lights_punctual";
 
 /// A floor, and lights of these kinds over it that shine down.
 fn stage(folder: &Folder, name: &str, lights: &[Value]) -> String {
-    model::write(folder, name, &[], |root| {
+    model::write(folder, name, 1, &[], |root| {
         let nodes = root["nodes"].as_array_mut().expect("a list");
         let mut shown = vec![json!(FLOOR)];
         for k in 0..lights.len() {
@@ -49,7 +49,7 @@ fn scenes_of_points_and_spots_are_verified_and_inspected() {
     assert!(rows.iter().all(|row| row["lights"] == 3), "{rows:?}");
 
     let found = report(&format!("inspect {path} --json"));
-    assert_eq!(found["kinds"]["said"], "2 points, 1 spot");
+    assert_eq!(found["kinds"]["said"], "2 PointLight, 1 SpotLight");
     assert_eq!(found["kinds"]["node"], "Lit<SpotMomentNode<8>, AnyLight>");
 }
 

@@ -1,6 +1,5 @@
 //! Whole commands: what they print, what they write, and how they refuse.
 
-mod animate;
 mod checks;
 mod compare;
 mod inspect;

@@ -8,25 +8,8 @@ use crate::program::Folder;
 pub const FLOOR: usize = 0;
 pub const LAMP: usize = 1;
 
-/// Keys of a node's translation or scale.
-pub struct Keys {
-    pub node: usize,
-    pub path: &'static str,
-    pub keys: Vec<(f32, [f32; 3])>,
-}
-
-impl Keys {
-    pub fn new(node: usize, path: &'static str, keys: &[(f32, [f32; 3])]) -> Self {
-        Self {
-            node,
-            path,
-            keys: keys.to_vec(),
-        }
-    }
-}
-
-/// A clip of this name.
-pub type Clip = (String, Vec<Keys>);
+/// A clip of this name, and where it moves the lamp: keys a second apart.
+pub type Clip<'a> = (&'a str, &'a [[f32; 3]]);
 
 /// A quadrilateral of two triangles, seen from above where `up` is above zero.
 fn quad(half: f32, up: f32) -> [f32; 18] {
@@ -39,13 +22,9 @@ fn quad(half: f32, up: f32) -> [f32; 18] {
     all
 }
 
-/// Writes a model with these clips as glTF beside its buffer and returns its path; `change` may change its JSON.
-pub fn write(folder: &Folder, name: &str, clips: &[Clip], change: impl FnOnce(&mut Value)) -> String {
-    write_lamps(folder, name, 1, clips, change)
-}
-
-/// The same with so many quadrilaterals in the lamps' mesh, in rows of four.
-pub fn write_lamps(
+/// Writes a model with these clips, and so many quadrilaterals in the lamps' mesh, in rows of four, as glTF beside its buffer.
+/// Returns its path; `change` may change its JSON.
+pub fn write(
     folder: &Folder,
     name: &str,
     count: usize,
@@ -73,16 +52,11 @@ pub fn write_lamps(
     let (floor, lamp) = (add(&quad(4.0, 1.0), "VEC3"), add(&lamps, "VEC3"));
     let animations: Vec<Value> = clips
         .iter()
-        .map(|(name, all)| {
-            let (mut samplers, mut channels) = (Vec::new(), Vec::new());
-            for Keys { node, path, keys } in all {
-                let times: Vec<f32> = keys.iter().map(|(time, _)| *time).collect();
-                let values: Vec<f32> = keys.iter().flat_map(|(_, value)| *value).collect();
-                samplers.push(json!({ "input": add(&times, "SCALAR"), "output": add(&values, "VEC3") }));
-                channels
-                    .push(json!({ "sampler": samplers.len() - 1, "target": { "node": node, "path": path } }));
-            }
-            json!({ "name": name, "samplers": samplers, "channels": channels })
+        .map(|(name, keys)| {
+            let times: Vec<f32> = (0..keys.len()).map(|key| key as f32).collect();
+            let sampler = json!({ "input": add(&times, "SCALAR"), "output": add(&keys.concat(), "VEC3") });
+            let channel = json!({ "sampler": 0, "target": { "node": LAMP, "path": "translation" } });
+            json!({ "name": name, "samplers": [sampler], "channels": [channel] })
         })
         .collect();
     let bytes: Vec<u8> = floats.iter().flat_map(|x| x.to_le_bytes()).collect();

@@ -1,57 +1,24 @@
-//! Files that are written: through links, into pipes, and after an interrupt.
+//! Files after an interrupt.
 #![cfg(unix)]
 
 use std::fs;
-use std::os::unix::fs::{FileTypeExt, symlink};
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use crate::program::{Folder, refused, run};
+use crate::program::Folder;
 
-const SMALL: &str = "--width 16 --height 9 --spp 1";
-
-#[test]
-fn links_are_followed_and_pipes_are_written_directly() {
-    let folder = Folder::new("outputs");
-    let [file, link, pipe, lost] =
-        ["file.exr", "link.exr", "pipe.exr", "lost.exr"].map(|name| folder.file(name));
-    let render = |to: &str| assert!(run(&format!("render street {SMALL} -o {to}")).status.success());
-    render(&file);
-    let expected = fs::read(&file).expect("an image");
-    fs::write(&file, "older").expect("a file");
-    symlink(&file, &link).expect("a link");
-    render(&link);
-    assert!(fs::symlink_metadata(&link).expect("a link").is_symlink());
-    assert!(fs::read(&file).expect("an image") == expected);
-
-    let made = Command::new("mkfifo").arg(&pipe).status();
-    assert!(made.expect("mkfifo is part of POSIX").success());
-    let reader = std::thread::spawn({
-        let pipe = pipe.clone();
-        move || fs::read(pipe).expect("an image")
-    });
-    render(&pipe);
-    assert!(reader.join().expect("no panic") == expected);
-    assert!(fs::metadata(&pipe).expect("a pipe").file_type().is_fifo());
-
-    symlink(folder.file("nothing"), &lost).expect("a link");
-    let said = refused(&format!("render street {SMALL} -o {lost}"));
-    assert!(said.contains(&lost) && said.contains("remove the link"), "{said}");
-}
-
-/// At several times of a sequence: between files, and while one is written.
+/// At several times: between files, and while one is written.
 #[test]
 fn an_interrupt_leaves_no_temporary_file() {
     for milliseconds in [0, 2, 8] {
         let folder = Folder::new(&format!("interrupt-{milliseconds}"));
-        let image = folder.file("image.exr");
-        let line = format!("render street --animate 0..100000 --sampler uniform {SMALL} -o {image}");
+        let line = format!("demo --width 64 --height 36 --out {}", folder.file(""));
         let mut child = Command::new(env!("CARGO_BIN_EXE_lightbvh"))
             .args(line.split(' '))
             .stdout(Stdio::null())
             .spawn()
             .expect("the program starts");
-        while !fs::exists(folder.file("image-0002.exr")).expect("a folder") {
+        while !fs::exists(folder.file("street-000.png")).expect("a folder") {
             assert_eq!(child.try_wait().expect("a process"), None, "it ended by itself");
             std::thread::sleep(Duration::from_millis(1));
         }
@@ -63,7 +30,7 @@ fn an_interrupt_leaves_no_temporary_file() {
         assert_eq!(child.wait().expect("it ends").code(), Some(130));
         for file in fs::read_dir(&folder.0).expect("a folder") {
             let name = file.expect("a file").file_name().into_string().expect("text");
-            assert!(name.starts_with("image-") && name.ends_with(".exr"), "{name}");
+            assert!(name.starts_with("street-") && name.ends_with(".png"), "{name}");
         }
     }
 }

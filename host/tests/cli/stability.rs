@@ -3,7 +3,6 @@
 use lightbvh::{BuildParams, LightBvh, Lights, Node};
 use lightbvh_host::stability::cases::scattered;
 use lightbvh_host::stability::row::{Check, Row};
-use lightbvh_host::stability::subject::Subject;
 use lightbvh_host::stability::{case, checks};
 
 use crate::program::json_on_cpu;
@@ -15,7 +14,7 @@ fn every_extreme_is_survived_on_the_cpu() {
     let rows = report["rows"].as_array().expect("rows");
     let failed: Vec<_> = rows.iter().filter(|row| row["pass"] != true).collect();
     assert!(failed.is_empty(), "{failed:#?}");
-    assert!(rows.len() > 300, "only {} rows", rows.len());
+    assert!(rows.len() > 250, "only {} rows", rows.len());
     for row in rows {
         assert_eq!(row["device"], "cpu");
         assert!(
@@ -30,8 +29,7 @@ fn rows(break_it: impl Fn(&mut LightBvh)) -> Vec<Row> {
     let mut bvh = LightBvh::single_level(&lights, &BuildParams::default());
     break_it(&mut bvh);
     let points = case::Case::new("", lights.triangles().to_vec()).points;
-    let tree = Subject::new(&bvh, &lights);
-    checks::check("broken", "single-level", &tree, &points, 20_000)
+    checks::check("broken", "single-level", (&bvh, &lights), &points, 20_000)
 }
 
 fn failed(rows: &[Row]) -> Vec<Check> {

@@ -13,8 +13,8 @@ fn misuse_that_validation_sees_is_an_error() {
         let mut words = scale_index();
         words.splice(5..5, [2 << 16 | 17, 11]);
         match device.kernel_from_words("int64", &words) {
-            Err(VulkanError::Validation { count, first, .. }) => {
-                assert!(count > 0 && !first.is_empty());
+            Err(VulkanError::Validation { messages, .. }) => {
+                assert!(!messages.is_empty());
                 assert!(device.close().is_err(), "what was said is not forgotten");
             }
             other => assert!(
@@ -95,10 +95,7 @@ fn objects_of_another_device_are_refused() {
 #[test]
 fn buffers_over_a_limit_say_so() {
     on_each_device(Options::default(), |device| {
-        let limit = device.probe().limits.max_storage_buffer_range;
-        let Ok(words) = usize::try_from(limit / 4 + 1) else {
-            return;
-        };
+        let words = device.probe().limits.max_storage_buffer_range as usize / 4 + 1;
         match device.output::<u32>(words) {
             Err(VulkanError::BufferTooLarge {
                 bytes, limit: named, ..

@@ -183,7 +183,7 @@ fn later_dispatches_of_a_pass_see_earlier_ones_and_all_have_a_time() {
             "{}",
             device.name()
         );
-        if device.probe().limits.timestamp_valid_bits > 0 {
+        if device.probe().timestamp_valid_bits > 0 {
             let kernels = timings.kernels.expect("a time where the device keeps time");
             let [kernels, wall] = [kernels, timings.wall].map(|time| time.as_nanos() as f64);
             // Both clocks count nanoseconds; a tenth and a microsecond are for their different rates and steps.

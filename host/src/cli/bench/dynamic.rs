@@ -9,15 +9,13 @@ use std::time::{Duration, Instant};
 
 use lightbvh::{EmissiveTriangle, Rebuilder, ShadingPoint};
 use lightbvh_gpu::{Mirror, Step};
-use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::json;
 
 use self::scenes::Scene;
 use self::world::World;
 use crate::backend::Bvh;
-use crate::cli::measure::times::Spread;
-use crate::cli::measure::{irradiance::irradiance, variance};
+use crate::cli::measure::{self, times::Spread};
 use crate::cli::table::{self, news};
 use crate::cli::{Context, Outcome};
 use crate::error::HostError;
@@ -52,7 +50,7 @@ struct Variance {
 }
 
 pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
-    let rows = scenes::scenes().into_iter().map(measure);
+    let rows = scenes::scenes().into_iter().map(row);
     let rows = rows.collect::<Result<Vec<_>, _>>()?;
     match context.json {
         true => table::print_json(&json!({ "scenes": rows }))?,
@@ -61,12 +59,12 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
     Ok(Outcome::Good)
 }
 
-fn measure(mut scene: Scene) -> Result<Row, HostError> {
+fn row(mut scene: Scene) -> Result<Row, HostError> {
     news!("{}, {}", scene.name, scene.lamps.len());
     // A refit that builds uses all threads of its pool; with one thread, all of it counts as thread time.
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let one = one.expect("a pool of one thread");
-    let mut world = World::new(std::mem::take(&mut scene.triangles));
+    let mut world = World::new();
     for (at, radiance) in std::mem::take(&mut scene.lamps) {
         world.add(at, radiance);
     }
@@ -151,22 +149,11 @@ fn point(light: &EmissiveTriangle, side: Option<f32>, random: &mut Random) -> Sh
     }
 }
 
-/// Exact relative variance of one sample at each point: by all lights, which have their instance's index.
+/// Exact relative variance of one sample at each point: by all lights, which have their instance's index; zero in the dark.
 fn variances(bvh: &Bvh, lights: &[EmissiveTriangle], points: &[ShadingPoint]) -> Vec<f64> {
-    let of = |point: &ShadingPoint| {
-        let lights = (0..).zip(lights).map(|(light, triangle)| {
-            let sent = irradiance(triangle, point);
-            let pmf = if sent > 0.0 {
-                bvh.pmf(point, light, triangle.mesh)
-            } else {
-                0.0
-            };
-            (sent, f64::from(pmf))
-        });
-        // Points in the dark are left out by their zeros.
-        variance(lights).unwrap_or(0.0)
-    };
-    points.par_iter().map(of).collect()
+    let pmf = |k: usize, light: u32| bvh.pmf(&points[k], light, lights[light as usize].mesh);
+    let all = measure::variances(lights, points, pmf);
+    all.into_iter().map(Option::unwrap_or_default).collect()
 }
 
 fn print(rows: &[Row]) -> std::io::Result<()> {
@@ -200,7 +187,7 @@ mod tests {
         let scenes = scenes::scenes().into_iter();
         for mut scene in scenes.filter(|scene| (1..50_000).contains(&scene.lamps.len())) {
             (scene.frames, scene.warm, scene.look) = (3, 0, 3);
-            let row = measure(scene).expect("no build panics");
+            let row = row(scene).expect("no build panics");
             assert!(
                 row.begin_end_us.median > 0.0 && row.frame_us.most > row.begin_end_us.median,
                 "{row:?}"

@@ -1,24 +1,27 @@
-//! The measurements: every method over the animation of a scene on one backend.
+//! The measurements: every method over the animation of a scene on one backend, one after the other, so that background
+//! builds have the time they would have in an application.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hasher};
 
 use bytemuck::cast_slice;
-use indicatif::ProgressBar;
+use lightbvh::BuildParams;
 
-use super::plan::{Args, BLOCK};
-use crate::backend::SceneArrays;
+use super::plan::{Args, TIMED};
+use crate::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler, SceneArrays};
 use crate::cli::measure::reference::Reference;
 use crate::cli::measure::times::ms;
 use crate::error::HostError;
-use crate::method::{Method, Runner, Step, Target, UpdateTimes};
+use crate::method::{Method, Step, Target, UpdateTimes};
 use crate::metrics::Quality;
 use crate::render::Film;
 use crate::scene::Scene;
-use crate::workload::{arrays_at, render_params};
+use crate::workload::{arrays_at, build, lights_at, render_params};
 
+/// Seeds from here on belong to references, so that these share no random numbers with the images measured against them.
+const FIRST_SEED: u32 = 1 << 31;
 /// Seed of images that are rendered for their time.
-const TIMING_SEED: u32 = (1 << 31) - 1;
+const TIMING_SEED: u32 = FIRST_SEED - 1;
 
 /// Results of the methods on one backend.
 #[derive(Clone, Default)]
@@ -39,88 +42,90 @@ impl Results {
     }
 }
 
-/// One scene on one backend.
-pub(super) struct Job<'a, 'd> {
-    pub plan: &'a Args,
-    pub scene: &'a Scene,
-    pub references: &'a [Reference],
-    pub target: Target<'d>,
-    /// Images per frame, and blocks that are timed.
-    pub seeds: u32,
-    pub blocks: Vec<u32>,
-    pub progress: &'a ProgressBar,
+/// A scene, with the arrays of frames that images are rendered of.
+pub(super) struct Job<'a> {
+    plan: &'a Args,
+    scene: &'a Scene,
+    arrays: BTreeMap<u32, SceneArrays>,
+    /// Of the measured frames, displayed at the exposure of the first.
+    pub references: BTreeMap<u32, Reference>,
 }
 
-type Lane<'d> = (Method, Option<Box<dyn Runner + 'd>>);
-
-impl<'d> Job<'_, 'd> {
-    /// Measures all methods, block by block.
-    pub fn run(&self) -> Result<Results, HostError> {
-        let mut results = Results::default();
-        let mut lanes: Vec<Lane<'d>> = self.plan.method.iter().map(|&method| (method, None)).collect();
-        for block in 0..=self.plan.last() / BLOCK {
-            let mut arrays = BTreeMap::new();
-            for lane in &mut lanes {
-                self.block(lane, block, &mut arrays, &mut results)?;
-                self.progress.inc(1);
-            }
+impl<'a> Job<'a> {
+    /// Renders the references.
+    pub fn new(plan: &'a Args, scene: &'a Scene) -> Result<Self, HostError> {
+        let rendered = (0..=plan.last()).filter(|&frame| plan.is_rendered(frame));
+        let arrays = rendered.map(|frame| Ok((frame, arrays_at(scene, frame, plan.width, plan.height)?)));
+        let arrays = arrays.collect::<Result<BTreeMap<_, _>, HostError>>()?;
+        let mut references: BTreeMap<u32, Reference> = BTreeMap::new();
+        for &frame in &plan.frames {
+            let arrays = &arrays[&frame];
+            let bvh: Bvh = build(&arrays.lights, Sampler::TwoLevel, &BuildParams::default());
+            let mut cpu: CpuBackend = CpuBackend::new(bvh);
+            let mut half = |half| {
+                let samples = plan.reference_samples / 2;
+                let background = scene.data().background;
+                let params = render_params(plan.size(), samples, FIRST_SEED + half, background);
+                cpu.render(arrays, &params, Sampler::TwoLevel, Integrator::Direct)
+            };
+            let halves = [half(0)?.value, half(1)?.value];
+            let exposure = references.values().next().map(|first| first.judge.exposure());
+            references.insert(frame, Reference::new(plan.size(), halves, exposure)?);
         }
-        Ok(results)
+        Ok(Self {
+            plan,
+            scene,
+            arrays,
+            references,
+        })
     }
 
-    /// One method over one block of frames, whose arrays all methods share.
-    fn block(
+    /// Brings a method through all frames, with so many images of each measured one.
+    pub fn run(
         &self,
-        (method, lane): &mut Lane<'d>,
-        block: u32,
-        arrays: &mut BTreeMap<u32, SceneArrays>,
+        method: Method,
+        target: Target<'_>,
+        seeds: u32,
         results: &mut Results,
     ) -> Result<(), HostError> {
         let (plan, scene) = (self.plan, self.scene);
-        let is_timed = self.blocks.contains(&block);
-        for frame in block * BLOCK..=plan.last().min(block * BLOCK + BLOCK - 1) {
-            let shown = plan.frames.iter().position(|&own| own == frame);
-            let arrays = match arrays.entry(frame) {
-                std::collections::btree_map::Entry::Occupied(own) => own.into_mut(),
-                std::collections::btree_map::Entry::Vacant(none) => {
-                    none.insert(arrays_at(scene, frame, plan.width, plan.height)?)
-                }
-            };
-            let step = Step::new(scene, frame, &arrays.lights);
+        let first = lights_at(scene, 0)?;
+        let mut runner = method.recipe().runner(&Step::new(scene, 0, &first), target)?;
+        for frame in 0..=plan.last() {
+            let lights = lights_at(scene, frame)?;
+            let step = Step::new(scene, frame, &lights);
             // The first frame's structures are built already.
-            let update = match lane.as_mut() {
-                Some(runner) => runner.advance(&step)?,
-                None => UpdateTimes::default(),
+            let update = match frame {
+                0 => UpdateTimes::default(),
+                _ => runner.advance(&step)?,
             };
-            if lane.is_none() {
-                *lane = Some(method.recipe().runner(&step, self.target)?);
-            }
-            let Some(runner) = lane.as_mut() else { continue };
-            let (name, on) = (method.name(), self.target.name());
-            self.progress
-                .set_message(format!("{} frame {frame}: {name} on {on}", scene.name()));
+            let Some(arrays) = self.arrays.get(&frame) else {
+                continue;
+            };
             let mut image = |seed| {
                 let params = render_params(plan.size(), plan.samples, seed, scene.data().background);
                 runner.image(&step, arrays, &params)
             };
-            if is_timed {
+            if frame + TIMED >= plan.last() {
                 let image = ms(image(TIMING_SEED)?.time);
-                // The first frame of a block follows other methods' work, see `BLOCK`.
-                if frame > block * BLOCK {
+                // A build beside the first of them had no image to run beside.
+                if frame > 0 && frame + TIMED > plan.last() {
                     let [refit, rebuild, wait] = [update.refit, update.rebuild, update.wait].map(ms);
-                    let times = results.times.entry(*method).or_default();
+                    let times = results.times.entry(method).or_default();
                     times.push([refit, rebuild, wait, image]);
                 }
             }
-            let Some(at) = shown else { continue };
-            for seed in 0..self.seeds {
+            let Some(reference) = self.references.get(&frame) else {
+                continue;
+            };
+            for seed in 0..seeds {
                 let image = image(seed)?.value;
                 let mut words = DefaultHasher::new();
                 words.write(cast_slice(&image));
                 let film = Film::new(plan.width, plan.height, image)?;
-                let quality = self.references[at].judge.judge(&film)?.quality;
+                let quality = reference.judge.judge(&film)?.quality;
                 let own = (quality, words.finish());
-                results.images.insert((*method, frame, seed), own);
+                results.images.insert((method, frame, seed), own);
             }
         }
         Ok(())

@@ -4,10 +4,8 @@ use crate::cli::reading::Reading;
 use crate::method::Method;
 use crate::scene::BUILT_IN;
 
-/// Frames that are brought up together: within a block a method runs frame after frame by itself, so that what it does
-/// beside a frame (a rebuild) has the time it would have in an application. The first frame of a block follows other
-/// methods' work and is not timed.
-pub(super) const BLOCK: u32 = 8;
+/// Frames that times are averaged over: the last ones.
+pub(super) const TIMED: u32 = 8;
 
 /// The comparison as the options give it.
 #[derive(Clone, Debug, clap::Args)]
@@ -70,9 +68,9 @@ impl Args {
         plan
     }
 
-    /// Frames that times are averaged over, on the CPU and on devices.
-    pub fn timed_frames(&self) -> [u32; 2] {
-        [if self.quick { 7 } else { 35 }, 7]
+    /// Whether images of a frame are rendered, for their errors or their time.
+    pub fn is_rendered(&self, frame: u32) -> bool {
+        frame + TIMED >= self.last() || self.frames.contains(&frame)
     }
 
     /// The last frame.
@@ -83,31 +81,5 @@ impl Args {
     /// Columns and rows.
     pub fn size(&self) -> (u32, u32) {
         (self.width, self.height)
-    }
-}
-
-/// The blocks up to the `last` frame that have so many timed frames between them, as far as there are as many, spread evenly.
-pub(super) fn timed_blocks(last: u32, timed_frames: u32) -> Vec<u32> {
-    // A last block of one frame, which follows no other of its block, does not count.
-    let blocks = u64::from(last.div_ceil(BLOCK));
-    let wanted = u64::from(timed_frames.div_ceil(BLOCK - 1)).min(blocks);
-    (0..wanted)
-        .map(|i| ((2 * i + 1) * blocks / (2 * wanted)) as u32)
-        .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::timed_blocks;
-
-    #[test]
-    fn timed_blocks_are_spread_over_the_animation() {
-        assert_eq!(timed_blocks(150, 35), [1, 5, 9, 13, 17]);
-        assert_eq!(timed_blocks(150, 1), [9]);
-        assert_eq!(timed_blocks(150, 1000), (0..19).collect::<Vec<u32>>());
-        assert_eq!(timed_blocks(16, 1000), [0, 1]);
-        assert_eq!(timed_blocks(17, 1000), [0, 1, 2]);
-        assert!(timed_blocks(0, 10).is_empty());
-        assert!(timed_blocks(150, 0).is_empty());
     }
 }

@@ -37,20 +37,17 @@ pub(super) struct Noise {
 }
 
 /// Notes of the tables.
-pub(super) const NOTES: [&str; 7] = [
+pub(super) const NOTES: [&str; 5] = [
     "All methods trace the same number of shadow rays per pixel, through the same camera rays: what differs is the light that \
      each ray goes to.",
-    "Methods with moments in their names choose lights by the default importance, over trees of 8 children to a node built \
-     by Ward's criterion; the other light BVHs by the paper's Eq. 4, over trees of 4 children to a node built by SAH or SAOH.",
     "MSE, SSIM, PSNR and FLIP are of tone-mapped 8-bit sRGB at one exposure per scene (MSE in steps squared, 0 to 255²), as \
      in the paper; linear MSE is of radiance.",
     "± is half the 95 % confidence interval of the mean over the seeds (Student's t); one seed gives none. Of an average, \
      each seed's mean over the frames is one measurement.",
     "References come from the two-level light BVH with many samples and random numbers of their own. Their own noise, \
      estimated from two halves, is in every MSE; compare it with the differences you look at.",
-    "Refit and waiting and image times add up to the frame; a rebuild beside the frame counts only as far as the frame \
-     waits for it. Image times of devices are the kernels' own where the device has a clock; transfers are left out.",
-    "Rebuild times are of the CPU on every backend.",
+    "Refit and waiting and image times add up to the frame; a rebuild, always by the CPU, runs beside it. Image times of \
+     devices are the kernels' own where the device has a clock; transfers are left out.",
 ];
 
 /// Tables of each scene; the JSON has more.
@@ -89,31 +86,28 @@ const ERRORS: &[table::Column<Row>] = &[
         r.frame
             .map_or_else(|| "all".to_owned(), |frame| frame.to_string())
     }),
-    ("MSE", |r| measured(r.errors.get("mse"), 1)),
-    ("SSIM", |r| format!("{:.4}", r.errors.get("ssim").0)),
-    ("PSNR", |r| format!("{:.2}", r.errors.get("psnr").0)),
-    ("FLIP", |r| format!("{:.4}", r.errors.get("flip").0)),
-    ("linear MSE", |r| format!("{:.3e}", r.errors.get("linear_mse").0)),
+    ("MSE", |r| measured(r, "mse", 1)),
+    ("SSIM", |r| table::known(r.get("ssim").0, 4)),
+    ("PSNR", |r| table::known(r.get("psnr").0, 2)),
+    ("FLIP", |r| table::known(r.get("flip").0, 4)),
+    ("linear MSE", |r| measured(r, "linear_mse", 4)),
 ];
 
 const TIMES: &[table::Column<Row>] = &[
     ("method", |r| r.method.name().to_owned()),
     ("backend", |r| r.backend.clone()),
-    ("refit", |r| table::known(r.times.refit_ms, 2)),
-    ("rebuild", |r| table::known(r.times.rebuild_ms, 2)),
-    ("waiting", |r| table::known(r.times.wait_ms, 2)),
-    ("image", |r| table::known(r.times.image_ms, 2)),
-    ("frame", |r| match r.times.frame_ms {
-        Some(mean) => measured((mean, r.times.frame_ms_ci95), 2),
-        None => table::known(None, 2),
-    }),
-    ("frames timed", |r| r.times.timed_frames.to_string()),
+    ("refit", |r| table::known(r.get("refit_ms").0, 2)),
+    ("rebuild", |r| table::known(r.get("rebuild_ms").0, 2)),
+    ("waiting", |r| table::known(r.get("wait_ms").0, 2)),
+    ("image", |r| table::known(r.get("image_ms").0, 2)),
+    ("frame", |r| measured(r, "frame_ms", 2)),
+    ("frames timed", |r| r.timed_frames.to_string()),
 ];
 
 /// A mean and half its confidence interval.
-fn measured((mean, ci95): (f64, Option<f64>), decimals: usize) -> String {
-    match ci95 {
-        Some(ci95) => format!("{mean:.decimals$} ± {ci95:.decimals$}"),
-        None => format!("{mean:.decimals$}"),
+fn measured(row: &Row, name: &str, decimals: usize) -> String {
+    match row.get(name) {
+        (Some(mean), Some(ci95)) => format!("{mean:.decimals$} ± {ci95:.decimals$}"),
+        (mean, _) => table::known(mean, decimals),
     }
 }

@@ -21,26 +21,15 @@ const MEASURES: [(&str, Measure); 6] = [
     ("relative_mse", |q| q.relative_mse),
 ];
 
-/// Every measure as a mean over seeds, and half the 95 % confidence interval of each: `null` in JSON for one seed, as the PSNR of
-/// images without any error.
-#[derive(Clone, Debug, Serialize)]
-pub(super) struct Errors {
-    #[serde(flatten)]
-    measures: BTreeMap<String, Option<f64>>,
-    pub seeds: usize,
-}
-
-/// Milliseconds, averaged over the timed frames of the animation; nothing where no frame was timed.
-#[derive(Clone, Debug, Default, Serialize)]
-pub(super) struct Times {
-    pub refit_ms: Option<f64>,
-    pub rebuild_ms: Option<f64>,
-    pub wait_ms: Option<f64>,
-    pub image_ms: Option<f64>,
-    pub frame_ms: Option<f64>,
-    pub frame_ms_ci95: Option<f64>,
-    pub timed_frames: usize,
-}
+/// Times of a frame, ms, out of refit, rebuild, wait and image. The frame's own thread refits, waits and renders, one after the
+/// other.
+const TIMES: [(&str, fn(&[f64; 4]) -> f64); 5] = [
+    ("refit_ms", |t| t[0]),
+    ("rebuild_ms", |t| t[1]),
+    ("wait_ms", |t| t[2]),
+    ("image_ms", |t| t[3]),
+    ("frame_ms", |t| t[0] + t[2] + t[3]),
+];
 
 /// A method in one frame or over all, each seed's mean over the frames being one measurement.
 #[derive(Clone, Debug, Serialize)]
@@ -51,10 +40,12 @@ pub(super) struct Row {
     pub frame: Option<u32>,
     pub method: Method,
     pub backend: String,
+    /// Every measure as a mean over seeds, times as means over the timed frames of the animation, and half the 95 % confidence
+    /// interval of each: `null` in JSON for one seed, for the PSNR of images without any error, and where no frame was timed.
     #[serde(flatten)]
-    pub errors: Errors,
-    #[serde(flatten)]
-    pub times: Times,
+    figures: BTreeMap<String, Option<f64>>,
+    pub seeds: usize,
+    pub timed_frames: usize,
     /// Change of the MSE over the moving frames (all but frame 0) from other methods' to this one's.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub mse_change: Vec<Change>,
@@ -77,121 +68,98 @@ const BASELINES: [Method; 3] = [
     Method::TwoLevelSaoh,
 ];
 
-impl Errors {
-    /// Of the images of each seed, frame by frame: each seed's mean over the frames is one measurement, as in the paper's last
-    /// column, PSNR included.
-    fn of(seeds: &[Vec<Quality>]) -> Option<Self> {
-        let mut measures = BTreeMap::new();
-        for (name, measure) in MEASURES {
-            let values: Vec<f64> = seeds.iter().map(|frames| mean(frames, measure)).collect();
-            let estimate = Estimate::of(&values)?;
-            measures.insert(name.to_owned(), Some(estimate.mean));
-            measures.insert(format!("{name}_ci95"), estimate.ci95);
-        }
-        let seeds = seeds.len();
-        Some(Self { measures, seeds })
+impl Row {
+    fn add(&mut self, name: &str, values: &[f64]) {
+        let estimate = Estimate::of(values);
+        self.figures
+            .insert(name.to_owned(), estimate.map(|estimate| estimate.mean));
+        self.figures.insert(
+            format!("{name}_ci95"),
+            estimate.and_then(|estimate| estimate.ci95),
+        );
     }
 
-    /// The mean of a measure, and half its interval.
-    pub fn get(&self, measure: &str) -> (f64, Option<f64>) {
-        let of = |name: &str| self.measures.get(name).copied().flatten();
-        (of(measure).unwrap_or(f64::NAN), of(&format!("{measure}_ci95")))
+    /// The mean of a measure or a time, and half its interval.
+    pub fn get(&self, name: &str) -> (Option<f64>, Option<f64>) {
+        let of = |name: &str| self.figures.get(name).copied().flatten();
+        (of(name), of(&format!("{name}_ci95")))
     }
 }
 
 /// Rows of one scene on one backend: of each frame, and of all.
 pub(super) fn summarize(plan: &Args, scene: &str, backend: &str, results: &Results) -> [Vec<Row>; 2] {
-    let mut qualities: BTreeMap<(Method, u32), Vec<Quality>> = BTreeMap::new();
-    for (&(method, frame, _), &(quality, _)) in &results.images {
-        qualities.entry((method, frame)).or_default().push(quality);
-    }
     let row = |method, frame: Option<u32>| {
         let frames = frame.as_ref().map_or(&plan.frames[..], std::slice::from_ref);
-        Some(Row {
+        let (seeds, times) = (by_seed(results, method, frames), results.times.get(&method));
+        let times = times.map_or(&[][..], |times| times);
+        let mut row = Row {
             scene: scene.to_owned(),
             frame,
             method,
             backend: backend.to_owned(),
-            errors: Errors::of(&by_seed(&qualities, method, frames))?,
-            times: times(results, method),
-            mse_change: match frame {
-                Some(_) => Vec::new(),
-                None => changes(plan, &qualities, method),
-            },
-        })
+            figures: BTreeMap::new(),
+            seeds: seeds.len(),
+            timed_frames: times.len(),
+            mse_change: Vec::new(),
+        };
+        for (name, measure) in MEASURES {
+            let values: Vec<f64> = seeds.iter().map(|frames| mean(frames, measure)).collect();
+            row.add(name, &values);
+        }
+        for (name, time) in TIMES {
+            row.add(name, &times.iter().map(time).collect::<Vec<f64>>());
+        }
+        if frame.is_none() {
+            row.mse_change = changes(plan, results, method);
+        }
+        row
     };
-    let (mut rows, mut averages) = (Vec::new(), Vec::new());
-    for &method in &plan.method {
-        rows.extend(plan.frames.iter().filter_map(|&frame| row(method, Some(frame))));
-        averages.extend(row(method, None));
+    let each = plan.method.iter().map(|&method| (method, &plan.frames));
+    let of_frames = each.flat_map(|(method, frames)| frames.iter().map(move |&frame| (method, frame)));
+    [
+        of_frames
+            .map(|(method, frame)| row(method, Some(frame)))
+            .collect(),
+        plan.method.iter().map(|&method| row(method, None)).collect(),
+    ]
+}
+
+/// The images of each seed, one of each frame.
+fn by_seed(results: &Results, method: Method, frames: &[u32]) -> Vec<Vec<Quality>> {
+    let image = |seed, &frame: &u32| Some(results.images.get(&(method, frame, seed))?.0);
+    let seeds = (0..).map_while(|seed| frames.iter().map(|frame| image(seed, frame)).collect());
+    if frames.is_empty() {
+        Vec::new()
+    } else {
+        seeds.collect()
     }
-    [rows, averages]
 }
 
-/// Each seed's means over the frames.
-fn by_seed(
-    qualities: &BTreeMap<(Method, u32), Vec<Quality>>,
-    method: Method,
-    frames: &[u32],
-) -> Vec<Vec<Quality>> {
-    let columns: Vec<&Vec<Quality>> = frames
-        .iter()
-        .filter_map(|&frame| qualities.get(&(method, frame)))
-        .collect();
-    let seeds = columns.iter().map(|column| column.len()).min().unwrap_or(0);
-    (0..seeds)
-        .map(|seed| columns.iter().map(|column| column[seed]).collect())
-        .collect()
-}
-
-fn mean(qualities: &[Quality], measure: impl Fn(&Quality) -> f64) -> f64 {
+fn mean(qualities: &[Quality], measure: Measure) -> f64 {
     qualities.iter().map(measure).sum::<f64>() / qualities.len() as f64
 }
 
-fn changes(plan: &Args, qualities: &BTreeMap<(Method, u32), Vec<Quality>>, method: Method) -> Vec<Change> {
+fn changes(plan: &Args, results: &Results, method: Method) -> Vec<Change> {
     let moving: Vec<u32> = plan.frames.iter().copied().filter(|&frame| frame > 0).collect();
-    let own = by_seed(qualities, method, &moving);
-    let against = BASELINES
-        .into_iter()
-        .filter(|&from| from != method && plan.method.contains(&from));
-    against
-        .filter_map(|from| {
-            let theirs = by_seed(qualities, from, &moving);
-            let percent = |measure: fn(&Quality) -> f64| {
-                let pairs = own.iter().zip(&theirs);
-                let ratios: Vec<f64> = pairs
-                    .map(|(own, theirs)| 100.0 * (mean(own, measure) / mean(theirs, measure) - 1.0))
-                    .filter(|ratio| ratio.is_finite())
-                    .collect();
-                Estimate::of(&ratios)
-            };
-            let (shown, linear) = (percent(|q| q.mse)?, percent(|q| q.linear_mse)?);
-            Some(Change {
-                from,
-                percent: shown.mean,
-                percent_ci95: shown.ci95,
-                linear_percent: linear.mean,
-                linear_percent_ci95: linear.ci95,
-            })
+    let own = by_seed(results, method, &moving);
+    let against = BASELINES.into_iter();
+    let against = against.filter(|&from| from != method && plan.method.contains(&from));
+    let change = |from| {
+        let theirs = by_seed(results, from, &moving);
+        let percent = |measure| {
+            let pairs = own.iter().zip(&theirs);
+            let ratio = |(own, theirs): (&Vec<_>, &Vec<_>)| mean(own, measure) / mean(theirs, measure);
+            let changes = pairs.map(|pair| 100.0 * (ratio(pair) - 1.0));
+            Estimate::of(&changes.filter(|change| change.is_finite()).collect::<Vec<f64>>())
+        };
+        let (shown, linear) = (percent(|q| q.mse)?, percent(|q| q.linear_mse)?);
+        Some(Change {
+            from,
+            percent: shown.mean,
+            percent_ci95: shown.ci95,
+            linear_percent: linear.mean,
+            linear_percent_ci95: linear.ci95,
         })
-        .collect()
-}
-
-fn times(results: &Results, method: Method) -> Times {
-    let Some(all) = results.times.get(&method) else {
-        return Times::default();
     };
-    let mean = |at: usize| Some(all.iter().map(|times| times[at]).sum::<f64>() / all.len() as f64);
-    // The frame's own thread refits, waits and renders, one after the other.
-    let frame: Vec<f64> = all.iter().map(|times| times[0] + times[2] + times[3]).collect();
-    let frame = Estimate::of(&frame);
-    Times {
-        refit_ms: mean(0),
-        rebuild_ms: mean(1),
-        wait_ms: mean(2),
-        image_ms: mean(3),
-        frame_ms: frame.map(|e| e.mean),
-        frame_ms_ci95: frame.and_then(|e| e.ci95),
-        timed_frames: all.len(),
-    }
+    against.filter_map(change).collect()
 }

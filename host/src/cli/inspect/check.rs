@@ -10,7 +10,7 @@ use lightbvh_kernels::bvh::WIDTH;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::cli::measure::{irradiance::irradiance, mean_of, variance};
+use crate::cli::measure::{mean_of, variances};
 use crate::error::HostError;
 use crate::scene::{Instances, Scene};
 
@@ -109,28 +109,19 @@ impl MeanRatio {
 
 /// A light BVH of some model.
 struct Subject {
-    /// Bytes that sampling reads, and bytes of all its arrays.
-    bytes: [usize; 2],
+    cost: Cost,
     /// Every probability, point by point.
     pmfs: Vec<f32>,
+    /// Relative variances of one sample, at the points that any light reaches.
+    variances: Vec<f64>,
 }
 
-/// Bytes that sampling reads, and bytes of all arrays, of a light BVH that keeps what `updates` need.
-fn bytes<N: LightNode<WIDTH>, I>(bvh: Bvh<N, I, WIDTH>, updates: Updates) -> [usize; 2] {
-    match updates {
-        Updates::Nothing => [bvh.into_static().bytes(); 2],
-        Updates::All => [bvh.bytes(), bvh.memory()],
-    }
-}
-
-/// A scene's lights in the frame that trees are looked at in, and the light that they send to its points.
+/// A scene's lights in the frame that trees are looked at in.
 struct Source<'a> {
     scene: &'a Scene,
     /// Trees are built in the first, and moved to the second.
     frames: [u32; 2],
     lights: &'a Lights,
-    /// Light that arrives, by point and light.
-    sent: Vec<Vec<f64>>,
 }
 
 impl Source<'_> {
@@ -147,15 +138,29 @@ impl Source<'_> {
         I: ImportanceModel<N, WIDTH> + Sync,
     {
         let bvh = self.bvh::<N, I>(model)?;
-        let lights = || (0..).zip(self.lights.triangles());
+        let lights = self.lights.triangles();
         let of = |point: &ShadingPoint| -> Vec<f32> {
-            lights()
+            let lights = (0..).zip(lights);
+            lights
                 .map(|(light, triangle)| bvh.pmf(point, light, triangle.mesh))
                 .collect()
         };
-        let pmfs = points.par_iter().flat_map_iter(of).collect();
-        let bytes = bytes(bvh, model.updates);
-        Ok(Subject { bytes, pmfs })
+        let pmfs: Vec<f32> = points.par_iter().flat_map_iter(of).collect();
+        let pmf = |k: usize, light: u32| pmfs[k * lights.len() + light as usize];
+        let variances = variances(lights, points, pmf).into_iter().flatten().collect();
+        let bytes = match model.updates {
+            Updates::Nothing => [bvh.into_static().bytes(); 2],
+            Updates::All => [bvh.bytes(), bvh.memory()],
+        };
+        let [bytes_per_light, memory_per_light] = bytes.map(|own| own as f64 / lights.len().max(1) as f64);
+        Ok(Subject {
+            cost: Cost {
+                bytes_per_light,
+                memory_per_light,
+            },
+            pmfs,
+            variances,
+        })
     }
 
     /// A light BVH, moved and refitted if its lights move.
@@ -170,28 +175,6 @@ impl Source<'_> {
         bvh.apply(instances.edits(self.scene, moved)).map_err(refused)?;
         bvh.refit();
         Ok(bvh)
-    }
-
-    /// Relative variances of one sample by these probabilities, at the points that any light reaches.
-    fn variances(&self, pmfs: &[f32]) -> Vec<f64> {
-        let points = self
-            .sent
-            .iter()
-            .zip(pmfs.chunks(self.lights.triangles().len().max(1)));
-        let of = |sent: &Vec<f64>, pmfs: &[f32]| {
-            variance(sent.iter().zip(pmfs).map(|(&sent, &pmf)| (sent, f64::from(pmf))))
-        };
-        points.filter_map(|(sent, pmfs)| of(sent, pmfs)).collect()
-    }
-
-    fn cost(&self, subject: &Subject) -> Cost {
-        let [bytes_per_light, memory_per_light] = subject
-            .bytes
-            .map(|bytes| bytes as f64 / self.lights.triangles().len().max(1) as f64);
-        Cost {
-            bytes_per_light,
-            memory_per_light,
-        }
     }
 }
 
@@ -224,29 +207,25 @@ pub(super) fn check(
     lights: &Lights,
     points: &[ShadingPoint],
 ) -> Result<Checked, HostError> {
-    let sent = points.par_iter();
-    let sent = sent.map(|point| lights.triangles().iter().map(|t| irradiance(t, point)).collect());
     let source = Source {
         scene,
         frames,
         lights,
-        sent: sent.collect(),
     };
     let mut model = Model::DEFAULT;
     let mut subject = source.build(&model, points)?;
-    let mut variances_before = source.variances(&subject.pmfs);
     let mut rows = vec![Row {
         part: "default",
         promise: None,
         compared: 0,
         different: 0,
         most: 0.0,
-        variance: mean_of(&variances_before),
+        variance: mean_of(&subject.variances),
         variance_before: None,
         variance_ratio: None,
         held: true,
         put_back: false,
-        cost: source.cost(&subject),
+        cost: subject.cost,
     }];
     let mut last = 0;
     for (part, take) in PARTS {
@@ -270,8 +249,8 @@ pub(super) fn check(
         let different = pairs.clone().filter(|(a, b)| a.to_bits() != b.to_bits()).count();
         let most = pairs.clone().map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs());
         let (compared, most) = (pairs.clone().count(), most.fold(0.0, f64::max));
-        let variances = source.variances(&new.pmfs);
-        let variance_ratio = (!variances.is_empty()).then(|| MeanRatio::of(&variances_before, &variances));
+        let [before, variances] = [&subject.variances, &new.variances];
+        let variance_ratio = (!variances.is_empty()).then(|| MeanRatio::of(before, variances));
         let held = match promise {
             Promise::Variance => variance_ratio.is_none_or(|ratio| ratio.high <= MOST_VARIANCE),
             _ => different == 0,
@@ -283,15 +262,15 @@ pub(super) fn check(
             compared,
             different,
             most,
-            variance: mean_of(&variances),
-            variance_before: mean_of(&variances_before),
+            variance: mean_of(variances),
+            variance_before: mean_of(before),
             variance_ratio,
             held,
             put_back,
-            cost: source.cost(&new),
+            cost: new.cost,
         });
         if !put_back {
-            (model, subject, variances_before) = (then, new, variances);
+            (model, subject) = (then, new);
             last = rows.len() - 1;
         }
     }

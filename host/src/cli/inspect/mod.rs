@@ -18,17 +18,14 @@ use self::check::{Checked, MOST_VARIANCE, MeanRatio, Promise, Row, check};
 use self::kinds::LightKinds;
 use super::reading::Reading;
 use super::{Context, Outcome, table};
-use crate::cli::measure::{NOT_MEASURED, points};
-use crate::cli::table::{news, yes};
+use crate::cli::measure::points;
+use crate::cli::table::{news, say, yes};
 use crate::error::HostError;
 use crate::scene::{Instances, Primitive, Scene, SceneData};
 use crate::workload::{lights_at, lights_of};
 
 /// Probabilities that are compared at once: a scene of more lights is looked at from fewer points.
 const MOST_PROBABILITIES: usize = 1 << 25;
-/// Roughness up to which a surface counts as glossy: its lobe then covers less than a tenth of the hemisphere.
-const GLOSSY: f32 = 0.5;
-
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .obj or .ply file.
@@ -71,13 +68,6 @@ struct Fact {
     reason: String,
 }
 
-/// Materials by what matters to the choice of a light.
-#[derive(Clone, Copy, Debug, Serialize)]
-struct Surfaces {
-    materials: usize,
-    glossy: usize,
-}
-
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let scene = args.reading.open(&args.scene)?;
     for warning in scene.warnings() {
@@ -86,23 +76,15 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     scene.require_any_light()?;
     let others_alone = scene.emissive_count() == 0;
     let moving = moving(scene.data(), others_alone);
-    let surfaces = Surfaces::of(scene.data());
     let declared = declared(args, moving);
     // A refitted tree is looked at after a refit.
     let frames = [args.frame, args.frame + u32::from(declared.transforms)];
     let mut report = json!({
         "scene": scene.name(), "frame": frames[0], "checked_frame": frames[1],
-        "motion": { "moving": moving }, "animations": animations(&scene), "surfaces": surfaces,
+        "motion": { "moving": moving }, "animations": animations(&scene),
     });
-    let about = line(
-        "animation",
-        &match moving {
-            0 => "no: no animation moves a node with lights".to_owned(),
-            _ => format!("yes: nodes with lights move: {moving}"),
-        },
-    );
     if others_alone {
-        return without_triangles(context, &scene, (args.frame, declared), (report, &about));
+        return without_triangles(context, &scene, args.frame, moving, report);
     }
     if let Some(left_out) = scene.unknown_lights() {
         news!("{}: {left_out}", scene.name());
@@ -117,7 +99,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let count = args.points.min(most.max(1) as u32);
     let points = points::on_surfaces(&scene, frames[1], count);
     let checked = check(&requirements, &scene, frames, &lights, &points)?;
-    let kernels = KernelSet::of(&checked.model)
+    let command = KernelSet::of(&checked.model)
         .err()
         .map(|missing| missing.command());
     let kinds = match scene.analytic_count() {
@@ -126,14 +108,15 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             lights_of::<AnyLight>(&scene, args.frame)?.triangles(),
         )),
     };
-    let (facts, reasons) = (facts(&requirements, &surfaces), reasons(&requirements, &surfaces));
+    let (facts, reasons) = (facts(&requirements), reasons(&requirements));
+    let outcome = Outcome::good_if(checked.holds());
+    let [first, last] = [&checked.rows[0], &checked.rows[checked.last]];
     if context.json {
-        let [first, last] = [&checked.rows[0], &checked.rows[checked.last]];
         let own = json!({
             "points": count, "lights": requirements.lights, "facts": facts,
             "kinds": kinds.as_ref().map(LightKinds::json),
             "chosen": model_json(&chosen), "reasons": reasons, "model": model_json(&checked.model),
-            "kernels": { "committed": kernels.is_none(), "command": kernels },
+            "kernels": { "committed": command.is_none(), "command": command },
             "default": { "variance": first.variance, "cost": first.cost },
             "steps": checked.rows[1..],
             "saved": {
@@ -146,53 +129,49 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             report[key] = value.clone();
         }
         table::print_json(&report)?;
-        return Ok(Outcome::good_if(checked.holds()));
+        return Ok(outcome);
     }
-    let mut text = format!(
-        "{} in frame {}, {} emissive triangles\n\nwhat it requires\n",
-        scene.name(),
-        args.frame,
-        requirements.lights
-    );
-    text.extend(
-        facts
-            .iter()
-            .map(|fact| line(fact.name, &format!("{}: {}", fact.found, fact.reason))),
-    );
-    text += &about;
-    text += &format!("\nthe smallest model that is sufficient: {chosen}\n");
-    text.extend(reasons.iter().map(|reason| format!("  {reason}\n")));
+    let (name, count_of) = (scene.name(), requirements.lights);
+    say!(
+        "{name} in frame {}, {count_of} emissive triangles\n\nwhat it requires",
+        args.frame
+    )?;
+    for fact in &facts {
+        line(fact.name, &format!("{}: {}", fact.found, fact.reason))?;
+    }
+    line("animation", &said(moving))?;
+    say!("\nthe smallest model that is sufficient: {chosen}")?;
+    for reason in &reasons {
+        say!("  {reason}")?;
+    }
     if let Some(kinds) = &kinds {
-        text += &format!(
-            "a tree over its lights of all kinds: {}\n  lights: {}\n",
+        say!(
+            "a tree over its lights of all kinds: {}\n  lights: {}",
             kinds.tree(),
             kinds.cones()
-        );
+        )?;
     }
-    table::print_text(&text)?;
     print_check(&checked, count, frames)?;
     let how = match checked.model == chosen {
         true => "as chosen",
         false => "less what was put back",
     };
-    let kernels = match &kernels {
-        None => "committed\n".to_owned(),
-        Some(command) => format!("not committed; they are compiled by\n  {command}\n"),
-    };
     let of = kinds.map_or("", |_| " of its triangles alone");
-    let model = &checked.model;
-    table::print_text(&format!(
-        "\nmodel{of}, {how}: {model}\nkernels for devices: {kernels}"
-    ))?;
-    Ok(Outcome::good_if(checked.holds()))
+    say!("\nmodel{of}, {how}: {}", checked.model)?;
+    match command {
+        None => say!("kernels for devices: committed")?,
+        Some(command) => say!("kernels for devices: not committed; they are compiled by\n  {command}")?,
+    }
+    Ok(outcome)
 }
 
 /// A scene that no triangle lights: its kinds of light, and the tree over all of them, which `verify` checks.
 fn without_triangles(
     context: &Context,
     scene: &Scene,
-    (frame, declared): (u32, Declared),
-    (mut report, about): (Value, &str),
+    frame: u32,
+    moving: usize,
+    mut report: Value,
 ) -> Result<Outcome, HostError> {
     let lights = lights_of::<AnyLight>(scene, frame)?;
     let count = lights.triangles().len();
@@ -207,22 +186,25 @@ fn without_triangles(
         table::print_json(&report)?;
         return Ok(Outcome::Good);
     }
-    let mut text = format!(
-        "{} in frame {frame}, lit by {}\n\nwhat it requires\n",
-        scene.name(),
-        scene.other_lights()
-    );
-    text += &match count {
-        0 => line("lights of a tree", "none; the sky and suns stand next to trees"),
-        _ => line("lights of a tree", &kinds.cones()),
-    };
-    text += &line("changes", &yes(!changes(&declared).is_empty()));
-    text += about;
-    if let Some(tree) = tree {
-        text += &format!("\na tree over its lights: {tree}, two levels\n");
+    let (name, lit_by) = (scene.name(), scene.other_lights());
+    say!("{name} in frame {frame}, lit by {lit_by}\n\nwhat it requires")?;
+    match &tree {
+        None => line("lights of a tree", "none; the sky and suns stand next to trees")?,
+        Some(_) => line("lights of a tree", &kinds.cones())?,
     }
-    table::print_text(&text)?;
+    line("animation", &said(moving))?;
+    if let Some(tree) = tree {
+        say!("\na tree over its lights: {tree}, two levels")?;
+    }
     Ok(Outcome::Good)
+}
+
+/// Whether nodes with lights move.
+fn said(moving: usize) -> String {
+    match moving {
+        0 => "no: no animation moves a node with lights".to_owned(),
+        _ => format!("yes: nodes with lights move: {moving}"),
+    }
 }
 
 /// The animations, by their numbers in the file.
@@ -267,21 +249,6 @@ fn moving(data: &SceneData, with_others: bool) -> usize {
     lit.count() + others.count()
 }
 
-impl Surfaces {
-    fn of(data: &SceneData) -> Self {
-        let materials = &data.materials;
-        Self {
-            materials: materials.len(),
-            glossy: materials.iter().filter(|own| own.roughness <= GLOSSY).count(),
-        }
-    }
-
-    fn gloss(&self) -> String {
-        let Self { materials, glossy } = self;
-        format!("of {materials} materials {glossy} have a roughness of {GLOSSY} or less")
-    }
-}
-
 /// The changes that are declared; none where everything stays.
 fn changes(declared: &Declared) -> Vec<&'static str> {
     let named = [
@@ -296,19 +263,13 @@ fn changes(declared: &Declared) -> Vec<&'static str> {
 }
 
 /// Every fact, each with its reason.
-fn facts(found: &Requirements, surfaces: &Surfaces) -> Vec<Fact> {
+fn facts(found: &Requirements) -> [Fact; 3] {
     let (triangles, one_sided) = (found.triangles, found.one_sided);
     let changes = changes(&found.declared);
     let changed = match changes.is_empty() {
         true => "everything stays as it is".to_owned(),
-        false => changes.join(", "),
+        false => format!("{}, as declared", changes.join(", ")),
     };
-    let fact = |name, found: &str, reason: String| Fact {
-        name,
-        found: found.to_owned(),
-        reason,
-    };
-    let is = |is| if is { "yes" } else { "no" };
     let sides = format!(
         "of {triangles} triangles {one_sided} shine from one side, {} from both",
         triangles - one_sided
@@ -317,108 +278,84 @@ fn facts(found: &Requirements, surfaces: &Surfaces) -> Vec<Fact> {
         "meshes: {}, instances: {}, at most {} of a mesh",
         found.meshes, found.instances, found.most_instances
     );
-    vec![
-        fact("two-sided only", is(one_sided == 0 && triangles > 0), sides),
-        fact("one mesh", is(found.is_one_mesh()), meshes),
-        fact(
-            "changes",
-            is(!changes.is_empty()),
-            format!("{changed}, as declared"),
-        ),
-        fact("glossy receivers", is(surfaces.glossy > 0), surfaces.gloss()),
+    let is_two_sided = one_sided == 0 && triangles > 0;
+    [
+        ("two-sided only", is_two_sided, sides),
+        ("one mesh", found.is_one_mesh(), meshes),
+        ("changes", !changes.is_empty(), changed),
     ]
+    .map(|(name, is, reason)| Fact {
+        name,
+        found: yes(is),
+        reason,
+    })
 }
 
 /// Why each part of the smallest model is what it is: a sentence for each that begins with its name.
-fn reasons(found: &Requirements, surfaces: &Surfaces) -> Vec<String> {
+fn reasons(found: &Requirements) -> [String; 3] {
     let model = found.model();
     let layout = match (model.layout, found.one_sided) {
-        (Layout::TwoSidedMoments, _) => {
-            "no light has a normal, so nodes leave their row out: 20 bytes of each child instead of 24"
-                .to_owned()
-        }
-        (_, 0) => "of meshes that come nothing is known, so nodes keep mean normals".to_owned(),
-        (_, some) => format!(
-            "{some} of {} triangles shine from one side, so nodes keep mean normals",
-            found.triangles
-        ),
+        (Layout::TwoSidedMoments, _) => "no light has a normal, so nodes leave their row out",
+        (_, 0) => "nothing is known of meshes that come, so nodes keep mean normals",
+        _ => "some triangles shine from one side, so nodes keep mean normals",
     };
     let levels = match (model.single_level, found.is_one_mesh()) {
         (false, _) => {
             let mut needs = changes(&found.declared);
-            if found.most_instances > 1 {
-                needs.push("instances share meshes");
-            }
+            needs.extend((found.most_instances > 1).then_some("instances share meshes"));
             format!("two, because {}", needs.join(", "))
         }
         (true, true) => "one, because one mesh stays in its place: no top level chooses it".to_owned(),
-        (true, false) => format!(
-            "one, because all {} meshes stay as they are, each in one place",
-            found.meshes
-        ),
+        (true, false) => "one, because all meshes stay as they are, each in one place".to_owned(),
     };
     let updates = match model.updates {
-        Updates::Nothing => {
-            "nothing changes, so triangles, instance states and lists for refits are not kept"
-        }
+        Updates::Nothing => "nothing changes, so what refits and edits need is not kept",
         Updates::All => "lights change, so everything is kept",
     };
-    let mut said = vec![
+    [
         format!("layout: {layout}"),
         format!("levels: {levels}"),
         format!("updates: {updates}"),
-    ];
-    if surfaces.glossy > 0 {
-        said.push(
-            "glossy surfaces: rays into their lobes share lights with samples by probabilities (multiple importance sampling); an \
-             importance that knows the lobe (`Glossy`) may have less variance for the same samples, and takes longer for each"
-                .to_owned(),
-        );
-    }
-    said
+    ]
 }
 
 /// The default, and each part that is another, one after the other.
-fn print_check(checked: &Checked, points: u32, [frame, moved]: [u32; 2]) -> Result<(), HostError> {
+fn print_check(checked: &Checked, points: u32, [frame, moved]: [u32; 2]) -> std::io::Result<()> {
     let (default, last) = (&checked.rows[0], &checked.rows[checked.last]);
     if default.variance.is_none() {
-        table::print_text(&format!(
-            "\nfrom {points} points on surfaces: {NOT_MEASURED}; what parts promise of the variance is not known to hold\n"
-        ))?;
+        say!("\nno point receives light of a tree: what parts promise of the variance is not known to hold")?;
     }
     let refitted = match moved == frame {
         true => String::new(),
         false => format!(" in frame {moved}, after a refit"),
     };
-    table::print_text(&format!(
-        "\nchecked from {points} points on surfaces{refitted}, one part after the other\n"
-    ))?;
+    say!("\nchecked from {points} points on surfaces{refitted}, one part after the other")?;
     table::print(&checked.rows, COLUMNS)?;
     let (default, last) = (default.cost, last.cost);
-    table::print_text(&format!(
-        "saved against the default: {:.1} of {:.1} bytes per light that sampling reads, {:.1} of {:.1} in all arrays\n",
+    say!(
+        "saved against the default: {:.1} of {:.1} bytes per light that sampling reads, {:.1} of {:.1} in all arrays",
         default.bytes_per_light - last.bytes_per_light,
         default.bytes_per_light,
         default.memory_per_light - last.memory_per_light,
         default.memory_per_light,
-    ))?;
+    )?;
     for row in checked.rows.iter().filter(|row| !row.held) {
         let done = match row.put_back {
             true => "the part is put back",
             false => "this is a fault of lightbvh; please report it",
         };
-        let promise = row.promised();
-        table::print_text(&format!(
-            "{}: the promise of {promise} does not hold here, {done}\n",
-            row.part
-        ))?;
+        say!(
+            "{}: the promise of {} does not hold here, {done}",
+            row.part,
+            row.promised()
+        )?;
     }
     Ok(())
 }
 
 /// A line of what is required.
-fn line(name: &str, text: &str) -> String {
-    format!("  {name:<20} {text}\n")
+fn line(name: &str, text: &str) -> std::io::Result<()> {
+    say!("  {name:<20} {text}")
 }
 
 impl Row {

@@ -40,21 +40,6 @@ impl Interval {
         }
     }
 
-    /// This one, as unsure as both are: the parts by which their ends lie off their medians add in squares, as of independent
-    /// factors.
-    pub fn as_unsure_as(self, other: Self) -> Self {
-        let off = |a: f64, b: f64| if a > 0.0 && b > 0.0 { (a / b).ln() } else { 0.0 };
-        let both = |end: fn(&Self) -> f64| {
-            let parts = [self, other].map(|of| off(end(&of), of.median));
-            parts[0].hypot(parts[1]).exp()
-        };
-        Self {
-            median: self.median,
-            low: self.median / both(|of| of.low),
-            high: self.median * both(|of| of.high),
-        }
-    }
-
     /// Of `a` over `b`, turn by turn; nothing over nothing is 1.
     pub fn of_ratios(a: &[f64], b: &[f64]) -> Self {
         let ratio = |(a, b): (&f64, &f64)| if a == b { 1.0 } else { a / b };
@@ -81,12 +66,6 @@ mod tests {
         // Images without any error are no different.
         let ratio = Interval::of_ratios(&[0.0, 2.0, 0.0], &[0.0, 2.0, 0.0]);
         assert_eq!((ratio.low, ratio.median, ratio.high), (1.0, 1.0, 1.0));
-        let of = |low, median, high| Interval { median, low, high };
-        let both = of(1.5, 3.0, 4.5).as_unsure_as(of(8.0, 8.0, 8.0));
-        assert!((both.low - 1.5).abs() < 1e-12 && (both.high - 4.5).abs() < 1e-12);
-        let both = of(1.5, 3.0, 6.0).as_unsure_as(of(2.0, 4.0, 8.0));
-        assert!((both.low / 3.0 - 0.5f64.powf(2f64.sqrt())).abs() < 1e-12);
-        assert!((both.high / 3.0 - 2f64.powf(2f64.sqrt())).abs() < 1e-12);
         // Tables of the binomial distribution: the 6th and the 15th of 20 for 95.9 %.
         let twenty = first(20);
         assert_eq!((twenty.low, twenty.high), (6.0, 15.0));

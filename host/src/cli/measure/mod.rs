@@ -1,18 +1,13 @@
-//! Measurements of all commands: turns, medians with their intervals, points, the light that arrives at them, references.
+//! Measurements of all commands: turns, medians with their intervals, points, references.
 
 pub(super) mod interval;
-pub(super) mod irradiance;
 pub(super) mod points;
 pub(super) mod reference;
 pub(super) mod times;
 
-pub(super) use crate::metrics::variance;
+pub(super) use crate::metrics::variances;
 
 use crate::metrics::mean;
-
-/// Said where no figure is known.
-pub(super) const NOT_MEASURED: &str =
-    "no point receives light of a light that a tree would hold, and nothing is measured";
 
 /// The mean; `None` of no values.
 pub(super) fn mean_of(values: &[f64]) -> Option<f64> {

@@ -94,12 +94,6 @@ mod tests {
     }
 
     #[test]
-    fn spread_has_median_and_tail() {
-        let spread = Spread::of((0..1001).rev().map(f64::from));
-        assert_eq!([spread.median, spread.p99, spread.most], [500.0, 990.0, 1000.0]);
-    }
-
-    #[test]
     fn each_side_begins_as_often() {
         let mut order = Vec::new();
         let times = in_turns(3, 2, 4, |at, _| {

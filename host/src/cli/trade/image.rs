@@ -88,7 +88,7 @@ pub(super) struct Images {
     /// The error by as many shadow rays as fit into the default's frame next to the update: that of the nearest whole number, by
     /// its ratio to them.
     pub error_equal_time: f64,
-    /// The same over the default's, seed by seed; as unsure as the ratio of the frames, which says how many fit, is besides.
+    /// The same over the default's, seed by seed.
     pub equal_time_ratio: Interval,
     /// How many those are.
     pub samples_equal_time: f64,
@@ -197,8 +197,7 @@ impl Measured {
             error: mean(&of.errors),
             error_ratio: Interval::of_ratios(&of.errors, &default.errors),
             error_equal_time: mean(&of.equal_time),
-            equal_time_ratio: Interval::of_ratios(&of.equal_time, &default.equal_time)
-                .as_unsure_as(Interval::of_ratios(&of.frames, &default.frames)),
+            equal_time_ratio: Interval::of_ratios(&of.equal_time, &default.equal_time),
             samples_equal_time: mean(&of.fits),
             bias: Estimate::of(&of.biases).filter(|bias| bias.mean.is_finite()),
             quality: mean_quality(&of.qualities),

@@ -17,10 +17,10 @@ use self::choices::all;
 use self::front::{Point, front};
 use self::image::{Budget, Measured};
 use self::report::Report;
-use self::structure::{Arriving, structures};
+use self::structure::structures;
 use self::subject::Axis;
 use super::measure::points;
-use super::reading::Reading;
+use super::reading::{Reading, positive};
 use super::{Context, Outcome, table};
 use crate::cli::table::{news, say};
 use crate::error::HostError;
@@ -44,6 +44,9 @@ pub(super) struct Args {
     /// Also write to this folder: trade.html with plots and images, trade.json.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Also name the choice of least error in a frame of this time, ms, at the size of the measured images.
+    #[arg(long, value_name = "MS", value_parser = positive::<f64>)]
+    time: Option<f64>,
     /// One scene, fewer turns, smaller images: within a minute; everything takes about half an hour.
     #[arg(long)]
     quick: bool,
@@ -75,6 +78,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         let (mut points, judge) = scene_points(&name, args, &budget)?;
         let sentences = front(&mut points).into_iter();
         all_steps.extend(sentences.map(|sentence| format!("{name}: {sentence}")));
+        all_steps.extend(args.time.map(|time| pick(&points, budget.samples, time)));
         if let Some(report) = &mut report {
             report.scene(&name, &points, &judge)?;
         }
@@ -97,6 +101,25 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         }
     }
     Ok(Outcome::Good)
+}
+
+/// The choice of least error in a frame of `time` ms: squared errors fall by the inverse of the shadow rays, and as many are
+/// traced as fit next to the update.
+fn pick(points: &[Point], samples: u32, time: f64) -> String {
+    let reached = points.iter().filter_map(|point| {
+        let rays = f64::from(samples) * (time - point.structure.update_ms) / point.images.image_ms;
+        let error = point.images.error * f64::from(samples) / rays;
+        (rays >= 1.0).then_some((error, rays, point))
+    });
+    match reached.min_by(|a, b| a.0.total_cmp(&b.0)) {
+        Some((error, rays, Point { scene, choice, .. })) => format!(
+            "{scene}: least error in {time} ms: {choice}, {error:.2} by {rays:.1} shadow rays of a pixel"
+        ),
+        None => format!(
+            "{}: no choice traces a shadow ray of each pixel in {time} ms",
+            points[0].scene
+        ),
+    }
 }
 
 /// Builds all configurations at the first frame, brings them to the last, measures images on the way, and trees at its end.
@@ -136,8 +159,7 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
     news!("{name}: times and variances of samples");
     let lights = lights_at(scene, last)?;
     let points = points::on_surfaces(scene, last, budget.points);
-    let arriving = Arriving::new(&lights, &points);
-    let structures = structures(&subjects, &Step::new(scene, last, &lights), &arriving, budget)?;
+    let structures = structures(&subjects, &Step::new(scene, last, &lights), &points, budget)?;
     let (images, judge) = measured.finish();
     let all = subjects.iter().zip(structures.into_iter().zip(images));
     let points = all.map(|(subject, (structure, images))| Point {

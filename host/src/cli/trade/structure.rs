@@ -1,23 +1,19 @@
 //! The costs of a tree and how well it chooses: bytes, times, the variance of unshadowed light.
 
 use lightbvh::exact::hash;
-use lightbvh::{Lights, Random64, ShadingPoint};
-use rayon::prelude::*;
+use lightbvh::{Lights, ShadingPoint};
 use serde::Serialize;
 
 use super::image::Budget;
 use super::subject::Subject;
 use crate::cli::measure::interval::Interval;
-use crate::cli::measure::irradiance::irradiance;
 use crate::cli::measure::times::in_turns;
-use crate::cli::measure::{mean_of, variance};
+use crate::cli::measure::{self, mean_of};
 use crate::error::HostError;
 use crate::method::Step;
 
 /// Builds of each tree.
 const BUILDS: u32 = 3;
-/// Trials of several candidates at each point.
-const TRIALS: u32 = 32;
 
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Structure {
@@ -37,8 +33,7 @@ pub(super) struct Structure {
     pub variances: Variances,
 }
 
-/// Of the estimate of diffuse light by one sample without shadows, over the squared mean. Exact for one candidate, by trials for
-/// more.
+/// Of the estimate of diffuse light by one sample without shadows, over the squared mean; `None` for several candidates.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Variances {
     /// Mean over the points that any light reaches; `None` if there is no such point.
@@ -46,23 +41,16 @@ pub(super) struct Variances {
     pub variance_median: Option<f64>,
 }
 
-/// The light that arrives at points: of each light, the irradiance without shadows, up to a common factor.
-pub(super) struct Arriving<'a> {
-    lights: &'a Lights,
-    points: &'a [ShadingPoint],
-    sent: Vec<Vec<f64>>,
-}
-
 pub(super) fn structures(
     subjects: &[Box<dyn Subject>],
     frame: &Step<'_>,
-    arriving: &Arriving<'_>,
+    points: &[ShadingPoint],
     budget: &Budget,
 ) -> Result<Vec<Structure>, HostError> {
-    let items = budget.passes * arriving.points.len() as u32;
+    let items = budget.passes * points.len() as u32;
     let sampled = in_turns(subjects.len(), budget.turns, items, |at, turn| {
         let first = |pass| hash(turn * budget.passes + pass);
-        let passes = (0..budget.passes).map(|pass| subjects[at].sample(arriving.points, first(pass)));
+        let passes = (0..budget.passes).map(|pass| subjects[at].sample(points, first(pass)));
         Ok(passes.sum())
     })?;
     let built = in_turns(subjects.len(), BUILDS, 1, |at, _| subjects[at].build(frame))?;
@@ -75,55 +63,23 @@ pub(super) fn structures(
         beside_ms: subject.updates().beside_ms(),
         sample_ratio: Interval::of_ratios(own, &sampled[0]),
         ns_per_sample: Interval::of(own.clone()).median,
-        variances: arriving.variances(&**subject),
+        variances: variances(&**subject, frame.lights, points),
     });
     Ok(all.collect())
 }
 
-impl<'a> Arriving<'a> {
-    pub fn new(lights: &'a Lights, points: &'a [ShadingPoint]) -> Self {
-        let all = |point| {
-            lights
-                .triangles()
-                .iter()
-                .map(|light| irradiance(light, point))
-                .collect()
-        };
-        Self {
-            lights,
-            points,
-            sent: points.par_iter().map(all).collect(),
-        }
+/// Exact, by all lights.
+fn variances(subject: &dyn Subject, lights: &Lights, points: &[ShadingPoint]) -> Variances {
+    let points = if subject.config().candidates > 1 {
+        &[]
+    } else {
+        points
+    };
+    let pmf = |k: usize, light| subject.pmf(lights, &points[k], light);
+    let all = measure::variances(lights.triangles(), points, pmf);
+    let all: Vec<f64> = all.into_iter().flatten().collect();
+    Variances {
+        variance: mean_of(&all),
+        variance_median: (!all.is_empty()).then(|| Interval::of(all).median),
     }
-
-    fn variances(&self, subject: &dyn Subject) -> Variances {
-        let points = (0..).zip(self.points.iter().zip(&self.sent));
-        let of = |(number, (point, sent)): (u32, (&ShadingPoint, &Vec<f64>))| {
-            if subject.config().candidates > 1 {
-                return variance_of_trials(subject, number, point, sent);
-            }
-            let lights = (0..).zip(sent).filter(|(_, sent)| **sent > 0.0);
-            variance(lights.map(|(light, sent)| (*sent, subject.pmf(self.lights, point, light).into())))
-        };
-        let all: Vec<f64> = points.filter_map(of).collect();
-        Variances {
-            variance: mean_of(&all),
-            variance_median: (!all.is_empty()).then(|| Interval::of(all).median),
-        }
-    }
-}
-
-/// The relative variance by several candidates: the mean over trials, around the known mean, so that few trials do.
-fn variance_of_trials(subject: &dyn Subject, number: u32, point: &ShadingPoint, sent: &[f64]) -> Option<f64> {
-    let mean: f64 = sent.iter().sum();
-    let mut found = Vec::new();
-    let squares = (0..TRIALS).map(|trial| {
-        subject.candidates(point, Random64::from(hash(number * TRIALS + trial)), &mut found);
-        let of = |&(light, pmf): &(u32, f32)| match sent.get(light as usize) {
-            Some(light) if pmf > 0.0 => light / f64::from(pmf),
-            _ => 0.0,
-        };
-        (found.iter().map(of).sum::<f64>() / found.len() as f64 - mean).powi(2)
-    });
-    (mean > 0.0).then(|| squares.sum::<f64>() / f64::from(TRIALS) / (mean * mean))
 }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use lightbvh::exact::hash;
 use lightbvh::node::Node as _;
-use lightbvh::{ImportanceModel, Lights, Random64, SampledLight, ShadingPoint};
+use lightbvh::{ImportanceModel, Lights, SampledLight, ShadingPoint};
 use lightbvh_kernels::bvh::{Choice, Paper, Standard, TreeOf, TriangleChoice, WIDTH};
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::emitters::Emitters;
@@ -163,7 +163,7 @@ impl fmt::Display for Config {
 }
 
 /// A configuration over the lights of a scene.
-pub(super) trait Subject {
+pub(super) trait Subject: Sync {
     fn config(&self) -> Config;
 
     fn bytes(&self) -> usize;
@@ -179,9 +179,6 @@ pub(super) trait Subject {
 
     /// Samples each point once. Numbers begin with hash(`first`).
     fn sample(&self, points: &[ShadingPoint], first: u32) -> Duration;
-
-    /// Numbers and pmfs of the candidates for a point.
-    fn candidates(&self, point: &ShadingPoint, number: Random64, found: &mut Vec<(u32, f32)>);
 
     /// The probability of a light.
     fn pmf(&self, lights: &Lights, point: &ShadingPoint, light: u32) -> f32;
@@ -200,21 +197,16 @@ struct Followed<C: TriangleChoice<W>, I, const W: usize> {
 }
 
 impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W>, const W: usize> Followed<C, I, W> {
-    /// Calls `take` with the candidates of a sample.
-    fn draw<T>(
-        &self,
-        tree: &TreeOf<'_, C, W>,
-        point: &ShadingPoint,
-        number: impl Into<Random64>,
-        take: impl FnOnce(&[SampledLight]) -> T,
-    ) -> T {
-        let (tree, number) = (tree.by::<I>(), number.into());
+    /// The probability of a sample, the last of its candidates.
+    fn draw(&self, tree: &TreeOf<'_, C, W>, point: &ShadingPoint, number: u32) -> f32 {
+        let tree = tree.by::<I>();
+        let last = |found: &[SampledLight]| found[found.len() - 1].pmf;
         match self.config.candidates {
-            1 => take(&[tree.sample(point, number)]),
-            2 => take(&tree.sample_many::<_, 2>(point, number)),
-            4 => take(&tree.sample_many::<_, 4>(point, number)),
-            8 => take(&tree.sample_many::<_, 8>(point, number)),
-            _ => take(&tree.sample_many::<_, 16>(point, number)),
+            1 => tree.sample(point, number).pmf,
+            2 => last(&tree.sample_many::<_, 2>(point, number)),
+            4 => last(&tree.sample_many::<_, 4>(point, number)),
+            8 => last(&tree.sample_many::<_, 8>(point, number)),
+            _ => last(&tree.sample_many::<_, 16>(point, number)),
         }
     }
 }
@@ -241,7 +233,6 @@ impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize
     }
 
     fn advance(&mut self, frame: &Step<'_>) -> Result<(), HostError> {
-        self.updates.frames += 1;
         let start = Instant::now();
         let rebuilds = match self.config.update {
             Update::Refit | Update::TopRebuild => false,
@@ -273,21 +264,13 @@ impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize
 
     fn sample(&self, points: &[ShadingPoint], first: u32) -> Duration {
         let tree = self.bvh.tree();
-        let last = |found: &[SampledLight]| found[found.len() - 1].pmf;
         let timed = Timed::of(|| {
             let each = points.iter().zip(first..);
-            each.map(|(point, number)| self.draw(&tree, point, hash(number), last))
+            each.map(|(point, number)| self.draw(&tree, point, hash(number)))
                 .sum::<f32>()
         });
         black_box(timed.value);
         timed.time
-    }
-
-    fn candidates(&self, point: &ShadingPoint, number: Random64, found: &mut Vec<(u32, f32)>) {
-        found.clear();
-        self.draw(&self.bvh.tree(), point, number, |sampled| {
-            found.extend(sampled.iter().map(|sampled| (sampled.light, sampled.pmf)));
-        });
     }
 
     fn pmf(&self, lights: &Lights, point: &ShadingPoint, light: u32) -> f32 {
@@ -332,7 +315,6 @@ pub(super) struct Updates {
     rebuild: Vec<f64>,
     /// New top levels, for which no frame waits.
     beside: Vec<f64>,
-    frames: usize,
 }
 
 impl Updates {
@@ -344,7 +326,7 @@ impl Updates {
     /// The time that frames wait for: the mean over them, of medians by what was done, so that an interrupted one does not count.
     pub fn mean_ms(&self) -> f64 {
         let of = |times: &[f64]| median_or_zero(times) * times.len() as f64;
-        (of(&self.refit) + of(&self.rebuild)) / self.frames.max(1) as f64
+        (of(&self.refit) + of(&self.rebuild)) / (self.refit.len() + self.rebuild.len()).max(1) as f64
     }
 
     /// The median of what is built in the background.

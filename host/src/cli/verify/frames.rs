@@ -3,17 +3,15 @@
 
 use std::ops::Range;
 
-use bytemuck::cast_slice;
-use indicatif::ProgressBar;
 use lightbvh::exact::hash;
 use serde::Serialize;
 
 use crate::backend::{Integrator, PIXEL_RECORD, Sampler, SceneArrays};
+use crate::cli::table::news;
 use crate::error::HostError;
 use crate::method::{Method, MethodLight, Recipe, Runner, Step, Target};
 use crate::scene::{Scene, SceneLight};
 use crate::tally::{Kind, Side, Tallies};
-use crate::words::Record;
 use crate::workload::{arrays_lit_by, queries, render_params};
 
 /// Images are small: an animation has thousands of them, and SwiftShader takes a millisecond for a pixel of some. Those of the
@@ -64,7 +62,6 @@ pub(super) fn compare<L: MethodLight>(
     plan: &Plan,
     targets: &[Target<'_>],
     tallies: &mut Tallies,
-    progress: &ProgressBar,
 ) -> Result<Vec<Tree>, HostError> {
     let (mut lanes, mut trees) = (Vec::new(), Vec::new());
     for frame in plan.frames.clone() {
@@ -78,11 +75,10 @@ pub(super) fn compare<L: MethodLight>(
             }
         }
         for lane in &mut lanes {
-            progress.set_message(format!("{} frame {frame}: {}", scene.name(), lane.recipe.name));
             lane.compare(&step, &arrays, plan, tallies)?;
             trees.extend(lane.tree(&step));
         }
-        progress.inc(1);
+        news!("{}: frame {frame} compared", scene.name());
     }
     Ok(trees)
 }
@@ -110,7 +106,7 @@ fn start<'d, L: MethodLight>(
     Ok(lanes)
 }
 
-impl<L: MethodLight> Lane<'_, L> {
+impl<'d, L: MethodLight> Lane<'d, L> {
     fn advance(&mut self, step: &Step<'_, L>) -> Result<(), HostError> {
         self.cpu.advance(step)?;
         for device in &mut self.devices {
@@ -134,17 +130,21 @@ impl<L: MethodLight> Lane<'_, L> {
         };
         // Candidates change the image alone.
         if recipe.lights.needs_bvh() && recipe.candidates == 1 {
-            let (record, expected) = nodes(&mut *self.cpu)?;
-            for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
-                let (_, found) = nodes(&mut **device)?;
-                tally.take(Kind::Nodes, &what("refit"), &record, &expected, &found)?;
-            }
+            let record = self.cpu.backend().node_record();
+            let mut side = self.side();
+            side.compare(tallies, Kind::Nodes, &what("refit"), &record, |runner| {
+                runner.nodes()
+            })?;
             let lights = (arrays.lights.triangles(), recipe.lights == Sampler::SingleLevel);
             let seed = hash(plan.seed.wrapping_add(step.frame));
             for first in (0..plan.queries).step_by(BATCH as usize) {
                 let count = u64::min(plan.queries - first, BATCH) as u32;
                 let asked = queries(arrays, seed, first as u32, count);
-                self.side().compare_queries(tallies, &what, asked, lights)?;
+                let mut side = Side {
+                    cpu: self.cpu.backend(),
+                    devices: self.devices.iter_mut().map(|device| device.backend()).collect(),
+                };
+                side.compare_queries(tallies, &what, asked, lights)?;
             }
         }
 
@@ -152,26 +152,24 @@ impl<L: MethodLight> Lane<'_, L> {
         let background = step.scene.data().background;
         let seed = plan.seed.wrapping_add(step.frame);
         let params = render_params(SIZES[usize::from(is_last)], 1, seed, background);
+        let mut side = self.side();
         if is_last && recipe.candidates == 1 {
             let path = Integrator::Path { bounces: BOUNCES };
-            let mut side = self.side();
-            side.compare(tallies, Kind::Pixels, &what("path"), &PIXEL_RECORD, |backend| {
+            side.compare(tallies, Kind::Pixels, &what("path"), &PIXEL_RECORD, |runner| {
+                let backend = runner.backend();
                 Ok(backend.render(arrays, &params, recipe.lights, path)?.value)
             })?;
         }
-        let expected = self.cpu.image(step, arrays, &params)?.value;
-        for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
-            let found = device.image(step, arrays, &params)?.value;
-            let (expected, found) = (cast_slice(&expected), cast_slice(&found));
-            tally.take(Kind::Pixels, &what("render"), &PIXEL_RECORD, expected, found)?;
-        }
+        side.compare(tallies, Kind::Pixels, &what("render"), &PIXEL_RECORD, |runner| {
+            Ok(runner.image(step, arrays, &params)?.value)
+        })?;
         Ok(())
     }
 
-    fn side(&mut self) -> Side<'_, L> {
+    fn side(&mut self) -> Side<'_, dyn Runner<L> + 'd> {
         Side {
-            cpu: self.cpu.backend(),
-            devices: self.devices.iter_mut().map(|device| device.backend()).collect(),
+            cpu: &mut *self.cpu,
+            devices: self.devices.iter_mut().map(|device| &mut **device).collect(),
         }
     }
 
@@ -194,11 +192,4 @@ impl<L: MethodLight> Lane<'_, L> {
             bytes_per_light: found.bytes as f64 / lights.max(1) as f64,
         })
     }
-}
-
-/// The words of the nodes of a method that are in use.
-fn nodes<L: MethodLight>(runner: &mut dyn Runner<L>) -> Result<(Record, Vec<u32>), HostError> {
-    let backend = runner.backend();
-    let (record, words) = (backend.node_record(), backend.nodes()?);
-    Ok((record, runner.words_in_use(words)))
 }

@@ -1,28 +1,27 @@
 //! `lightbvh verify --soak`: frames of random edits, with rebuilds in the background and followed by devices.
 
-use bytemuck::cast_slice;
+use std::collections::BTreeMap;
+
 use lightbvh::bvh::{InstanceId, MeshId, Swap};
-use lightbvh::node::{Node as _, kind};
-use lightbvh::refit::BlasRoot;
-use lightbvh::tree::{INVALID, OPENED, TreeWords};
-use lightbvh::{Edit, EmissiveTriangle, Instance, Rebuilder, RebuilderParams, Transform};
-use lightbvh_gpu::Mirror;
-use lightbvh_kernels::bvh::{Node, WIDTH};
+use lightbvh::{Edit, EmissiveTriangle, Rebuilder, RebuilderParams, Transform};
 use serde::Serialize;
 
 use super::{Args, DeviceReport};
-use crate::backend::{Bvh, DeviceArrays, DeviceBackend, Follow};
+use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, Follow};
 use crate::cli::devices::Opened;
 use crate::cli::measure::times::{Spread, thread_us};
-use crate::cli::table::{self, say};
+use crate::cli::table::{self, news, say};
 use crate::error::HostError;
 use crate::metrics::mean;
+use crate::stability::case::around;
 use crate::stability::random::Random;
-use crate::tally::{Kind, Tally};
-use crate::words::Record;
+use crate::stability::words::compare_bvh;
+use crate::tally::{Side, Tallies, Tally};
 
 /// Frames from one check of all invariants and words to the next.
 const CHECKED: u32 = 1_000;
+/// Points that samples and probabilities are compared at.
+const POINTS: u32 = 64;
 /// Frames in a row in which trees are swapped in by one rule.
 const RULED: u32 = 500;
 /// Frames that a build has by the deterministic rule.
@@ -38,37 +37,26 @@ const GROWTH: f64 = 1.2;
 const ROOM: f64 = 16e6;
 /// Frames from one question for memory to the next: the system takes as long as a frame to answer.
 const ASKED: u32 = 16;
-/// Words of a node.
-const NODE: usize = size_of::<Node>() / 4;
-/// Arrays are compared word by word.
-const WORD: Record = Record {
-    name: "word in use",
-    words: 1,
-};
 /// The parts of a frame, in their order.
 const PHASES: [&str; 4] = ["begin-frame", "apply", "refit", "end-frame"];
 
-/// How often what was done.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
-struct Counts {
-    added: u32,
-    removed: u32,
-    moved: u32,
-    dimmed: u32,
-    /// Meshes.
-    deformed: u32,
-    /// Meshes removed with their instances, and others added.
-    exchanged: u32,
-    /// Top levels swapped in, and meshes.
-    swapped: u32,
-    rebuilt: u32,
-    /// Frames that waited for a build, by the deterministic rule.
-    waited: u32,
-    /// Frames whose own thread built, since no other could be started.
-    inline: u32,
-    /// Frames in which all was checked.
-    checked: u32,
-}
+/// How often what was done, and happened: edits by their kind; `swapped` top levels and `rebuilt` meshes; frames that `waited` for
+/// a build by the deterministic rule, whose own thread built `inline`, or in which all was `checked`.
+type Counts = BTreeMap<&'static str, u32>;
+
+const COUNTED: [&str; 11] = [
+    "added",
+    "removed",
+    "moved",
+    "dimmed",
+    "deformed",
+    "exchanged",
+    "swapped",
+    "rebuilt",
+    "waited",
+    "inline",
+    "checked",
+];
 
 /// Thread time of a part of all frames.
 #[derive(Clone, Debug, Serialize)]
@@ -86,29 +74,26 @@ pub(super) struct Report {
     lights: usize,
     edits: Counts,
     rows: Vec<Row>,
-    /// The invariant that did not hold, which ended the soak.
+    /// The invariant that did not hold, which ended the soak, or a probability that was not the sample's.
     invalid: Option<String>,
     memory: Means,
     process: Means,
     devices: Vec<DeviceReport>,
 }
 
-pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened], is_quiet: bool) -> Result<Report, HostError> {
+pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened]) -> Result<Report, HostError> {
     let mut world = World::new(args);
-    // Follows as devices do, and so has the offsets of their links.
-    let mut layout = Mirror::default();
-    layout.frame(&world.bvh);
-    let mut devices = Vec::new();
-    for o in opened {
-        let device: DeviceBackend<'_> = DeviceBackend::new(&o.device, &world.bvh)?;
-        devices.push((device, Tally::default()));
-    }
+    let devices = opened.iter().map(|o| DeviceBackend::new(&o.device, &world.bvh));
+    let mut devices: Vec<DeviceBackend<'_>> = devices.collect::<Result<_, _>>()?;
+    let mut tallies = Tallies {
+        devices: vec![Tally::default(); opened.len()],
+        ..Tallies::default()
+    };
     // Written once before the first frame, so that memory does not grow by it.
     let mut times: [Vec<f32>; 4] = std::array::from_fn(|_| vec![f32::MAX; frames as usize]);
     let mut memory: [Vec<f64>; 2] = std::array::from_fn(|_| vec![f64::MAX; frames.div_ceil(ASKED) as usize]);
-    let mut counts = Counts::default();
+    let mut counts: Counts = COUNTED.map(|what| (what, 0)).into();
     let mut invalid = None;
-    let bar = super::progress(frames.into(), "frames", is_quiet);
     let mut rebuilder = Rebuilder::default();
     for frame in 0..frames {
         if frame.is_multiple_of(RULED) {
@@ -117,20 +102,23 @@ pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened], is_quiet: bool) 
         let edits = world.edits(&mut counts);
         let (begin, start) = thread_us(|| rebuilder.begin_frame(&mut world.bvh));
         let start = start?;
-        counts.swapped += u32::from(start.swapped);
-        counts.rebuilt += start.meshes;
-        counts.waited += u32::from(!start.waited.is_zero());
-        counts.inline += u32::from(start.inline);
+        for (what, more) in [
+            ("swapped", u32::from(start.swapped)),
+            ("rebuilt", start.meshes),
+            ("waited", u32::from(!start.waited.is_zero())),
+            ("inline", u32::from(start.inline)),
+        ] {
+            *counts.entry(what).or_default() += more;
+        }
         let (apply, ()) = thread_us(|| world.apply(edits));
         let (refit, ()) = thread_us(|| world.bvh.refit());
         let (end, ()) = thread_us(|| rebuilder.end_frame(&world.bvh));
         for (list, time) in times.iter_mut().zip([begin, apply, refit, end]) {
             list[frame as usize] = time as f32;
         }
-        for (device, _) in &mut devices {
+        for device in &mut devices {
             device.follow(&world.bvh)?;
         }
-        layout.frame(&world.bvh);
         // Whoever keeps numbers of lights over frames replaces those first.
         world.bvh.take_removed_lights();
         if frame.is_multiple_of(ASKED) {
@@ -144,22 +132,21 @@ pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened], is_quiet: bool) 
                 invalid = Some(format!("frame {frame}: {violation}"));
                 break;
             }
-            let words = layout.words(&world.bvh);
-            for (device, tally) in &mut devices {
-                compare(tally, frame, &world.bvh, &device.arrays()?, &words)?;
-            }
-            counts.checked += 1;
+            compare(frame, &mut world, &mut devices, &mut tallies)?;
+            *counts.entry("checked").or_default() += 1;
+            news!("frame {frame} checked");
         }
-        bar.inc(1);
     }
-    bar.finish_and_clear();
     // Each quarter sees a round of both rules: else they differ by those.
     let judged = frames >= 4 * 2 * RULED;
     let rows = PHASES.into_iter().zip(times).map(|(what, list)| Row {
         what,
         us: Spread::of(list.into_iter().map(f64::from)),
     });
-    let devices = opened.iter().zip(devices);
+    if let (None, Some(first)) = (&invalid, tallies.cpu.first_difference) {
+        invalid = Some(first);
+    }
+    let devices = opened.iter().zip(tallies.devices);
     Ok(Report {
         frames,
         seed: args.seed,
@@ -170,9 +157,7 @@ pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened], is_quiet: bool) 
         invalid,
         memory: Means::of(&memory[0], 0.0, judged),
         process: Means::of(&memory[1], ROOM, judged),
-        devices: devices
-            .map(|(o, (_, tally))| DeviceReport::new(o, tally))
-            .collect(),
+        devices: devices.map(|(o, tally)| DeviceReport::new(o, tally)).collect(),
     })
 }
 
@@ -220,8 +205,7 @@ impl World {
             let id = world.bvh.add_mesh(triangles.clone()).expect("within the domain");
             world.meshes.push((id, triangles));
         }
-        let mut edits = Vec::new();
-        world.add(world.count, &mut edits);
+        let edits = world.add(world.count);
         world.apply(edits);
         world.bvh.refit();
         world
@@ -265,148 +249,118 @@ impl World {
         (0..count).map(one).collect()
     }
 
-    /// Turned at random, at a place, or else anywhere.
+    /// Turned at random, near a place, or else anywhere.
     fn turned(&mut self, place: Option<[f32; 3]>) -> Transform {
         let random = &mut self.random;
         let (s, c) = libm::sincosf(random.between(0.0, std::f32::consts::TAU));
+        let place = place.map(|p| p.map(|x| (x + random.between(-NEAR, NEAR)).clamp(0.0, SIDE)));
         Transform {
             columns: [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]],
             translation: place.unwrap_or_else(|| std::array::from_fn(|_| random.between(0.0, SIDE))),
         }
     }
 
-    /// How many of `all` a batch has: most often one, seldom many.
-    fn few(&mut self, all: usize) -> usize {
-        let most = match self.below(64) {
-            0 => all / 4,
-            1..4 => all / 64,
-            4..16 => 8,
-            _ => 1,
-        };
-        (1 + self.below(most.max(1))).min(all)
-    }
-
-    /// The edits of a frame.
+    /// The edits of a frame, all of one kind: most often one, seldom many.
     fn edits(&mut self, counts: &mut Counts) -> Vec<Edit> {
-        let mut edits = Vec::new();
-        for _ in 0..1 + self.below(3) {
-            match self.below(16) {
-                // Nothing happens in some frames.
-                0 => {}
-                1..4 => {
-                    // The more there are, the fewer come.
-                    let room = (self.count + self.count / 10).saturating_sub(self.instances.len());
-                    let count = self.few(self.count).min(room);
-                    self.add(count, &mut edits);
-                    counts.added += count as u32;
-                }
-                4..7 => {
-                    let least = self.count - self.count / 10;
-                    let spare = self.instances.len().saturating_sub(least);
-                    let count = self.few(self.count).min(spare);
-                    for _ in 0..count {
-                        let at = self.below(self.instances.len());
-                        edits.push(Edit::RemoveInstance(self.instances.swap_remove(at).0));
-                    }
-                    counts.removed += count as u32;
-                }
-                kind @ 7..14 => {
-                    let count = self.few(self.instances.len());
-                    let is_far = self.below(4) == 0;
-                    for _ in 0..count {
-                        let at = self.below(self.instances.len());
-                        let instance = self.instances[at].0;
-                        edits.push(match kind {
-                            13 => {
-                                let radiance = match self.below(8) {
-                                    0 => [0.0; 3],
-                                    _ => [0; 3].map(|_| self.random.between(0.1, 1.1)),
-                                };
-                                Edit::SetRadiance { instance, radiance }
-                            }
-                            _ => {
-                                let old = self.bvh.instances()[instance.index() as usize].translation;
-                                let step = |x: f32| (x + self.random.between(-NEAR, NEAR)).clamp(0.0, SIDE);
-                                let near = old.map(step);
-                                let transform = self.turned((!is_far).then_some(near));
-                                Edit::SetTransform { instance, transform }
-                            }
-                        });
-                    }
-                    let done = [&mut counts.moved, &mut counts.dimmed];
-                    *done[usize::from(kind == 13)] += count as u32;
-                }
-                14 => {
-                    edits.push(self.deform());
-                    counts.deformed += 1;
-                }
-                _ => counts.exchanged += u32::from(self.exchange(&mut edits)),
+        let most = [1, 1, 8, self.count / 64, self.count / 4][self.below(5)];
+        let count = 1 + self.below(most.max(1));
+        let (present, tenth) = (self.instances.len(), self.count / 10);
+        let (what, edits) = match self.below(8) {
+            0 => (
+                "added",
+                self.add(count.min((self.count + tenth).saturating_sub(present))),
+            ),
+            1 => {
+                let spare = present.saturating_sub(self.count - tenth);
+                let removed = (0..count.min(spare)).map(|_| {
+                    let at = self.below(self.instances.len());
+                    Edit::RemoveInstance(self.instances.swap_remove(at).0)
+                });
+                ("removed", removed.collect())
             }
-        }
+            2..5 => ("moved", (0..count).map(|_| self.moved()).collect()),
+            5 => ("dimmed", (0..count).map(|_| self.dimmed()).collect()),
+            6 => ("deformed", vec![self.deform()]),
+            _ => ("exchanged", self.exchange()),
+        };
+        let done = if what == "exchanged" { 1 } else { edits.len() };
+        *counts.entry(what).or_default() += done as u32;
         edits
     }
 
-    fn add(&mut self, count: usize, edits: &mut Vec<Edit>) {
-        for _ in 0..count {
+    fn add(&mut self, count: usize) -> Vec<Edit> {
+        let added = (0..count).map(|_| {
             let at = self.below(self.meshes.len());
             let (mesh, transform) = (self.meshes[at].0, self.turned(None));
             self.new_instances.push(mesh);
-            edits.push(Edit::AddInstance {
+            Edit::AddInstance {
                 mesh,
                 transform,
                 radiance: [1.0; 3],
                 mask: u32::MAX,
-            });
-        }
+            }
+        });
+        added.collect()
+    }
+
+    /// One of four moves far.
+    fn moved(&mut self) -> Edit {
+        let at = self.below(self.instances.len());
+        let instance = self.instances[at].0;
+        let old = self.bvh.instances()[instance.index() as usize].translation;
+        let place = (self.below(4) > 0).then_some(old);
+        let transform = self.turned(place);
+        Edit::SetTransform { instance, transform }
+    }
+
+    /// One of eight is turned off.
+    fn dimmed(&mut self) -> Edit {
+        let at = self.below(self.instances.len());
+        let bright = if self.below(8) == 0 { 0.0 } else { 1.0 };
+        let radiance = [0; 3].map(|_| bright * self.random.between(0.1, 1.1));
+        let instance = self.instances[at].0;
+        Edit::SetRadiance { instance, radiance }
     }
 
     /// A mesh jitters, or is scrambled, as a whole or in a range of its triangles.
     fn deform(&mut self) -> Edit {
         let at = self.below(self.meshes.len());
-        let count = self.meshes[at].1.len();
+        let (mesh, mut triangles) = self.meshes[at].clone();
         let step = if self.below(4) == 0 { 2.0 } else { 0.05 };
         let is_whole = self.below(2) == 0;
-        let first = if is_whole { 0 } else { self.below(count) };
-        let end = if is_whole {
-            count
-        } else {
-            count.min(first + 1 + self.below(32))
-        };
-        let mut triangles = self.meshes[at].1[first..end].to_vec();
+        let first = if is_whole { 0 } else { self.below(triangles.len()) };
+        triangles.drain(..first);
+        if !is_whole {
+            triangles.truncate(1 + self.below(32));
+        }
         for triangle in &mut triangles {
             let by: [f32; 3] = std::array::from_fn(|_| step * self.random.between(-0.5, 0.5));
             triangle.p = triangle.p.map(|p| std::array::from_fn(|k| p[k] + by[k]));
         }
-        let mesh = self.meshes[at].0;
+        let first = first as u32;
         match is_whole {
             true => Edit::SetTriangles { mesh, triangles },
             false => Edit::SetTriangleRange {
                 mesh,
-                first: first as u32,
+                first,
                 triangles,
             },
         }
     }
 
-    /// A mesh is removed with all its instances; another is added, with as many. Only once a frame, and no mesh that an edit of
-    /// this frame has placed.
-    fn exchange(&mut self, edits: &mut Vec<Edit>) -> bool {
+    /// A mesh is removed with all its instances; another is added, and as many instances of any.
+    fn exchange(&mut self) -> Vec<Edit> {
         let at = self.below(self.meshes.len());
-        let id = self.meshes[at].0;
-        if self.new_mesh.is_some() || self.new_instances.contains(&id) {
-            return false;
-        }
+        let id = self.meshes.swap_remove(at).0;
         let users = self.instances.extract_if(.., |(_, mesh)| *mesh == id);
-        let users: Vec<Edit> = users.map(|(own, _)| Edit::RemoveInstance(own)).collect();
-        let count = users.len();
-        edits.extend(users);
-        self.meshes.swap_remove(at);
+        let mut edits: Vec<Edit> = users.map(|(own, _)| Edit::RemoveInstance(own)).collect();
+        let count = edits.len();
         edits.push(Edit::RemoveMesh(id));
         let triangles = self.mesh(false);
         self.new_mesh = Some(triangles.clone());
         edits.push(Edit::AddMesh { triangles });
-        self.add(count, edits);
-        true
+        edits.extend(self.add(count));
+        edits
     }
 }
 
@@ -434,60 +388,27 @@ impl Means {
     }
 }
 
-/// Compares all words of a device that are in use.
+/// Compares nodes in use, samples and probabilities on each device with the CPU's.
 fn compare(
-    tally: &mut Tally,
     frame: u32,
-    bvh: &Bvh,
-    found: &DeviceArrays,
-    words: &TreeWords,
+    world: &mut World,
+    devices: &mut [DeviceBackend<'_>],
+    tallies: &mut Tallies,
 ) -> Result<(), HostError> {
-    let (tree, all) = (bvh.tree(), bvh.plan_of_everything());
-    let (bottom, top) = (all.bottom.nodes(), all.top.nodes());
-    let records: Vec<u32> = (0..tree.instances.len() as u32).collect();
-    let is_live = |&index: &u32| bvh.instance_id(index).is_some();
-    let live: Vec<u32> = records.iter().copied().filter(is_live).collect();
-    let lights: Vec<u32> = live
-        .iter()
-        .map(|&index| tree.instances[index as usize])
-        .flat_map(|own| own.first_triangle..own.first_triangle + own.count)
-        .collect();
-    let subtrees = |&index: &u32| {
-        let place = tree.links.places[index as usize];
-        // A mesh of one light has none.
-        let root = bvh.nodes().get(tree.instances[index as usize].root as usize);
-        let is_inner = |slot: &usize| root.is_some_and(|root| root.kind(*slot) == kind::INNER);
-        let count = (0..WIDTH).filter(is_inner).count() as u32;
-        match (OPENED..INVALID).contains(&place) {
-            true => place - OPENED..place - OPENED + count,
-            false => 0..0,
-        }
+    let lights = world.bvh.world_lights();
+    let points = around(&lights, POINTS, &mut world.random);
+    let mut cpu: CpuBackend = CpuBackend::new(world.bvh.clone());
+    let mut side: Side<'_, dyn Backend> = Side {
+        cpu: &mut cpu,
+        devices: devices.iter_mut().map(|own| own as &mut dyn Backend).collect(),
     };
-    let parts: Vec<u32> = live.iter().flat_map(subtrees).collect();
-    let behind = size_of_val(bvh.nodes()) / 4;
-    let [above, places, first] = [words.above, words.places, words.parts].map(|word| word as usize);
-    let mut take = |name, words: usize, expected: &[u32], found: &[u32], indices: &[u32]| {
-        let of = |all: &[u32]| -> Vec<u32> {
-            let each = indices.iter().map(|&index| index as usize * words);
-            each.flat_map(|at| all.get(at..at + words).unwrap_or_default().to_vec())
-                .collect()
-        };
-        let what = format!("frame {frame} {name}");
-        tally.take(Kind::Arrays, &what, &WORD, &of(expected), &of(found))
-    };
-    let (root, instance) = (size_of::<BlasRoot>() / 4, size_of::<Instance>() / 4);
-    let (light, trail) = (size_of::<EmissiveTriangle>() / 4, tree.trail_words as usize);
-    let (nodes, on_top) = (cast_slice(bvh.nodes()), cast_slice(bvh.top_nodes()));
-    let (instances, triangles) = (cast_slice(tree.instances), cast_slice(bvh.triangles()));
-    take("nodes", NODE, nodes, &found.nodes, bottom)?;
-    take("top", NODE, on_top, &found.nodes[behind..], top)?;
-    take("roots", root, cast_slice(bvh.roots()), &found.roots, &all.roots)?;
-    take("instances", instance, instances, &found.instances, &records)?;
-    take("triangles", light, triangles, &found.triangles, &lights)?;
-    take("trails", trail, tree.trails, &found.trails, &lights)?;
-    take("above", 1, tree.links.above, &found.trails[above..], top)?;
-    take("places", 1, tree.links.places, &found.trails[places..], &live)?;
-    take("parts", 1, tree.links.parts, &found.trails[first..], &parts)
+    compare_bvh(
+        &mut side,
+        tallies,
+        &format!("frame {frame}"),
+        (&world.bvh, &lights),
+        &points,
+    )
 }
 
 impl Report {
@@ -511,7 +432,7 @@ pub(super) fn print(report: &Report) -> Result<(), HostError> {
             ("most", |r| format!("{:.1}", r.us.most)),
         ],
     )?;
-    let edits = serde_json::to_value(report.edits).map_err(std::io::Error::from)?;
+    let edits = serde_json::to_string(&report.edits).map_err(std::io::Error::from)?;
     let (frames, instances, lights) = (report.frames, report.instances, report.lights);
     say!("\n{frames} frames, {instances} instances and {lights} lights at the end; edits: {edits}")?;
     for (what, means) in [("scene", &report.memory), ("process", &report.process)] {

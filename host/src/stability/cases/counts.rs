@@ -9,30 +9,8 @@ use super::{add, scattered};
 pub(super) fn few() -> Vec<Case> {
     vec![
         Case::new("one light", scattered(1, 91)),
-        Case::new("two lights", scattered(2, 92)),
         Case::new("three lights", scattered(3, 92)),
     ]
-}
-
-/// `count` equal lights in a cube, all seen from so far away that each is as probable as any other to a few percent.
-pub fn equal(count: u32) -> Case {
-    let side = f64::from(count).cbrt().ceil() as u32;
-    let light = |i: u32| {
-        let corner = [i % side, i / side % side, i / (side * side)].map(|k| k as f32);
-        small(corner, i / 4096)
-    };
-    let far = 40.0 * side as f32;
-    let points = vec![
-        ShadingPoint {
-            p: [far; 3],
-            n: [0.0; 3],
-        },
-        ShadingPoint {
-            p: [0.5 * side as f32; 3],
-            n: [0.0; 3],
-        },
-    ];
-    Case::new(format!("{count} equal lights"), (0..count).map(light).collect()).at(points)
 }
 
 /// `count` lights anywhere in a box of 1000 m.

@@ -8,14 +8,14 @@ mod places;
 mod receivers;
 mod shapes;
 
-pub use counts::{equal, many};
+pub use counts::many;
 
 use lightbvh::EmissiveTriangle;
 
 use super::case::Case;
 use super::random::Random;
 
-/// All extremes but the largest, [`equal`] and [`many`], in the order of the report.
+/// All extremes but the largest, [`many`], in the order of the report.
 pub fn small() -> Vec<Case> {
     [
         places::cases(),

@@ -14,9 +14,7 @@ pub(super) fn cases() -> Vec<Case> {
         }
         Case::new(format!("coordinates scaled by {factor:e}"), lights)
     };
-    let mut cases: Vec<Case> = [1e-12, 1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9, 1e12]
-        .map(scaled)
-        .into();
+    let mut cases: Vec<Case> = [1e-12, 1e-6, 1.0, 1e6, 1e12].map(scaled).into();
     cases.push(Case::new("offset of 1e7 m", offset()));
     cases.push(Case::new("scales from 1e-12 to 1e12 in one scene", all_scales()));
     cases.push(Case::new(
@@ -29,17 +27,10 @@ pub(super) fn cases() -> Vec<Case> {
             .collect(),
     ));
     cases.push(Case::new(
-        "all on a line",
-        (0..256)
-            .map(|i| facing_x([i as f32, 0.0, 0.0], 1e-3, 1.0, i / 8, i & 1))
-            .collect(),
-    ));
-    cases.push(Case::new(
         "all on a line, the same to 1e-6",
         (0..256).map(near_line).collect(),
     ));
-    cases.push(Case::new("all in a plane", plane(0)));
-    cases.push(Case::new("all in a plane, two-sided", plane(1)));
+    cases.push(Case::new("all in a plane", plane()));
     cases
 }
 
@@ -91,14 +82,14 @@ fn near_line(i: u32) -> EmissiveTriangle {
 }
 
 /// 256 one-sided triangles in the plane z = 2.
-fn plane(flags: u32) -> Vec<EmissiveTriangle> {
+fn plane() -> Vec<EmissiveTriangle> {
     let light = |i: u32| {
         let (x, y) = ((i % 16) as f32, (i / 16) as f32);
         EmissiveTriangle {
             p: [[x, y, 2.0], [x + 0.5, y, 2.0], [x, y + 0.5, 2.0]],
             radiance: [1.0; 3],
             mesh: i / 16,
-            flags,
+            flags: 0,
         }
     };
     (0..256).map(light).collect()

@@ -1,4 +1,4 @@
-//! What lights look like: needles, no area, nested boxes, numbers at the ends of f32.
+//! What lights look like: needles, no area, numbers at the ends of f32.
 
 use lightbvh::{EmissiveTriangle, ShadingPoint, exact};
 
@@ -9,7 +9,6 @@ use super::{facing_x, scattered};
 pub(super) fn cases() -> Vec<Case> {
     vec![
         Case::new("needles and triangles without area", needles()),
-        Case::new("nested boxes", (0..70).map(nested).collect()),
         subnormal("subnormal coordinates", f32::from_bits(0x0003_0001)),
         subnormal("minus zero", -0.0),
     ]
@@ -36,14 +35,6 @@ fn needles() -> Vec<EmissiveTriangle> {
         light.p = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, width, 0.0]];
     }
     lights
-}
-
-/// A triangle about the origin, half as large as the one before.
-fn nested(i: u32) -> EmissiveTriangle {
-    let s = exact::pow2(38 - i as i32);
-    let mut light = facing_x([-s; 3], 3.0 * s, 1.0, i / 4, i & 1);
-    light.p[1][0] = s;
-    light
 }
 
 /// Lights with `tiny` in place of zeros, and points that have it too.

@@ -2,8 +2,6 @@
 
 use std::f32::consts::TAU;
 
-use lightbvh::EmissiveTriangle;
-
 use super::world::{Point, World};
 use crate::stability::random::Random;
 
@@ -11,8 +9,6 @@ use crate::stability::random::Random;
 pub(super) struct Scene {
     pub name: &'static str,
     pub lamps: Vec<Lamp>,
-    /// Triangles of the mesh that they share.
-    pub triangles: Vec<EmissiveTriangle>,
     /// Number of frames, of first frames that do not count, and of frames from one measurement of variance to the next.
     pub frames: usize,
     pub warm: usize,
@@ -40,7 +36,6 @@ impl Scene {
                 _ => 4,
             },
             lamps,
-            triangles: vec![triangle([0.0; 3])],
             frames: 140,
             warm: 20,
             look: 30,
@@ -64,19 +59,8 @@ pub(super) fn scenes() -> Vec<Scene> {
         rings(100_000),
         scatter(10_000),
         clusters(16),
-        wall(),
         clusters(64),
     ]
-}
-
-/// A tenth of a metre wide, shining down.
-fn triangle([x, y, z]: Point) -> EmissiveTriangle {
-    EmissiveTriangle {
-        p: [[x, y, z], [x + 0.1, y, z], [x, y, z + 0.1]],
-        radiance: [9.0; 3],
-        mesh: 0,
-        flags: 0,
-    }
 }
 
 /// Side of the square that holds `count` lamps, metres: 4 m² for each.
@@ -235,28 +219,4 @@ fn clusters(count: usize) -> Scene {
         ..Scene::new("clusters of 1000 change places", lamps, step)
     }
     .near()
-}
-
-/// The triangles of one mesh, all set in each frame: each goes its own way.
-fn wall() -> Scene {
-    const SIDE: f32 = 20.0;
-    let mut random = Random::new(11);
-    let ways: Vec<[f32; 3]> = (0..20_000)
-        .map(|_| [SIDE, SIDE, TAU].map(|most| random.between(0.0, most)))
-        .collect();
-    let at = move |[x, z, angle]: [f32; 3], frame: usize| {
-        // Turned back at the ends.
-        let by =
-            |x: f32, way: f32| ((x + 0.02 * frame as f32 * way + SIDE).rem_euclid(2.0 * SIDE) - SIDE).abs();
-        triangle([by(x, angle.cos()), 1.0, by(z, angle.sin())])
-    };
-    let triangles = ways.iter().map(|&own| at(own, 0)).collect();
-    let step = move |frame: usize, world: &mut World| {
-        world.deform(ways.iter().map(|&own| at(own, frame + 1)).collect());
-    };
-    Scene {
-        triangles,
-        side: Some(SIDE),
-        ..Scene::new("wall of 20,000 triangles", vec![([0.0; 3], 1.0)], step)
-    }
 }

@@ -32,9 +32,16 @@ pub(super) struct Times {
 }
 
 impl World {
-    pub fn new(triangles: Vec<EmissiveTriangle>) -> Self {
+    pub fn new() -> Self {
+        // A tenth of a metre wide, shining down.
+        let lamp = EmissiveTriangle {
+            p: [[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.0, 0.1]],
+            radiance: [9.0; 3],
+            mesh: 0,
+            flags: 0,
+        };
         let mut bvh: Bvh = lightbvh::Bvh::default();
-        let mesh = bvh.add_mesh(triangles).expect(WITHIN);
+        let mesh = bvh.add_mesh(vec![lamp]).expect(WITHIN);
         Self {
             bvh,
             mesh,
@@ -63,11 +70,6 @@ impl World {
         let transform = Transform::at(at);
         let edit = |instance| Edit::SetTransform { instance, transform };
         self.edits.extend(self.lamps[lamp].map(edit));
-    }
-
-    pub fn deform(&mut self, triangles: Vec<EmissiveTriangle>) {
-        let mesh = self.mesh;
-        self.edits.push(Edit::SetTriangles { mesh, triangles });
     }
 
     /// A random lamp that was not removed.
@@ -117,8 +119,7 @@ impl World {
 
     /// The same lamps in a new light BVH.
     pub fn fresh(&self) -> Bvh {
-        let triangles = self.bvh.mesh_triangles(self.mesh).expect("the mesh stays");
-        let mut new = Self::new(triangles.to_vec());
+        let mut new = Self::new();
         for id in self.lamps.iter().flatten() {
             let own = &self.bvh.instances()[id.index() as usize];
             new.add(own.translation, own.radiance[0]);

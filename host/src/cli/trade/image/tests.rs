@@ -10,8 +10,6 @@ struct Known {
     ray_ms: f64,
     /// Of one ray, as radiance.
     step: f32,
-    /// Adds to every pixel.
-    bias: f32,
 }
 
 impl Known {
@@ -21,7 +19,7 @@ impl Known {
             REFERENCE_SEED.. => 0.0,
             _ => self.step / (rays as f32).sqrt(),
         };
-        let value = |k: u32| 1.0 + if k.is_multiple_of(2) { off } else { -off } + self.bias;
+        let value = |k: u32| 1.0 + if k.is_multiple_of(2) { off } else { -off };
         Timed {
             value: (0..params.width * params.height).map(|k| [value(k); 3]).collect(),
             time: Duration::from_secs_f64(1e-3 * self.ray_ms * f64::from(rays)),
@@ -58,11 +56,7 @@ fn measured(others: Vec<(Known, f64)>, update_ms: f64) -> Vec<Images> {
 const STEP: f32 = 0.2;
 
 fn known(ray_ms: f64, step: f32) -> Known {
-    Known {
-        ray_ms,
-        step,
-        bias: 0.0,
-    }
+    Known { ray_ms, step }
 }
 
 fn near(found: f64, expected: f64, part: f64) {
@@ -118,21 +112,4 @@ fn equal_time_is_what_fits_beside_the_update() {
             .iter()
             .all(|images| images.bias.expect("images").mean.abs() < 1e-3)
     );
-}
-
-#[test]
-fn a_bias_is_seen() {
-    let images = measured(
-        vec![(
-            Known {
-                bias: 0.1,
-                ..known(1.0, STEP)
-            },
-            0.0,
-        )],
-        0.0,
-    );
-    near(images[1].bias.expect("images").mean, 0.1, 1e-3);
-    assert!(images[0].bias.expect("images").mean.abs() < 1e-3);
-    assert!(images[1].error > images[0].error);
 }

@@ -1,15 +1,15 @@
 //! The measurements as one page, `trade.html`, which needs no network and no other file, and as JSON.
 
-pub(in crate::cli) mod machine;
 mod page;
 mod pictures;
 
+use std::env::consts::{ARCH, OS};
 use std::path::Path;
+use std::time::SystemTime;
 
 use serde::Serialize;
 use serde_json::Value;
 
-use self::machine::Made;
 use self::pictures::{Pictures, pictures};
 use super::front::Point;
 use crate::cli::target;
@@ -59,5 +59,41 @@ impl Report {
         store("trade.json", format!("{}\n", json(&measured)?).as_bytes())?;
         measured["scenes"] = serde_json::to_value(&self.scenes).map_err(std::io::Error::from)?;
         store("trade.html", page::html(&json(&measured)?).as_bytes())
+    }
+}
+
+/// The head of a report.
+#[derive(Clone, Debug, Serialize)]
+struct Made {
+    /// The processor's name where the system tells it, its family and the system elsewhere.
+    machine: String,
+    /// Threads that images and trees have.
+    threads: usize,
+    /// The command line.
+    command: String,
+    /// Of this program.
+    version: &'static str,
+    /// Whether the compiler optimised it: times of one that is not say nothing.
+    optimised: bool,
+    /// Universal time, to the second.
+    date: String,
+}
+
+impl Made {
+    fn now() -> Self {
+        let processor = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
+            let line = text.lines().find(|line| line.starts_with("model name"))?;
+            Some(line.split_once(':')?.1.trim().to_owned())
+        });
+        let args: Vec<String> = std::env::args().skip(1).collect();
+        Self {
+            machine: format!("{}, {OS}", processor.unwrap_or_else(|| ARCH.to_owned())),
+            threads: rayon::current_num_threads(),
+            // By the program's name alone, wherever it lies.
+            command: format!("lightbvh {}", args.join(" ")),
+            version: env!("CARGO_PKG_VERSION"),
+            optimised: !cfg!(debug_assertions),
+            date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+        }
     }
 }

@@ -1,7 +1,9 @@
-//! The unshadowed diffuse light of a triangle, in closed form.
+//! The unshadowed diffuse light of a triangle, in closed form, and how much its estimate varies.
 
 use lightbvh::{EmissiveTriangle, LightBounds, ShadingPoint};
+use rayon::prelude::*;
 
+use super::variance;
 use crate::vector::{cross, dot, sub};
 
 type V = [f64; 3];
@@ -10,7 +12,7 @@ type V = [f64; 3];
 /// above the horizon, times luminance (J. H. Lambert, Photometria, 1760; Arvo, "Analytic methods for simulated light
 /// transport", 1995, section 2). Zero behind a one-sided emitter, and from what is too thin to count as a light: no tree
 /// chooses it.
-pub(in crate::cli) fn irradiance(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
+pub fn irradiance(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
     if LightBounds::of_triangle(triangle).phi <= 0.0 {
         return 0.0;
     }
@@ -43,6 +45,21 @@ pub(in crate::cli) fn irradiance(triangle: &EmissiveTriangle, point: &ShadingPoi
         }
     }
     f64::from(triangle.luminance()) * sum.abs() * 0.5
+}
+
+/// The relative variance of one sample of diffuse light without shadows at each point, by the probability of each light, asked for
+/// by the numbers of point and light; `None` where no light arrives.
+pub fn variances(
+    lights: &[EmissiveTriangle],
+    points: &[ShadingPoint],
+    pmf: impl Fn(usize, u32) -> f32 + Sync,
+) -> Vec<Option<f64>> {
+    let of = |(k, point): (usize, &ShadingPoint)| {
+        let sent = lights.iter().map(|light| irradiance(light, point));
+        let lit = (0..).zip(sent).filter(|(_, sent)| *sent > 0.0);
+        variance(lit.map(|(light, sent)| (sent, f64::from(pmf(k, light)))))
+    };
+    points.par_iter().enumerate().map(of).collect()
 }
 
 #[cfg(test)]
