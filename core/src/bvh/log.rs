@@ -15,7 +15,7 @@ const LEAST: usize = 4096;
 
 /// A change.
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Entry {
+pub(super) enum Entry {
     /// The words of an instance's record.
     Instance(u32),
     /// Children of a node of the top level.
@@ -57,29 +57,9 @@ impl Log {
         self.start + self.entries.len() as u64
     }
 
-    fn push(&mut self, entry: Entry) {
-        // Equal entries are not merged: a mirror may have read the last one already.
+    /// Adds an entry. Equal ones are not merged: a mirror may have read the last one already.
+    pub fn push(&mut self, entry: Entry) {
         self.entries.push_back(entry);
-    }
-
-    pub fn instance(&mut self, index: u32) {
-        self.push(Entry::Instance(index));
-    }
-
-    pub fn triangles(&mut self, range: Range<u32>) {
-        self.push(Entry::Triangles(range));
-    }
-
-    pub fn tree(&mut self, mesh: u32) {
-        self.push(Entry::Tree(mesh));
-    }
-
-    pub fn mesh(&mut self, mesh: u32) {
-        self.push(Entry::Mesh(mesh));
-    }
-
-    pub fn paths(&mut self, mesh: u32, range: Range<u32>) {
-        self.push(Entry::Paths(mesh, range));
     }
 
     /// Drops the oldest entries; the newest `most` stay.

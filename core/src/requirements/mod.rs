@@ -18,7 +18,7 @@ use crate::bvh::Bvh;
 use crate::instance::Instance;
 use crate::node::LightNode;
 
-pub use model::{Layout, Model, Updates};
+pub use model::{Layout, Model};
 
 /// What the caller says of the frames to come, edit by edit. Nothing of it can be seen in a scene as it stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

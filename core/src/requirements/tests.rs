@@ -5,7 +5,7 @@ extern crate std;
 use std::string::ToString;
 use std::vec::Vec;
 
-use super::{Declared, Layout, Model, Requirements, Updates};
+use super::{Declared, Layout, Model, Requirements};
 use crate::bvh::LightBvh;
 use crate::kit::Random;
 use crate::kit::scenes::lamps;
@@ -48,7 +48,6 @@ fn models_are_no_larger_than_scenes_need() {
     let still = Model {
         layout: Layout::TwoSidedMoments,
         single_level: true,
-        updates: Updates::Nothing,
         ..Model::DEFAULT
     };
     let of = |instances, change: fn(&mut Declared)| {
@@ -60,13 +59,9 @@ fn models_are_no_larger_than_scenes_need() {
         single_level: false,
         ..still
     };
-    let changing = Model {
-        updates: Updates::All,
-        ..two_levels
-    };
     let growing = Model {
         layout: Layout::Moments,
-        ..changing
+        ..two_levels
     };
     assert_eq!(of(2, |_| {}), still);
     assert_eq!(of(3, |_| {}), two_levels);
@@ -77,7 +72,7 @@ fn models_are_no_larger_than_scenes_need() {
         |d: &mut Declared| d.instances = true,
         |d: &mut Declared| d.triangles = true,
     ] {
-        assert_eq!(of(2, change), changing);
+        assert_eq!(of(2, change), two_levels);
     }
     let one_sided = Requirements::of(&scene(0, 2), Declared::STATIC).model();
     assert_eq!(one_sided.layout, Layout::Moments);

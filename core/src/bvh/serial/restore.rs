@@ -100,11 +100,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                     if !is_own || core::mem::replace(&mut leaves[own.link as usize], true) {
                         return Err(misplaced(NODES));
                     }
-                    let at = own.link as usize * self.trail_words as usize;
-                    self.trails[at] = own.trail.low;
-                    if self.trail_words == 2 {
-                        self.trails[at + 1] = own.trail.high;
-                    }
+                    self.set_trail(own.link, own.trail);
                 }
                 self.meshes[index].depth = found.depth;
             }

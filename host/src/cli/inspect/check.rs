@@ -2,7 +2,7 @@
 
 use lightbvh::importance::DefaultImportance;
 use lightbvh::refit::Instance;
-use lightbvh::requirements::{Layout, Model, Requirements, Updates};
+use lightbvh::requirements::{Layout, Model, Requirements};
 use lightbvh::{
     BuildParams, Bvh, ImportanceModel, LightNode, Lights, MomentNode, ShadingPoint, TwoSidedMomentNode,
 };
@@ -115,14 +115,6 @@ struct Subject {
     pmfs: Vec<f32>,
 }
 
-/// Bytes that sampling reads, and bytes of all arrays, of a light BVH that keeps what `updates` need.
-fn bytes<N: LightNode<WIDTH>, I>(bvh: Bvh<N, I, WIDTH>, updates: Updates) -> [usize; 2] {
-    match updates {
-        Updates::Nothing => [bvh.into_static().bytes(); 2],
-        Updates::All => [bvh.bytes(), bvh.memory()],
-    }
-}
-
 /// A scene's lights in the frame that trees are looked at in, and the light that they send to its points.
 struct Source<'a> {
     scene: &'a Scene,
@@ -154,7 +146,7 @@ impl Source<'_> {
                 .collect()
         };
         let pmfs = points.par_iter().flat_map_iter(of).collect();
-        let bytes = bytes(bvh, model.updates);
+        let bytes = [bvh.bytes(), bvh.memory()];
         Ok(Subject { bytes, pmfs })
     }
 
@@ -199,10 +191,9 @@ impl Source<'_> {
 type Part = (&'static str, fn(&mut Model, &Model));
 
 /// Each is taken after those before it.
-const PARTS: [Part; 3] = [
+const PARTS: [Part; 2] = [
     ("layout", |to, from| to.layout = from.layout),
     ("levels", |to, from| to.single_level = from.single_level),
-    ("updates", |to, from| to.updates = from.updates),
 ];
 
 fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
@@ -210,7 +201,6 @@ fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
     match part {
         "layout" if model.layout == Layout::TwoSidedMoments && requirements.one_sided == 0 => Promise::Bits,
         "levels" if model.single_level && is_identity => Promise::BitsBelowInstance,
-        "updates" => Promise::Bits,
         _ => Promise::Variance,
     }
 }
@@ -257,8 +247,6 @@ pub(super) fn check(
         }
         let new = source.build(&then, points)?;
         let promise = promise(part, &then, requirements);
-        // Nothing that a probability is computed from changes by the other parts.
-        let is_compared = matches!(part, "layout" | "levels");
         let seen = match promise {
             Promise::BitsBelowInstance => {
                 let seen = points.iter().map(|point| Instance::IDENTITY.to_local(point));
@@ -266,7 +254,7 @@ pub(super) fn check(
             }
             _ => &new.pmfs,
         };
-        let pairs = subject.pmfs.iter().zip(seen).filter(|_| is_compared);
+        let pairs = subject.pmfs.iter().zip(seen);
         let different = pairs.clone().filter(|(a, b)| a.to_bits() != b.to_bits()).count();
         let most = pairs.clone().map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs());
         let (compared, most) = (pairs.clone().count(), most.fold(0.0, f64::max));

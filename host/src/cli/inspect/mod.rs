@@ -8,7 +8,7 @@ use std::ffi::OsString;
 use lightbvh::BuildParams;
 use lightbvh::importance::DefaultImportance;
 use lightbvh::light::AnyLight;
-use lightbvh::requirements::{Declared, Layout, Model, Requirements, Updates};
+use lightbvh::requirements::{Declared, Layout, Model, Requirements};
 use lightbvh_gpu::KernelSet;
 use lightbvh_kernels::bvh::{Node, WIDTH};
 use serde::Serialize;
@@ -394,17 +394,7 @@ fn reasons(found: &Requirements, surfaces: &Surfaces) -> Vec<String> {
             found.meshes
         ),
     };
-    let updates = match model.updates {
-        Updates::Nothing => {
-            "nothing changes, so triangles, instance states and lists for refits are not kept"
-        }
-        Updates::All => "lights change, so everything is kept",
-    };
-    let mut said = vec![
-        format!("layout: {layout}"),
-        format!("levels: {levels}"),
-        format!("updates: {updates}"),
-    ];
+    let mut said = vec![format!("layout: {layout}"), format!("levels: {levels}")];
     if surfaces.glossy > 0 {
         said.push(
             "glossy surfaces: rays into their lobes share lights with samples by probabilities (multiple importance sampling); an \
@@ -490,6 +480,5 @@ fn model_json(model: &Model) -> Value {
         "layout": model.layout.name(),
         "levels": 2 - u32::from(model.single_level),
         "width": model.width,
-        "updates": model.updates.name(),
     })
 }
