@@ -117,11 +117,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
     }
 
-    pub(super) fn insert_mesh(&mut self, triangles: &[N::Light], topology: &Topology<N>) -> MeshId {
-        let index = self.insert_mesh_tree(triangles, topology);
-        self.id_of_mesh(index)
-    }
-
     pub(super) fn insert_instance(
         &mut self,
         mesh: MeshId,

@@ -144,9 +144,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         self.log
             .bound(2 * (self.instances.len() + self.nodes.len()) + LEAST);
     }
-}
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Lists changes by refits since the last call with this cursor, for a mirror of the arrays, as on a device. Call it after
     /// [`refit`](Self::refit); each mirror has its own cursor. Everything is to be copied at the first call, if the cursor is of
     /// another BVH, or if the log has dropped changes since.
@@ -188,18 +186,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let is_live = |mesh: &u32| self.meshes[*mesh as usize].live;
         trees.retain(is_live);
         meshes.retain(is_live);
-        plan.written_nodes = joined(
-            trees
-                .iter()
-                .map(|&m| self.meshes[m as usize].nodes.clone())
-                .collect(),
-        );
-        plan.written_trails = joined(
-            trees
-                .iter()
-                .map(|&m| self.meshes[m as usize].triangles.clone())
-                .collect(),
-        );
+        let with_trees = trees.iter().map(|&mesh| &self.meshes[mesh as usize]);
+        plan.written_nodes = joined(with_trees.clone().map(|own| own.nodes.clone()).collect());
+        plan.written_trails = joined(with_trees.map(|own| own.triangles.clone()).collect());
         meshes.extend(trees);
         let mut pairs = Vec::new();
         let mut roots = meshes.clone();
@@ -300,9 +289,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         heights.into_iter().zip(range).collect()
     }
-}
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// The nodes on the paths to some triangles of a mesh, each with a number that is greater for parents than for children.
     pub(super) fn path_nodes(&self, mesh: u32, triangles: Range<u32>) -> Vec<(u32, u32)> {
         let own = &self.meshes[mesh as usize];

@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Bvh;
+use super::edit::MeshId;
 use super::log::Entry;
 use super::powers::common_power;
 use super::records::{Mesh, put};
@@ -46,8 +47,8 @@ impl<N: Holds> MeshTree<N> {
 }
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
-    /// Adds a mesh with the tree of `topology`, whose primitives are numbered from 0; returns its index.
-    pub(super) fn insert_mesh_tree(&mut self, triangles: &[N::Light], topology: &Topology<N>) -> u32 {
+    /// Adds a mesh with the tree of `topology`, whose primitives are numbered from 0.
+    pub(super) fn insert_mesh(&mut self, triangles: &[N::Light], topology: &Topology<N>) -> MeshId {
         let index = self.mesh_ranges.take(1).start;
         let range = self.triangle_ranges.take(triangles.len() as u32);
         let generation = self
@@ -72,7 +73,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             self.place_tree(index, topology);
         }
         self.sweep_mesh(index);
-        index
+        self.id_of_mesh(index)
     }
 
     /// Removes a mesh.

@@ -227,9 +227,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             above: &mut self.top.above,
         }
     }
-}
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// The arrays as traversal takes them.
     #[must_use]
     pub fn tree(&self) -> LightTree<'_, N, I, W> {

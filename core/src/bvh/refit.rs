@@ -56,7 +56,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         if self.single {
             self.unapplied.clear();
-        } else if !self.unapplied.is_empty() || self.top.has_edits() {
+        } else if !self.unapplied.is_empty() || !self.top.lost.is_empty() {
             self.top.edit(&core::mem::take(&mut self.unapplied), &self.params);
         }
         self.log_top();

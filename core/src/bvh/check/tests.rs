@@ -110,31 +110,16 @@ fn edits_know_of_those_before() {
     );
 }
 
+/// The first wrong one, though others follow; what is within the domain is brought to its normal form.
 #[test]
 fn wrong_triangles_are_named_wherever_they_are() {
-    for (count, wrong) in [(1, 0), (9000, 17), (9000, 8999)] {
-        let mut triangles = triangles(count, 1.0);
-        triangles[wrong].p[2][1] = f32::NAN;
-        // Not the first that is found, but the first that there is.
-        triangles[count - 1].radiance[0] = -1.0;
-        let Err(EditReason::Light { index, error }) = checked(&mut triangles) else {
-            panic!("{count} {wrong}");
-        };
-        assert_eq!(index, wrong);
-        let said = alloc::format!("{error}");
-        assert!(
-            said.starts_with("coordinate y of the third vertex of a triangle is NaN"),
-            "{said}"
-        );
-    }
-    // What is within the domain is brought to its normal form on the way.
-    let mut triangles = triangles(9000, 1.0);
-    triangles[8000].p[0][0] = -0.0;
+    let mut triangles = triangles(9, 1.0);
     triangles[5].p[0][0] = 1e-40;
-    checked(&mut triangles).expect("sound");
-    for i in [5, 8000] {
-        assert_eq!(triangles[i].p[0][0].to_bits(), 0);
-    }
+    triangles[7].p[2][1] = f32::NAN;
+    triangles[8].radiance[0] = -1.0;
+    let found = checked(&mut triangles).expect_err("a wrong one");
+    assert!(matches!(found, EditReason::Light { index: 7, .. }), "{found}");
+    assert_eq!(triangles[5].p[0][0].to_bits(), 0);
 }
 
 #[test]

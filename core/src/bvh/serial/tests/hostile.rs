@@ -91,33 +91,6 @@ fn cut_words_are_refused() {
     assert!(error.to_string().contains("cut or damaged"), "{error}");
 }
 
-/// Numbers and lists that no tree has, written as they are.
-#[test]
-fn lists_that_are_not_those_of_the_tree_are_refused() {
-    type Small = Bvh<MomentNode<8>, Moments, 8>;
-    let wrong: [fn(&mut Small); 7] = [
-        |bvh| bvh.bottom_depth = 0,
-        |bvh| bvh.top.root = bvh.top.nodes.len() as u32,
-        |bvh| bvh.top.free.push(bvh.top.root),
-        |bvh| bvh.top.free.extend([0; 9999]),
-        |bvh| bvh.top.shapes[bvh.top.root as usize].height = 0,
-        |bvh| bvh.top.nodes.push(MomentNode::EMPTY),
-        |bvh| {
-            let own = crate::bvh::top::Opened {
-                first: u32::MAX,
-                parts: Vec::new(),
-            };
-            bvh.top.opened.insert(0, own);
-        },
-    ];
-    for (k, wrong) in wrong.into_iter().enumerate() {
-        let mut bvh: Small = small();
-        assert!(Small::from_words(&bvh.to_words()).is_ok());
-        wrong(&mut bvh);
-        assert!(Small::from_words(&bvh.to_words()).is_err(), "{k}");
-    }
-}
-
 /// A node of a bottom level comes before those below it, and what is below one is together.
 #[test]
 fn nodes_in_another_order_are_refused() {
