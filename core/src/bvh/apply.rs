@@ -63,7 +63,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 }
                 Edit::AddLight { light, mask } => {
                     // A mesh of one light has no tree.
-                    let mesh = self.insert_mesh(&[light], &Topology::default());
+                    let (nodes, trails, depth) = (Vec::new(), Vec::new(), 0);
+                    let none = Topology { nodes, trails, depth };
+                    let mesh = self.insert_mesh(&[light], &none);
                     self.meshes[mesh.index as usize].is_light = true;
                     updated
                         .instances

@@ -296,8 +296,6 @@ mod tests {
         let (instance, mesh) = (ids[0], bvh.mesh_of(ids[0]).unwrap());
         bvh.set_radiance(InstanceId::from_bits(instance.to_bits()), [2.0; 3])
             .unwrap();
-        bvh.add_instance(MeshId::from_bits(mesh.to_bits()), Transform::IDENTITY)
-            .unwrap();
         for word in 0..3 {
             for wrong in [1, u32::MAX] {
                 let mut bits = instance.to_bits();
@@ -312,5 +310,7 @@ mod tests {
                 assert_eq!(error, EditReason::UnknownMesh(id));
             }
         }
+        bvh.add_instance(MeshId::from_bits(mesh.to_bits()), Transform::IDENTITY)
+            .unwrap();
     }
 }

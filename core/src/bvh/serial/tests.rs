@@ -6,7 +6,6 @@ mod hostile;
 
 use std::string::ToString;
 
-use super::header::layout;
 use crate::build::BuildParams;
 use crate::bvh::{Bvh, RebuilderParams, Swap};
 use crate::exact::pow2;
@@ -153,10 +152,4 @@ fn another_type_is_refused() {
     let wide = Bvh::<MomentNode<16>, Moments, 16>::from_words(&words);
     let error = wide.expect_err("another width").to_string();
     assert!(error.contains("nodes of 8 children, expected 16"), "{error}");
-    let names = [
-        layout::<MomentNode<8>, 8>(),
-        layout::<TwoSidedMomentNode<8>, 8>(),
-        layout::<CompactNode<4>, 4>(),
-    ];
-    assert!(names[0] != names[1] && names[1] != names[2] && names[2] != names[0]);
 }
