@@ -41,11 +41,6 @@ fn words<T: Copy, const N: usize>(words: [u32; N]) -> T {
     unsafe { words.as_ptr().cast::<T>().read_unaligned() }
 }
 
-fn identity() -> CTransform {
-    let one = 1.0_f32.to_bits();
-    words([one, 0, 0, 0, one, 0, 0, 0, one, 0, 0, 0])
-}
-
 #[test]
 fn null_and_unaligned_pointers_are_refused() {
     let bvh = lightbvh_create();
@@ -120,7 +115,7 @@ fn counts_and_numbers_out_of_range_are_refused() {
         ok(lightbvh_add_instances(
             bvh,
             mesh,
-            &identity(),
+            &at(0.0),
             &WHITE,
             1,
             &mut instance,
@@ -198,7 +193,7 @@ fn wrong_ids_points_and_lights_are_refused() {
     let (bvh, other) = (lightbvh_create(), lightbvh_create());
     let (mut mesh, mut instance): (CMesh, CInstance) = (words([0; 4]), words([0; 4]));
     let mut samples = [SampledLight::NONE; 2];
-    let place = identity();
+    let place = at(0.0);
     let (mut first, mut lights) = (0, 0);
     let mut on = LAMP.point([0.5, 0.5]);
     // SAFETY: all pointers are good.
@@ -257,7 +252,7 @@ fn wrong_ids_points_and_lights_are_refused() {
             assert_eq!(asked, Status::NoLight);
         }
         // The second of two places is bad, so neither is taken.
-        let mut flat = identity();
+        let mut flat = at(0.0);
         let far: &mut [f32; 12] = (&raw mut flat).cast::<[f32; 12]>().as_mut().unwrap();
         far[11] = f32::NAN;
         let mut two = [instance; 2];

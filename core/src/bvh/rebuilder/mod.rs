@@ -148,7 +148,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
                 // The next build starts a new worker; the failed work is still to be done.
                 self.worker = None;
                 self.is_due = true;
-                return Err(RebuildError::Panicked { message });
+                return Err(RebuildError { message });
             }
         };
         self.rest(built.time);
