@@ -14,17 +14,6 @@ use crate::widest::widest;
 /// Smaller trees run on one thread.
 #[cfg(feature = "rayon")]
 const PARALLEL: usize = 2048;
-/// [`refit::bottom`] over `list`, whose nodes are all of one level.
-pub fn bottom<N: Node<W>, const W: usize>(nodes: &mut [N], triangles: &[N::Light], list: &[u32]) {
-    widest(
-        #[inline(always)]
-        || {
-            for &index in list {
-                nodes[index as usize] = refit::bottom(nodes, triangles, index);
-            }
-        },
-    );
-}
 
 /// [`refit::bottom`] over all `nodes`, a tree in depth-first order whose root is node `first`. Children come before parents, from
 /// the last node to the first, so that memory is read in one direction; subtrees go to several threads.

@@ -190,62 +190,6 @@ impl Path {
 mod tests {
     use super::*;
 
-    /// Every slot at every level is found again, whatever the others are.
-    fn keeps_slots<const W: usize>() {
-        let slots = |level: u32, seed: u32| noise(level * 7 + seed) % W as u32;
-        for seed in 0..50 {
-            let mut trail = BitTrail { low: !0, high: !0 };
-            for level in (0..max_levels(W)).rev() {
-                trail = trail.with::<W>(level, slots(level, seed));
-            }
-            for level in 0..max_levels(W) {
-                assert_eq!(trail.slot::<W>(level), slots(level, seed), "W {W}, level {level}");
-            }
-        }
-    }
-
-    fn noise(x: u32) -> u32 {
-        crate::exact::hash(x)
-    }
-
-    #[test]
-    fn slots_are_kept() {
-        keeps_slots::<2>();
-        keeps_slots::<3>();
-        keeps_slots::<4>();
-        keeps_slots::<5>();
-        keeps_slots::<8>();
-        keeps_slots::<9>();
-        keeps_slots::<16>();
-    }
-
-    /// A trail from the last slot to the first is that from the first to the last.
-    fn grows_from_its_end<const W: usize>() {
-        for levels in [1, 3, word_levels(W), word_levels(W) + 1, max_levels(W)] {
-            let slot = |level: u32| noise(level * 5 + levels) % W as u32;
-            let (mut down, mut up) = (BitTrail::default(), BitTrail::default());
-            for level in 0..levels {
-                down = down.with::<W>(level, slot(level));
-                up = up.behind::<W>(slot(levels - 1 - level));
-            }
-            assert_eq!(down, up, "W {W}, {levels} levels");
-        }
-        assert_eq!(
-            place_parts::<W>(place::<W>(MAX_PLACES - 1, 1)),
-            (MAX_PLACES - 1, 1)
-        );
-        assert!(place::<W>(MAX_PLACES - 1, W as u32 - 1) < u32::MAX);
-    }
-
-    #[test]
-    fn trails_grow_from_their_ends() {
-        grows_from_its_end::<2>();
-        grows_from_its_end::<3>();
-        grows_from_its_end::<4>();
-        grows_from_its_end::<8>();
-        grows_from_its_end::<16>();
-    }
-
     #[test]
     fn levels_fill_the_words() {
         let levels = [2, 3, 4, 5, 8, 9, 16].map(max_levels);

@@ -7,7 +7,6 @@ use bytemuck::{Pod, Zeroable};
 use crate::importance::DefaultImportance;
 use crate::instance::Instance;
 pub use crate::light::INVALID;
-use crate::light::{Light, world_light};
 use crate::node::DefaultNode;
 use crate::trail::{BitTrail, Path, max_levels, place_parts};
 
@@ -75,21 +74,6 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
             depth: self.depth,
             importance: PhantomData,
         }
-    }
-
-    /// Light `light` of `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them; `triangles` are those of the
-    /// `Bvh`, in the spaces of their meshes. Without radiance where there is no such light. A single level has one
-    /// instance, whichever is named.
-    #[inline]
-    #[must_use]
-    pub fn triangle<L: Light>(&self, triangles: &[L], light: u32, instance: u32) -> L {
-        // A single level has one instance, whatever is named; of several, none is meant by no index.
-        let instance = match (self.live, instance) {
-            (0, _) => INVALID,
-            (_, INVALID) => INVALID - 1,
-            _ => instance,
-        };
-        world_light(triangles, self.instances, light, instance)
     }
 
     /// The path to triangle `triangle` of the bottom level of instance `instance` (`u32::MAX` in a single-level tree).

@@ -65,8 +65,8 @@ fn tree<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         0 => Bvh::<N, (), W>::two_level(lights, params),
         _ => Bvh::single_level(lights, params),
     };
-    let stats = bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
-    assert!(bvh.bytes() > 0 && stats.depth > 0);
+    bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
+    assert!(bvh.bytes() > 0 && bvh.depth() > 0);
     if let Some((points, random)) = &rest.points {
         distributions::<N, I, W>(&bvh, lights, points, *random);
     }

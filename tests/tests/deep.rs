@@ -115,8 +115,8 @@ where
         let at = Transform::at([0.0, 0.0, count as f32]);
         instances.push(scene.add_instance(mesh, at).expect("an instance"));
         scene.refit();
-        let stats = scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
-        assert_eq!(scene.tree().trail_words, words, "{} levels", stats.depth);
+        scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
+        assert_eq!(scene.tree().trail_words, words, "{count} lights");
         assert_eq!(
             scene.tree().trails.len(),
             scene.triangles().len() * words as usize

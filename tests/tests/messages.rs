@@ -187,7 +187,7 @@ fn files() {
 fn panics() {
     let message = String::from("out of luck");
     says(
-        &RebuildError::Panicked { message },
+        &RebuildError { message },
         &["panicked: out of luck", "keeps its trees"],
     );
 }

@@ -58,7 +58,7 @@ typedef struct lightbvh_instance {
 typedef struct lightbvh_triangle {
     float p[3][3];     /* vertices; coordinates within 2^40 */
     float radiance[3]; /* each 0, or from 2^-100 to 2^100 */
-    uint32_t mesh;     /* what lightbvh_triangle_of returns: the index of the instance; ignored where triangles come in */
+    uint32_t mesh;     /* ignored */
     uint32_t flags;    /* 0 or LIGHTBVH_TWO_SIDED */
 } lightbvh_triangle;
 
@@ -136,9 +136,6 @@ lightbvh_status lightbvh_remove_mesh(lightbvh *bvh, lightbvh_mesh mesh);
 
 /* Computes the nodes that the edits touched: once a frame. */
 lightbvh_status lightbvh_refit(lightbvh *bvh);
-/* Refits, then rebuilds the tree over the instances, and the tree of each mesh that changed since it was built, on this
- * thread. Takes time in proportion to the scene; use a rebuilder for moving lights. */
-lightbvh_status lightbvh_rebuild(lightbvh *bvh);
 
 /* Frames: lightbvh_begin_frame, edits, lightbvh_refit, lightbvh_end_frame. A rebuilder builds the tree over the instances
  * after any change, and that of a mesh after changes of its triangles. Begin and end of a frame take time in proportion to
@@ -178,17 +175,12 @@ lightbvh_status lightbvh_sample_batch(const lightbvh *bvh, const lightbvh_point 
 /* The probability of a light at a point: to the bit the one that comes with its sample; 0 where there is no such light. */
 lightbvh_status lightbvh_pmf(const lightbvh *bvh, const lightbvh_point *point, uint32_t light, uint32_t instance,
                              float *pmf);
-/* The triangle, in the world, that a sample names. */
-lightbvh_status lightbvh_triangle_of(const lightbvh *bvh, uint32_t light, uint32_t instance,
-                                     lightbvh_triangle *triangle);
 /* The numbers of an instance's lights: `count` from `first`, triangle by triangle of its mesh. LIGHTBVH_REFUSED where the
  * instance was removed: what keeps ids from frame to frame asks so. */
 lightbvh_status lightbvh_lights_of(const lightbvh *bvh, lightbvh_instance instance, uint32_t *first, uint32_t *count);
 /* A point on a light, uniform over its area where u and v are; numbers in [0, 1), others are a LIGHTBVH_BAD_POINT. */
 lightbvh_status lightbvh_point_of(const lightbvh *bvh, uint32_t light, uint32_t instance, float u, float v,
                                   lightbvh_light_point *point);
-/* How many lights there are: the triangles of all instances. */
-lightbvh_status lightbvh_light_count(const lightbvh *bvh, size_t *count);
 
 #ifdef __cplusplus
 }

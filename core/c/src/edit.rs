@@ -196,21 +196,6 @@ pub unsafe extern "C" fn lightbvh_refit(bvh: *mut Handle) -> Status {
     }
 }
 
-/// Rebuilds the top level, and the trees of changed meshes.
-///
-/// # Safety
-/// As [`lightbvh_add_mesh`].
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_rebuild(bvh: *mut Handle) -> Status {
-    // SAFETY: the caller's promise.
-    unsafe {
-        Handle::change(bvh, |bvh| {
-            bvh.rebuild();
-            Ok(())
-        })
-    }
-}
-
 /// From now on new lights may get those numbers.
 ///
 /// # Safety

@@ -2,7 +2,7 @@
 
 use lightbvh::bvh::EditReason;
 use lightbvh::error::DomainError;
-use lightbvh::{EmissiveTriangle, LightBvh, LightPoint, Random64, SampledLight, ShadingPoint};
+use lightbvh::{LightPoint, Random64, SampledLight, ShadingPoint};
 
 use crate::error::{Fault, Status};
 use crate::held::Handle;
@@ -11,14 +11,6 @@ use crate::raw;
 
 fn bad_point(error: DomainError) -> Fault {
     Fault::new(Status::BadPoint, error)
-}
-
-fn triangle(bvh: &LightBvh, light: u32, instance: u32) -> Result<EmissiveTriangle, Fault> {
-    let missing = || {
-        let message = format!("no light {light} in an instance {instance}");
-        Fault::new(Status::NoLight, message)
-    };
-    bvh.triangle(light, instance).ok_or_else(missing)
 }
 
 /// Chooses a light for a point.
@@ -100,27 +92,6 @@ pub unsafe extern "C" fn lightbvh_pmf(
     }
 }
 
-/// The triangle, in the world, that a sample names.
-///
-/// # Safety
-/// As [`lightbvh_sample_light`].
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_triangle_of(
-    bvh: *const Handle,
-    light: u32,
-    instance: u32,
-    triangle: *mut EmissiveTriangle,
-) -> Status {
-    // SAFETY: the caller's promise, here and below.
-    unsafe {
-        Handle::ask(bvh, |bvh| {
-            let place = raw::place(triangle, "triangle")?;
-            place.write(self::triangle(bvh, light, instance)?);
-            Ok(())
-        })
-    }
-}
-
 /// The numbers of an instance's lights.
 ///
 /// # Safety
@@ -168,22 +139,12 @@ pub unsafe extern "C" fn lightbvh_point_of(
                 let message = format!("u and v are {u} and {v}, expected numbers in [0, 1)");
                 return Err(Fault::new(Status::BadPoint, message));
             }
-            place.write(triangle(bvh, light, instance)?.point([u, v]));
-            Ok(())
-        })
-    }
-}
-
-/// How many lights there are.
-///
-/// # Safety
-/// As [`lightbvh_sample_light`].
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_light_count(bvh: *const Handle, count: *mut usize) -> Status {
-    // SAFETY: the caller's promise, here and below.
-    unsafe {
-        Handle::ask(bvh, |bvh| {
-            raw::place(count, "count")?.write(bvh.light_count());
+            let missing = || {
+                let message = format!("no light {light} in an instance {instance}");
+                Fault::new(Status::NoLight, message)
+            };
+            let triangle = bvh.triangle(light, instance).ok_or_else(missing)?;
+            place.write(triangle.point([u, v]));
             Ok(())
         })
     }

@@ -61,7 +61,6 @@ fn expected() -> String {
     lamp.p[1][0] = 0.0625;
     bvh.set_triangles(mesh, vec![lamp]).unwrap();
     bvh.refit();
-    bvh.rebuild();
     let mut text = String::new();
     for range in bvh.take_removed_lights() {
         writeln!(text, "{} lights from {} on are no more", range.len(), range.start).unwrap();
@@ -109,7 +108,6 @@ fn expected() -> String {
         lights.len()
     )
     .unwrap();
-    writeln!(text, "{} lights", bvh.light_count()).unwrap();
     for k in 0..1000_u16 {
         let point = ShadingPoint {
             p: [0.125 * f32::from(k), 0.0, 0.5],
@@ -118,8 +116,8 @@ fn expected() -> String {
         let random = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(u64::from(k) + 1);
         let sample = bvh.sample(&point, random);
         let triangle = bvh.triangle(sample.light, sample.instance).unwrap();
-        let density = triangle.point([0.25, 0.5]).density;
-        let [pmf, x, density] = [sample.pmf, triangle.p[1][0], density].map(f32::to_bits);
+        let on = triangle.point([0.25, 0.5]);
+        let [pmf, x, density] = [sample.pmf, on.p[0], on.density].map(f32::to_bits);
         writeln!(
             text,
             "{} {} {pmf:08x} {x:08x} {density:08x}",

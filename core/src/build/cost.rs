@@ -17,13 +17,6 @@ pub enum Heuristic {
     Ward,
 }
 
-impl Heuristic {
-    /// Whether it splits into two, and the binary tree is collapsed into a wide one.
-    pub(super) fn is_binary(self) -> bool {
-        matches!(self, Self::Sah | Self::Saoh)
-    }
-}
-
 /// Scales that make the costs within one node comparable and free of units: everything lies in about 0..1, so no scale
 /// of scene or flux overflows, and scaling by powers of two changes no bit.
 #[derive(Clone, Copy, Debug)]

@@ -31,17 +31,6 @@ pub(crate) struct Topology<N> {
     pub depth: u32,
 }
 
-impl<N> Default for Topology<N> {
-    /// Over no light.
-    fn default() -> Self {
-        Self {
-            nodes: Vec::new(),
-            trails: Vec::new(),
-            depth: 0,
-        }
-    }
-}
-
 /// Build options.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuildParams {

@@ -2,11 +2,11 @@
 
 use alloc::vec::Vec;
 
-use super::binary::{Binary, LEAF, binary_tree};
+use super::binary::{LEAF, binary_tree};
 use super::collapse::{Collapse, binary_levels};
 use super::primitive::Primitive;
 use super::ward::{WardPrimitive, build_ward};
-use super::{BuildParams, Topology};
+use super::{BuildParams, Heuristic, Topology};
 use crate::light::Light;
 use crate::node::{Node, kind};
 use crate::summary::Summary;
@@ -31,7 +31,7 @@ pub(crate) fn build_over<N: Node<W>, const W: usize>(
     triangles: &[N::Light],
     params: &BuildParams,
 ) -> Topology<N> {
-    if params.heuristic.is_binary() {
+    if params.heuristic != Heuristic::Ward {
         let bounds = |(i, light): (u32, &N::Light)| Primitive::new(i, &light.bounds());
         let mut primitives: Vec<Primitive> = (0..).zip(triangles).map(bounds).collect();
         return build_binary::<N, W>(&mut primitives, kind::LIGHT, params);
@@ -51,7 +51,7 @@ pub(crate) fn build_top<N: Node<W>, const W: usize>(
     params: &BuildParams,
 ) -> Topology<N> {
     let at_least = |phi: f32| if phi > floor { phi } else { floor };
-    if params.heuristic.is_binary() {
+    if params.heuristic != Heuristic::Ward {
         let mut primitives: Vec<Primitive> = instances
             .map(|(index, summary)| {
                 let mut bounds = summary.bounds();
@@ -83,51 +83,58 @@ fn build_binary<N: Node<W>, const W: usize>(
     let mut out = Topology {
         nodes: Vec::with_capacity(primitives.len()),
         trails: Vec::with_capacity(primitives.len()),
-        depth: 1,
+        depth: 0,
     };
     if let [only] = primitives {
-        let mut root = N::EMPTY;
-        root.set_child(0, leaf_kind, only.index);
-        out.nodes.push(root);
-        out.trails.push((only.index, BitTrail::default()));
+        let root = |(), _| [Child::Leaf(only.index)];
+        emit::<N, _, _, W>(&mut out, leaf_kind, &root, (), (0, BitTrail::default()));
     } else {
         let binary = binary_tree(primitives, binary_levels::<W>(), params);
-        let mut emitter = Emitter::<N, W> {
-            leaf_kind,
-            binary: &binary.nodes,
-            collapse: Collapse::of(&binary),
-            out: &mut out,
+        let collapse = Collapse::<W>::of(&binary);
+        let children = |node, _| {
+            let (children, count) = collapse.children(&binary.nodes, node);
+            let child = |child| match child & LEAF {
+                0 => Child::Node(child),
+                _ => Child::Leaf(child & !LEAF),
+            };
+            children.into_iter().take(count).map(child)
         };
-        emitter.node(0, 0, BitTrail::default());
+        emit::<N, _, _, W>(&mut out, leaf_kind, &children, 0, (0, BitTrail::default()));
     }
     out
 }
 
-struct Emitter<'a, N, const W: usize> {
-    leaf_kind: u32,
-    binary: &'a [Binary],
-    collapse: Collapse<W>,
-    out: &'a mut Topology<N>,
+/// A child of a wide node.
+pub(super) enum Child<T> {
+    /// The index of a primitive.
+    Leaf(u32),
+    /// What becomes a node.
+    Node(T),
 }
 
-impl<N: Node<W>, const W: usize> Emitter<'_, N, W> {
-    /// Emits the wide node in place of a binary one at `level`; recursion is as deep as the tree, at most 64.
-    fn node(&mut self, binary: u32, level: u32, trail: BitTrail) {
-        let index = self.out.nodes.len();
-        self.out.nodes.push(N::EMPTY);
-        self.out.depth = self.out.depth.max(level + 1);
-
-        let (children, count) = self.collapse.children(self.binary, binary);
-        for (slot, &child) in children[..count].iter().enumerate() {
-            let own_trail = trail.with::<W>(level, slot as u32);
-            if child & LEAF != 0 {
-                let primitive = child & !LEAF;
-                self.out.nodes[index].set_child(slot, self.leaf_kind, primitive);
-                self.out.trails.push((primitive, own_trail));
-            } else {
-                let link = self.out.nodes.len() as u32;
-                self.out.nodes[index].set_child(slot, kind::INNER, link);
-                self.node(child, level + 1, own_trail);
+/// Emits the node over `item` at a level and a trail, and those below it, whose children are found by `children` from the item and
+/// its level; recursion is as deep as the tree, at most 64.
+pub(super) fn emit<N: Node<W>, T, C: IntoIterator<Item = Child<T>>, const W: usize>(
+    out: &mut Topology<N>,
+    leaf_kind: u32,
+    children: &impl Fn(T, u32) -> C,
+    item: T,
+    (level, trail): (u32, BitTrail),
+) {
+    let node = out.nodes.len();
+    out.nodes.push(N::EMPTY);
+    out.depth = out.depth.max(level + 1);
+    for (slot, child) in children(item, level).into_iter().enumerate() {
+        let own = trail.with::<W>(level, slot as u32);
+        match child {
+            Child::Leaf(index) => {
+                out.nodes[node].set_child(slot, leaf_kind, index);
+                out.trails.push((index, own));
+            }
+            Child::Node(item) => {
+                let link = out.nodes.len() as u32;
+                out.nodes[node].set_child(slot, kind::INNER, link);
+                emit(out, leaf_kind, children, item, (level + 1, own));
             }
         }
     }

@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use super::edit::{Edit, EditError, InstanceId, MeshId};
+use super::log::Entry;
 use super::records::put;
 use super::{Bvh, InstanceState};
 use crate::build::{Topology, build_each};
@@ -56,14 +57,15 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                     radiance,
                     mask,
                 } => {
-                    let mesh = mesh.place_in_batch().map_or(mesh, |place| updated.meshes[place]);
                     updated
                         .instances
                         .push(self.insert_instance(mesh, transform, radiance, mask));
                 }
                 Edit::AddLight { light, mask } => {
                     // A mesh of one light has no tree.
-                    let mesh = self.insert_mesh(&[light], &Topology::default());
+                    let (nodes, trails, depth) = (Vec::new(), Vec::new(), 0);
+                    let none = Topology { nodes, trails, depth };
+                    let mesh = self.insert_mesh(&[light], &none);
                     self.meshes[mesh.index as usize].is_light = true;
                     updated
                         .instances
@@ -101,34 +103,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(updated)
     }
 
-    /// Applies each sound edit of a batch, in order. Returns the ids that were added, and the errors of the refused edits.
-    /// [`apply`](Self::apply) is all or none, and builds several meshes at a time. [`MeshId::added`] counts refused meshes too.
-    pub fn apply_each(&mut self, edits: Vec<Edit<N::Light>>) -> (Added, Vec<EditError>) {
-        let (mut updated, mut refused) = (Added::default(), Vec::new());
-        // By place in the batch.
-        let mut meshes: Vec<Option<MeshId>> = Vec::new();
-        for (index, mut edit) in edits.into_iter().enumerate() {
-            if let Edit::AddInstance { mesh, .. } = &mut edit {
-                let place = mesh.place_in_batch();
-                let known = place.and_then(|place| meshes.get(place).copied().flatten());
-                *mesh = known.unwrap_or(*mesh);
-            }
-            let adds_mesh = matches!(edit, Edit::AddMesh { .. });
-            let done = self.apply(alloc::vec![edit]);
-            if adds_mesh {
-                meshes.push(done.as_ref().ok().map(|added| added.meshes[0]));
-            }
-            match done {
-                Ok(mut added) => {
-                    updated.meshes.append(&mut added.meshes);
-                    updated.instances.append(&mut added.instances);
-                }
-                Err(error) => refused.push(EditError { edit: index, ..error }),
-            }
-        }
-        (updated, refused)
-    }
-
     fn set_place(&mut self, index: u32, transform: Transform) {
         let own = &mut self.placed[index as usize].transform;
         let bits = |column: &[f32; 3]| column.map(f32::to_bits);
@@ -140,14 +114,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         } else if is_moved {
             // No other word depends on it.
             self.instances[index as usize].translation = transform.origin();
-            self.log.instance(index);
+            self.log.push(Entry::Instance(index));
             self.mark_stale(index);
         }
-    }
-
-    pub(super) fn insert_mesh(&mut self, triangles: &[N::Light], topology: &Topology<N>) -> MeshId {
-        let index = self.insert_mesh_tree(triangles, topology);
-        self.id_of_mesh(index)
     }
 
     pub(super) fn insert_instance(
@@ -208,12 +177,12 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         let end = self.live.len() as u32;
         self.instances[end as usize].listed = NO_INSTANCE.listed;
-        self.log.instance(end);
+        self.log.push(Entry::Instance(end));
         self.instances[index as usize] = Instance {
             listed: self.instances[index as usize].listed,
             ..NO_INSTANCE
         };
-        self.log.instance(index);
+        self.log.push(Entry::Instance(index));
         self.retire_lights(lights);
         self.placed_ranges.give(index..index + 1);
         if goes_too {
@@ -224,14 +193,14 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Writes entry `entry` of the list of instances in use into the record that holds it.
     fn list(&mut self, entry: u32) {
         self.instances[entry as usize].listed = self.live[entry as usize];
-        self.log.instance(entry);
+        self.log.push(Entry::Instance(entry));
     }
 
-    /// Brings the words of an instance in line with its mesh, transform and radiance.
-    pub(super) fn place(&mut self, index: u32) {
+    /// The words of an instance by its mesh, transform and radiance.
+    pub(super) fn record_of(&self, index: u32) -> Instance {
         let placed = &self.placed[index as usize];
         let mesh = &self.meshes[placed.mesh as usize];
-        self.instances[index as usize] = Instance {
+        Instance {
             root: mesh.root(),
             blas: placed.mesh,
             first: placed.lights.start,
@@ -240,8 +209,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             listed: self.instances[index as usize].listed,
             mask: placed.mask,
             ..self.in_place(placed.mesh, placed.transform, placed.radiance)
-        };
-        self.log.instance(index);
+        }
+    }
+
+    /// Brings the words of an instance in line with its mesh, transform and radiance.
+    pub(super) fn place(&mut self, index: u32) {
+        self.instances[index as usize] = self.record_of(index);
+        self.log.push(Entry::Instance(index));
         self.mark_stale(index);
     }
 }

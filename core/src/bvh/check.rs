@@ -32,8 +32,6 @@ struct Batch {
     instances: usize,
     lights: usize,
     triangles: usize,
-    /// Meshes added: number of triangles, and how far they reach.
-    meshes: Vec<(usize, f32)>,
 }
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
@@ -71,7 +69,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 }
                 checked(triangles)?;
                 batch.triangles += triangles.len();
-                batch.meshes.push((triangles.len(), reach_of(triangles)));
             }
             &mut Edit::AddInstance {
                 mesh,
@@ -79,11 +76,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 radiance,
                 mask: _,
             } => {
-                let (count, reach) = match mesh.place_in_batch() {
-                    Some(place) => *batch.meshes.get(place).ok_or(EditReason::UnknownMesh(mesh))?,
-                    None => (self.known_mesh(batch, mesh)?, self.reach(batch, mesh)),
-                };
-                transform.check(reach).map_err(EditReason::Transform)?;
+                let count = self.known_mesh(batch, mesh)?;
+                transform
+                    .check(self.reach(batch, mesh))
+                    .map_err(EditReason::Transform)?;
                 factor(radiance)?;
                 *batch.uses.entry(mesh).or_default() += 1;
                 if batch.deforms {

@@ -6,7 +6,6 @@ use core::fmt;
 use crate::domain::{DomainError, Number};
 use crate::light::EmissiveTriangle;
 use crate::transform::Transform;
-use crate::tree::INVALID;
 
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident, $(#[$of_index:meta])*) => {
@@ -57,19 +56,6 @@ id!(
     /// (see [`Bvh::removed_lights`](super::Bvh::removed_lights)).
 );
 
-impl MeshId {
-    /// Stands for the mesh that the same batch adds as its `place`-th, counting from 0: an instance of it can then be added by an
-    /// [`Edit::AddInstance`] further on in the batch. Everywhere else no mesh has this id.
-    #[must_use]
-    pub const fn added(place: u32) -> Self {
-        Self::from_bits([INVALID, place, INVALID])
-    }
-
-    pub(super) fn place_in_batch(self) -> Option<usize> {
-        (self == Self::added(self.index)).then_some(self.index as usize)
-    }
-}
-
 /// One change of a scene.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -82,7 +68,7 @@ pub enum Edit<L = EmissiveTriangle> {
     },
     /// A mesh put into the world.
     AddInstance {
-        /// Which mesh; [`MeshId::added`] for one that the same batch adds.
+        /// Which mesh.
         mesh: MeshId,
         /// Where.
         transform: Transform,
@@ -224,11 +210,6 @@ impl fmt::Display for EditError {
 impl fmt::Display for EditReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::UnknownMesh(id) if id.place_in_batch().is_some() => write!(
-                f,
-                "MeshId::added({}): only an AddInstance takes it, after that many AddMesh and one more in its batch",
-                id.index
-            ),
             Self::UnknownMesh(id) => write!(
                 f,
                 "mesh {} is not there: it was removed, or the id is of another light BVH (one that was cloned or read has ids of its own: `mesh_id`)",
@@ -308,29 +289,13 @@ mod tests {
     use crate::kit::scenes::scattered;
     use crate::kit::triangle;
 
-    fn scene() -> (LightBvh, MeshId, InstanceId) {
-        let lamp = triangle([[0.0, 3.0, 0.0], [1.0, 3.0, 0.0], [0.0, 3.0, 1.0]]);
-        let (bvh, ids): (LightBvh, _) = scattered(vec![lamp], 1, |_| [0.0; 3]);
-        let mesh = bvh.mesh_of(ids[0]).unwrap();
-        (bvh, mesh, ids[0])
-    }
-
-    #[test]
-    fn ids_survive_as_words() {
-        let (mut bvh, mesh, instance) = scene();
-        assert_eq!(MeshId::from_bits(mesh.to_bits()), mesh);
-        assert_eq!(InstanceId::from_bits(instance.to_bits()), instance);
-        bvh.set_radiance(InstanceId::from_bits(instance.to_bits()), [2.0; 3])
-            .unwrap();
-        for bits in [[1, 2, 3], [u32::MAX, 0, 7]] {
-            assert_eq!(MeshId::from_bits(bits).to_bits(), bits);
-            assert_eq!(InstanceId::from_bits(bits).to_bits(), bits);
-        }
-    }
-
     #[test]
     fn words_of_no_id_are_refused() {
-        let (mut bvh, mesh, instance) = scene();
+        let lamp = triangle([[0.0, 3.0, 0.0], [1.0, 3.0, 0.0], [0.0, 3.0, 1.0]]);
+        let (mut bvh, ids): (LightBvh, _) = scattered(vec![lamp], 1, |_| [0.0; 3]);
+        let (instance, mesh) = (ids[0], bvh.mesh_of(ids[0]).unwrap());
+        bvh.set_radiance(InstanceId::from_bits(instance.to_bits()), [2.0; 3])
+            .unwrap();
         for word in 0..3 {
             for wrong in [1, u32::MAX] {
                 let mut bits = instance.to_bits();
@@ -345,5 +310,7 @@ mod tests {
                 assert_eq!(error, EditReason::UnknownMesh(id));
             }
         }
+        bvh.add_instance(MeshId::from_bits(mesh.to_bits()), Transform::IDENTITY)
+            .unwrap();
     }
 }

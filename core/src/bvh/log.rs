@@ -15,7 +15,7 @@ const LEAST: usize = 4096;
 
 /// A change.
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Entry {
+pub(super) enum Entry {
     /// The words of an instance's record.
     Instance(u32),
     /// Children of a node of the top level.
@@ -57,29 +57,9 @@ impl Log {
         self.start + self.entries.len() as u64
     }
 
-    fn push(&mut self, entry: Entry) {
-        // Equal entries are not merged: a mirror may have read the last one already.
+    /// Adds an entry. Equal ones are not merged: a mirror may have read the last one already.
+    pub fn push(&mut self, entry: Entry) {
         self.entries.push_back(entry);
-    }
-
-    pub fn instance(&mut self, index: u32) {
-        self.push(Entry::Instance(index));
-    }
-
-    pub fn triangles(&mut self, range: Range<u32>) {
-        self.push(Entry::Triangles(range));
-    }
-
-    pub fn tree(&mut self, mesh: u32) {
-        self.push(Entry::Tree(mesh));
-    }
-
-    pub fn mesh(&mut self, mesh: u32) {
-        self.push(Entry::Mesh(mesh));
-    }
-
-    pub fn paths(&mut self, mesh: u32, range: Range<u32>) {
-        self.push(Entry::Paths(mesh, range));
     }
 
     /// Drops the oldest entries; the newest `most` stay.
@@ -164,9 +144,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         self.log
             .bound(2 * (self.instances.len() + self.nodes.len()) + LEAST);
     }
-}
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Lists changes by refits since the last call with this cursor, for a mirror of the arrays, as on a device. Call it after
     /// [`refit`](Self::refit); each mirror has its own cursor. Everything is to be copied at the first call, if the cursor is of
     /// another BVH, or if the log has dropped changes since.
@@ -208,18 +186,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let is_live = |mesh: &u32| self.meshes[*mesh as usize].live;
         trees.retain(is_live);
         meshes.retain(is_live);
-        plan.written_nodes = joined(
-            trees
-                .iter()
-                .map(|&m| self.meshes[m as usize].nodes.clone())
-                .collect(),
-        );
-        plan.written_trails = joined(
-            trees
-                .iter()
-                .map(|&m| self.meshes[m as usize].triangles.clone())
-                .collect(),
-        );
+        let with_trees = trees.iter().map(|&mesh| &self.meshes[mesh as usize]);
+        plan.written_nodes = joined(with_trees.clone().map(|own| own.nodes.clone()).collect());
+        plan.written_trails = joined(with_trees.map(|own| own.triangles.clone()).collect());
         meshes.extend(trees);
         let mut pairs = Vec::new();
         let mut roots = meshes.clone();
@@ -320,9 +289,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         heights.into_iter().zip(range).collect()
     }
-}
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// The nodes on the paths to some triangles of a mesh, each with a number that is greater for parents than for children.
     pub(super) fn path_nodes(&self, mesh: u32, triangles: Range<u32>) -> Vec<(u32, u32)> {
         let own = &self.meshes[mesh as usize];

@@ -4,6 +4,8 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Bvh;
+use super::edit::MeshId;
+use super::log::Entry;
 use super::powers::common_power;
 use super::records::{Mesh, put};
 use super::refit::SWEPT;
@@ -45,8 +47,8 @@ impl<N: Holds> MeshTree<N> {
 }
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
-    /// Adds a mesh with the tree of `topology`, whose primitives are numbered from 0; returns its index.
-    pub(super) fn insert_mesh_tree(&mut self, triangles: &[N::Light], topology: &Topology<N>) -> u32 {
+    /// Adds a mesh with the tree of `topology`, whose primitives are numbered from 0.
+    pub(super) fn insert_mesh(&mut self, triangles: &[N::Light], topology: &Topology<N>) -> MeshId {
         let index = self.mesh_ranges.take(1).start;
         let range = self.triangle_ranges.take(triangles.len() as u32);
         let generation = self
@@ -55,28 +57,23 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             .map_or(0, |old| old.generation + 1);
         let mesh = Mesh {
             live: true,
-            is_light: false,
             generation,
-            users: Vec::new(),
-            nodes: 0..0,
-            room: 0,
             triangles: range,
-            depth: 0,
             reach: reach_of(triangles),
             power: common_power(triangles),
-            version: 0,
+            ..Mesh::default()
         };
         put(&mut self.meshes, index, mesh);
         put(&mut self.roots, index, BlasRoot::new(INVALID, &N::Summary::EMPTY));
         self.put_triangles(index, 0, triangles);
         if self.is_alone(triangles.len()) {
             // An old trail may stay: none is followed.
-            self.log.tree(index);
+            self.log.push(Entry::Tree(index));
         } else {
             self.place_tree(index, topology);
         }
         self.sweep_mesh(index);
-        index
+        self.id_of_mesh(index)
     }
 
     /// Removes a mesh.
@@ -106,8 +103,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         let all = range.len() == count;
         match all {
-            true => self.log.mesh(index),
-            false => self.log.paths(index, range.clone()),
+            true => self.log.push(Entry::Mesh(index)),
+            false => self.log.push(Entry::Paths(index, range.clone())),
         }
         match self.dirty.get_mut(&index) {
             _ if all => _ = self.dirty.insert(index, Vec::new()),
@@ -131,7 +128,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         for (to, from) in own.iter_mut().zip(triangles) {
             *to = from.of_mesh(index);
         }
-        self.log.triangles(range.clone());
+        self.log.push(Entry::Triangles(range.clone()));
         let power = self.power_of(index);
         if core::mem::replace(&mut self.meshes[index as usize].power, power) != power {
             for user in self.meshes[index as usize].users.clone() {
@@ -158,7 +155,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             }
             for user in self.meshes[index as usize].users.clone() {
                 self.instances[user as usize].root = start;
-                self.log.instance(user);
+                self.log.push(Entry::Instance(user));
             }
         }
         for (to, node) in self.nodes[start as usize..].iter_mut().zip(&topology.nodes) {
@@ -176,7 +173,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         mesh.depth = topology.depth;
         self.bottom_depth = self.bottom_depth.max(topology.depth);
         self.place_trails(index, topology);
-        self.log.tree(index);
+        self.log.push(Entry::Tree(index));
         self.compute_root(index);
     }
 
@@ -222,14 +219,15 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             // All trails changed: mirrors copy everything.
             self.log = super::Log::after(&self.log);
         }
-        let words = self.trail_words as usize;
         for &(triangle, trail) in &topology.trails {
-            let at = (mesh.start + triangle) as usize * words;
-            self.trails[at] = trail.low;
-            if words == 2 {
-                self.trails[at + 1] = trail.high;
-            }
+            self.set_trail(mesh.start + triangle, trail);
         }
+    }
+
+    pub(super) fn set_trail(&mut self, triangle: u32, trail: BitTrail) {
+        let words = self.trail_words as usize;
+        let at = triangle as usize * words;
+        self.trails[at..at + words].copy_from_slice(&[trail.low, trail.high][..words]);
     }
 
     /// The trail of a triangle.
@@ -305,7 +303,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             self.reshaped.remove(&index);
         } else {
             self.dirty.insert(index, Vec::new());
-            self.log.mesh(index);
+            self.log.push(Entry::Mesh(index));
         }
         true
     }

@@ -37,9 +37,6 @@ mod records;
 mod refit;
 mod sampled;
 mod serial;
-mod static_bvh;
-#[cfg(test)]
-mod tests;
 mod top;
 mod validate;
 
@@ -59,8 +56,7 @@ pub use log::{Cursor, RefitPlan};
 pub use rebuilder::{FrameStart, RebuildError, Rebuilder, RebuilderParams, Swap};
 pub use sampled::{Sampled, mis_weight};
 pub use serial::{FORMAT, ReadError};
-pub use static_bvh::StaticBvh;
-pub use validate::{Stats, Violation};
+pub use validate::Violation;
 
 pub use crate::levels::Levels;
 #[doc(inline)]
@@ -231,9 +227,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             above: &mut self.top.above,
         }
     }
-}
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// The arrays as traversal takes them.
     #[must_use]
     pub fn tree(&self) -> LightTree<'_, N, I, W> {

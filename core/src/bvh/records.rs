@@ -9,7 +9,7 @@ use crate::transform::Transform;
 use crate::tree::INVALID;
 
 /// A mesh: triangles and a tree over them in a space of their own, which its instances share.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Mesh {
     pub live: bool,
     /// Whether it is a light by itself: it goes with its last instance.

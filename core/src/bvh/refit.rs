@@ -7,11 +7,11 @@ use core::ops::Range;
 use super::Bvh;
 use super::top::{Batch, Cluster, Part, may_open};
 use crate::node::{Node, kind};
-use crate::refit::{Child, has_limits, leaf_child};
+use crate::refit::{self, Child, has_limits, leaf_child};
 use crate::summary::Summary;
-use crate::sweep;
 use crate::trail::leaf;
 use crate::tree::INVALID;
+use crate::widest::widest;
 
 /// If more than 1/`SWEPT` of a mesh's triangles changed, all of it is swept. Paths to a sixteenth take 0.65 to 0.76 of a
 /// sweep's time if the triangles lie anywhere in the mesh, to an eighth 0.9 to 1.15 (10^5 and 10^6 triangles).
@@ -56,7 +56,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         if self.single {
             self.unapplied.clear();
-        } else if !self.unapplied.is_empty() || self.top.has_edits() {
+        } else if !self.unapplied.is_empty() || !self.top.lost.is_empty() {
             self.top.edit(&core::mem::take(&mut self.unapplied), &self.params);
         }
         self.log_top();
@@ -64,10 +64,14 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     fn refit_paths(&mut self, mesh: u32, triangles: &Range<u32>) {
         let pairs = self.path_nodes(mesh, triangles.clone());
-        for level in pairs.chunk_by(|a, b| a.0 == b.0) {
-            let nodes: Vec<u32> = level.iter().map(|&(_, node)| node).collect();
-            sweep::bottom(&mut self.nodes, &self.triangles, &nodes);
-        }
+        widest(
+            #[inline(always)]
+            || {
+                for &(_, node) in &pairs {
+                    self.nodes[node as usize] = refit::bottom(&self.nodes, &self.triangles, node);
+                }
+            },
+        );
     }
 
     /// Marks the leaf of an instance for refit.

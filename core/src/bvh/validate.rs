@@ -19,22 +19,6 @@ use crate::summary::Summary;
 use crate::trail::{leaf_parts, place};
 use crate::tree::{INVALID, OPENED};
 
-/// What a valid scene consists of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Stats {
-    /// Nodes in use.
-    pub nodes: u32,
-    /// Instances in use.
-    pub instances: u32,
-    /// Meshes in use.
-    pub blases: u32,
-    /// Lights in the world.
-    pub lights: u32,
-    /// Greatest number of nodes on a path from the root to a light.
-    pub depth: u32,
-}
-
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Checks every invariant, after a [`refit`](Self::refit):
     /// - each node in use is reached once, through links that are in range, and knows its place above;
@@ -43,6 +27,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// - the nodes of a mesh are in depth-first order; heights are those of what is below;
     /// - every node of the top level but its root has two children or more;
     /// - ranges of nodes, triangles and lights in use do not overlap;
+    /// - no path is longer than [`depth`](Self::depth), and [`light_count`](Self::light_count) counts the lights;
     /// - an instance's words are those of its transform and mesh, and its leaf in the top level is that of a refit;
     /// - every word of every node is what refit makes of triangles and instances from scratch.
     ///
@@ -51,29 +36,19 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     ///
     /// # Errors
     /// The first [`Violation`].
-    pub fn validate(&self) -> Result<Stats, Violation> {
+    pub fn validate(&self) -> Result<(), Violation> {
         let mut seen = alloc::vec![false; self.nodes.len()];
-        let mut stats = Stats {
-            nodes: 0,
-            instances: 0,
-            blases: 0,
-            lights: 0,
-            depth: 0,
-        };
-        let (mut used_nodes, mut used_lights) = (Vec::new(), Vec::new());
+        let (mut used_nodes, mut used_lights, mut lights, mut depth) = (Vec::new(), Vec::new(), 0, 0);
         let mut again = alloc::vec![N::EMPTY; self.nodes.len()];
         for (index, mesh) in (0u32..).zip(&self.meshes).filter(|(_, mesh)| mesh.live) {
             let found = self.check_mesh(index, &mut seen, &mut again)?;
-            stats.blases += 1;
-            stats.nodes += found.levels.len() as u32;
-            stats.depth = stats.depth.max(found.depth);
+            depth = depth.max(found.depth);
             used_nodes.push(mesh.nodes.start..mesh.room);
         }
         disjoint(used_nodes)?;
         for (index, placed) in (0u32..).zip(&self.placed) {
             if placed.live {
-                stats.instances += 1;
-                stats.lights += placed.lights.end - placed.lights.start;
+                lights += placed.lights.end - placed.lights.start;
                 used_lights.push(placed.lights.clone());
                 self.check_instance(index)?;
             } else {
@@ -91,11 +66,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         disjoint(used_lights)?;
         if !self.single || self.meshes.is_empty() {
-            let found = self.check_top()?;
-            stats.nodes += found.levels.len() as u32;
-            stats.depth += found.depth;
+            depth += self.check_top()?.depth;
         }
-        Ok(stats)
+        equal(INVALID, INVALID, "lights", lights, self.light_count as u32)?;
+        equal(INVALID, INVALID, "depth", depth.max(self.depth()), self.depth())
     }
 
     /// The tree of a mesh, its trails, and every word of its nodes. Each of its triangles is in one leaf, and of this mesh: no two meshes
@@ -161,17 +135,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let count = mesh.triangles.len() as u32;
         let lights = placed.lights.end - placed.lights.start;
         equal(INVALID, index, "range of lights", count, lights)?;
-        let expected = Instance {
-            root: mesh.root(),
-            blas: placed.mesh,
-            first: placed.lights.start,
-            first_triangle: mesh.triangles.start,
-            count,
-            listed: found.listed,
-            mask: placed.mask,
-            ..self.in_place(placed.mesh, placed.transform, placed.radiance)
-        };
-        same_words(INVALID, index, &expected, found)?;
+        same_words(INVALID, index, &self.record_of(index), found)?;
         let user = mesh.users.get(placed.user as usize).copied();
         equal(INVALID, index, "list entry", index, user.unwrap_or(INVALID))?;
         let listed = self.live.get(placed.listed as usize).copied();
@@ -219,18 +183,29 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             let place = top.places[instance as usize];
             equal(INVALID, instance, "parts", OPENED | own.first, place)?;
         }
-        let mut again = alloc::vec![N::EMPTY; top.nodes.len()];
-        bare(&mut again, &top.nodes, &found);
+        // Those of meshes come first.
+        let first = self.nodes.len();
+        let mut again = self.nodes.clone();
+        again.resize(first + top.nodes.len(), N::EMPTY);
+        bare(&mut again[first..], &top.nodes, &found);
         for node in found.upward() {
-            again[node as usize] = self.top_node_again(&again, node);
-            same_words(node, INVALID, &again[node as usize], &top.nodes[node as usize])?;
+            let (first, at) = (first as u32, first + node as usize);
+            again[at] = refit::top(
+                &again,
+                first,
+                &self.triangles,
+                &self.instances,
+                &self.roots,
+                at as u32,
+            );
+            same_words(node, INVALID, &again[at], &top.nodes[node as usize])?;
             let own = &top.nodes[node as usize];
             let inner = (0..W).filter(|&slot| own.kind(slot) == kind::INNER);
             let height = inner
                 .map(|slot| 1 + top.shapes[own.link(slot) as usize].height)
                 .max();
             let shape = &top.shapes[node as usize];
-            for (e, f) in again[node as usize].merged().to_words().iter().zip(shape.words) {
+            for (e, f) in again[at].merged().to_words().iter().zip(shape.words) {
                 equal(node, INVALID, "instance's leaf", e.to_bits(), f.to_bits())?;
             }
             equal(node, INVALID, "level", height.unwrap_or(1), shape.height)?;
@@ -257,25 +232,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         )?;
         equal(INVALID, INVALID, "list entry", used as u32, listed as u32)?;
         Ok(found)
-    }
-
-    /// A node of the top level from scratch, as refit defines it.
-    fn top_node_again(&self, again: &[N], node: u32) -> N {
-        let mut own = again[node as usize];
-        let mut lanes = crate::summary::Lanes::<W>::all(&N::Summary::EMPTY);
-        let mut limits = [crate::beam::Limits::NONE; W];
-        for slot in 0..W {
-            let child = match own.kind(slot) {
-                kind::MESH => self.leaf_of(own.link(slot)),
-                kind::INNER => refit::top_child(again, 0, &[], &[], &[], node, slot),
-                _ => refit::Child::EMPTY,
-            };
-            lanes.set(slot, &child.summary);
-            limits[slot] = child.limits;
-        }
-        own.set_lanes(&lanes);
-        own.set_limits(&limits, &lanes);
-        own
     }
 
     /// Live instances that are not in the tree. A BVH that was read from words may have some before its next edit.

@@ -3,7 +3,7 @@
 //! ```
 //! use lightbvh::requirements::{Declared, Requirements};
 //! # let bvh = lightbvh::LightBvh::default();
-//! let requirements = Requirements::of(&bvh, Declared::STATIC);
+//! let requirements = Requirements::of(&bvh, Declared::default());
 //! println!("{}", requirements.model()); // a type to write down, and how to build it
 //! ```
 //!
@@ -18,7 +18,7 @@ use crate::bvh::Bvh;
 use crate::instance::Instance;
 use crate::node::LightNode;
 
-pub use model::{Layout, Model, Updates};
+pub use model::{Layout, Model};
 
 /// What the caller says of the frames to come, edit by edit. Nothing of it can be seen in a scene as it stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -34,17 +34,6 @@ pub struct Declared {
     pub instances: bool,
     /// Meshes are inserted of which nothing is known yet.
     pub meshes: bool,
-}
-
-impl Declared {
-    /// Nothing changes.
-    pub const STATIC: Self = Self {
-        transforms: false,
-        radiance: false,
-        triangles: false,
-        instances: false,
-        meshes: false,
-    };
 }
 
 /// Counts of a scene's lights, and the declared changes. [`model`](Self::model) draws the conclusion.

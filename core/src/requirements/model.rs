@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use core::fmt;
 
-use super::{Declared, Requirements};
+use super::Requirements;
 
 /// What nodes store of each child.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -27,23 +27,6 @@ impl Layout {
     }
 }
 
-/// What a light BVH keeps to be changed by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Updates {
-    /// Nothing: a [`StaticBvh`](crate::bvh::StaticBvh).
-    Nothing,
-    /// Triangles, instances, and the lists by which they are refitted: a [`Bvh`](crate::Bvh).
-    All,
-}
-
-impl Updates {
-    /// Name for options.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        ["nothing", "all"][self as usize]
-    }
-}
-
 /// A light BVH's parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Model {
@@ -56,8 +39,6 @@ pub struct Model {
     pub width: usize,
     /// Share of uniform choice as the number of times that 1 is halved; 0 for none ([`Defensive`](crate::Defensive)).
     pub uniform_halvings: u32,
-    /// What may change.
-    pub updates: Updates,
 }
 
 impl Model {
@@ -67,7 +48,6 @@ impl Model {
         single_level: false,
         width: 8,
         uniform_halvings: 6,
-        updates: Updates::All,
     };
 
     /// The type of a node, as Rust has it.
@@ -91,9 +71,8 @@ impl Model {
     /// The type of the light BVH, as Rust has it.
     #[must_use]
     pub fn type_name(&self) -> String {
-        let owner = ["StaticBvh", "Bvh"][self.updates as usize];
         let (node, importance, width) = (self.node_type(), self.importance_type(), self.width);
-        format!("{owner}<{node}, {importance}, {width}>")
+        format!("Bvh<{node}, {importance}, {width}>")
     }
 }
 
@@ -110,7 +89,7 @@ impl fmt::Display for Model {
 }
 
 impl Requirements {
-    /// The smallest model that is sufficient. Layout and updates keep the bits of probabilities. One level in place of
+    /// The smallest model that is sufficient. The layout keeps the bits of probabilities. One level in place of
     /// several, or of a mesh that stands elsewhere than at the identity, is another tree: what that does to the variance
     /// depends on the scene, and `lightbvh inspect` measures it.
     #[must_use]
@@ -126,11 +105,6 @@ impl Requirements {
             single_level: !(d.transforms || d.radiance || d.instances || d.meshes)
                 && (!d.triangles || self.meshes.max(self.instances) < 2)
                 && self.most_instances < 2,
-            updates: if d == Declared::STATIC {
-                Updates::Nothing
-            } else {
-                Updates::All
-            },
             ..Model::DEFAULT
         }
     }

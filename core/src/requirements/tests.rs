@@ -5,7 +5,7 @@ extern crate std;
 use std::string::ToString;
 use std::vec::Vec;
 
-use super::{Declared, Layout, Model, Requirements, Updates};
+use super::{Declared, Layout, Model, Requirements};
 use crate::bvh::LightBvh;
 use crate::kit::Random;
 use crate::kit::scenes::lamps;
@@ -35,12 +35,12 @@ fn scene(flags: u32, instances: u32) -> LightBvh {
 
 #[test]
 fn counts_are_those_of_the_scene() {
-    let found = Requirements::of(&scene(EmissiveTriangle::TWO_SIDED, 7), Declared::STATIC);
+    let found = Requirements::of(&scene(EmissiveTriangle::TWO_SIDED, 7), Declared::default());
     assert_eq!((found.meshes, found.instances, found.most_instances), (2, 7, 4));
     assert_eq!((found.triangles, found.lights, found.one_sided), (6, 21, 0));
     // Of two at the identity one is dimmed or off.
     assert_eq!(found.placed, 6);
-    assert_eq!(Requirements::of(&scene(0, 2), Declared::STATIC).one_sided, 6);
+    assert_eq!(Requirements::of(&scene(0, 2), Declared::default()).one_sided, 6);
 }
 
 #[test]
@@ -48,11 +48,10 @@ fn models_are_no_larger_than_scenes_need() {
     let still = Model {
         layout: Layout::TwoSidedMoments,
         single_level: true,
-        updates: Updates::Nothing,
         ..Model::DEFAULT
     };
     let of = |instances, change: fn(&mut Declared)| {
-        let mut declared = Declared::STATIC;
+        let mut declared = Declared::default();
         change(&mut declared);
         Requirements::of(&scene(EmissiveTriangle::TWO_SIDED, instances), declared).model()
     };
@@ -60,13 +59,9 @@ fn models_are_no_larger_than_scenes_need() {
         single_level: false,
         ..still
     };
-    let changing = Model {
-        updates: Updates::All,
-        ..two_levels
-    };
     let growing = Model {
         layout: Layout::Moments,
-        ..changing
+        ..two_levels
     };
     assert_eq!(of(2, |_| {}), still);
     assert_eq!(of(3, |_| {}), two_levels);
@@ -77,9 +72,9 @@ fn models_are_no_larger_than_scenes_need() {
         |d: &mut Declared| d.instances = true,
         |d: &mut Declared| d.triangles = true,
     ] {
-        assert_eq!(of(2, change), changing);
+        assert_eq!(of(2, change), two_levels);
     }
-    let one_sided = Requirements::of(&scene(0, 2), Declared::STATIC).model();
+    let one_sided = Requirements::of(&scene(0, 2), Declared::default()).model();
     assert_eq!(one_sided.layout, Layout::Moments);
     assert_eq!(
         Model::DEFAULT.to_string(),

@@ -22,24 +22,6 @@ struct Group<P> {
 /// Most walks that [`sample_spaced`] brings down together.
 const TOGETHER: usize = 32;
 
-/// See [`LightTree::sample_many`].
-#[inline(always)]
-pub(super) fn sample_many<
-    N: Node<W>,
-    I: ImportanceModel<N, W, P>,
-    P: Receiver,
-    const W: usize,
-    const COUNT: usize,
->(
-    tree: &LightTree<'_, N, I, W>,
-    point: &P,
-    random: Random64,
-) -> [SampledLight; COUNT] {
-    let mut sampled = [SampledLight::NONE; COUNT];
-    by_rows::<N, I, P, W, COUNT>(tree, point, random, 0, COUNT as u32, &mut sampled);
-    sampled
-}
-
 /// See [`LightTree::sample_spaced`].
 #[inline(always)]
 pub(super) fn sample_spaced<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
@@ -64,7 +46,13 @@ pub(super) fn sample_spaced<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver
 
 /// At most `MOST` of them, with as few rows of four as the children need.
 #[inline(always)]
-fn by_rows<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize, const MOST: usize>(
+pub(super) fn by_rows<
+    N: Node<W>,
+    I: ImportanceModel<N, W, P>,
+    P: Receiver,
+    const W: usize,
+    const MOST: usize,
+>(
     tree: &LightTree<'_, N, I, W>,
     point: &P,
     random: Random64,

@@ -89,7 +89,16 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
         // All walks are on the stack.
         const { assert!(COUNT > 0 && COUNT <= 256, "1 to 256") };
         let random = random.into();
-        dispatched!(many::sample_many(self, point, random))
+        let mut sampled = [SampledLight::NONE; COUNT];
+        dispatched!(many::by_rows::<N, I, P, W, COUNT>(
+            self,
+            point,
+            random,
+            0,
+            COUNT as u32,
+            &mut sampled
+        ));
+        sampled
     }
 
     /// Chooses a light for each place of `sampled`: place `k` is that of [`sample`](Self::sample) by

@@ -1,18 +1,15 @@
-//! Models with less in them say the same: two-sided moments, no data for refits.
+//! Models with less in them say the same: two-sided moments.
 
 use bytemuck::cast_slice;
-use lightbvh::bvh::StaticBvh;
 use lightbvh::exact::{self, hash, pow2};
 use lightbvh::{
-    BuildParams, Bvh, Defensive, Edit, EmissiveTriangle, InstanceId, LightNode, Lights, MomentNode, Moments,
-    Node, ShadingPoint, Transform, TwoSidedMomentNode,
+    BuildParams, Bvh, Defensive, Edit, EmissiveTriangle, InstanceId, LightNode, MomentNode, Moments, Node,
+    ShadingPoint, Transform, TwoSidedMomentNode,
 };
 
 use crate::kit::Random;
 
 type D = Defensive<Moments, 6>;
-
-type Default8 = Bvh<MomentNode<8>, D, 8>;
 
 /// Triangles of sizes and fluxes far apart, some without area or radiance, in a cube of 2 `size`; `flags` as given.
 fn mesh(random: &mut Random, size: f32, count: u32, flags: u32) -> Vec<EmissiveTriangle> {
@@ -179,52 +176,5 @@ fn two_sided_moments_lose_no_light() {
             let dark = bvh.summary().phi == 0.0;
             assert!((sum - f64::from(u8::from(!dark))).abs() < 1e-6, "{seed}: {sum}");
         }
-    }
-}
-
-/// A static light BVH says the same in fewer bytes, also without an instance that was removed just before.
-#[test]
-fn static_light_bvhs_say_the_same() {
-    for seed in 0..20 {
-        let mut bvh = scene::<MomentNode<8>, D, 8>(seed, seed % 2, BuildParams::BALANCED);
-        let bright = EmissiveTriangle {
-            p: [[0.0, 5.0, 0.0], [0.0, 5.0, 1.0], [1.0, 5.0, 0.0]],
-            radiance: [1.0e6; 3],
-            mesh: 0,
-            flags: 0,
-        };
-        let mesh = bvh.add_mesh(vec![bright]).expect("a bright lamp");
-        let instance = bvh.add_instance(mesh, Transform::IDENTITY).expect("a mesh");
-        bvh.refit();
-        bvh.remove_instance(instance).expect("it is there");
-        let still: StaticBvh<_, _, 8> = bvh.clone().into_static();
-        bvh.refit();
-        assert_eq!(still.bytes(), bvh.bytes());
-        // Not even the triangles.
-        assert!(still.bytes() + 56 * bvh.triangles().len() <= bvh.memory());
-        let points = points(seed, &bvh.world_lights());
-        let numbers: Vec<_> = (0..24_u32).map(|k| hash(seed + k).into()).collect();
-        let mut batch = vec![lightbvh::SampledLight::NONE; points.len()];
-        still.sample_batch(&points, &numbers, &mut batch);
-        for ((point, &number), sampled) in points.iter().zip(&numbers).zip(batch) {
-            assert_eq!(bvh.sample(point, number), sampled);
-            assert_eq!(still.sample(point, number), sampled);
-            assert_eq!(
-                bvh.sample_many::<_, 3>(point, number),
-                still.sample_many::<_, 3>(point, number)
-            );
-            assert_eq!(
-                still.pmf(point, sampled.light, sampled.instance).to_bits(),
-                sampled.pmf.to_bits()
-            );
-        }
-    }
-    // A single level names no instance.
-    let lights = Lights::new(mesh(&mut Random(1), 1.0, 50, 0)).expect("within the domain");
-    let bvh = Default8::single_level(&lights, &BuildParams::default());
-    let (still, point) = (bvh.clone().into_static(), points(1, lights.triangles())[0]);
-    for light in 0..50 {
-        let pmfs = [bvh.pmf(&point, light, 0), still.pmf(&point, light, 0)];
-        assert_eq!(pmfs[0].to_bits(), pmfs[1].to_bits());
     }
 }

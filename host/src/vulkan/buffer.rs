@@ -121,13 +121,6 @@ impl<T: Pod> Buffer<T> {
         self.memory.write(&bytes)
     }
 
-    /// Copies what `from` holds to the start of this one, as far as both reach.
-    pub(crate) fn copy_from(&self, from: &Self) -> Result<(), VulkanError> {
-        let bytes = self.byte_len().min(from.byte_len()) as u64;
-        let whole = (bytes > 0).then(|| region(0, 0, bytes));
-        self.memory.copy(&from.memory, whole.as_slice())
-    }
-
     /// A copy of all elements.
     pub fn read(&self) -> Result<Vec<T>, VulkanError> {
         let mut data = vec![T::zeroed(); self.len];

@@ -8,7 +8,6 @@
 //! Large ranges are binned in pieces of a fixed size, whose sums are added in order.
 
 mod bins;
-mod emit;
 mod frame;
 mod grow;
 mod primitive;
@@ -22,8 +21,9 @@ pub use primitive::WardPrimitive;
 
 use super::BuildParams;
 use super::Topology;
+use super::topology::{Child, emit};
 use crate::node::Node;
-use emit::Emitter;
+use crate::trail::max_levels;
 use frame::Extent;
 use grow::Growth;
 use range::Range;
@@ -50,6 +50,17 @@ pub(crate) fn build_ward<N: Node<W>, const W: usize>(
         trails: Vec::with_capacity(count),
         depth: 0,
     };
-    Emitter { leaf_kind, growth }.node(range, 0, Default::default(), &mut topology);
+    let children = |range, level| {
+        let own = Growth {
+            capacity: W.checked_pow(max_levels(W) - level - 1).unwrap_or(usize::MAX),
+            ..growth
+        };
+        let ranges = own.children::<W>(range).into_iter();
+        ranges.map(|range| match &*range.here {
+            [only] => Child::Leaf(only.index),
+            _ => Child::Node(range),
+        })
+    };
+    emit::<N, _, _, W>(&mut topology, leaf_kind, &children, range, Default::default());
     topology
 }

@@ -133,7 +133,9 @@ fn sound<const W: usize>()
 where
     CompactNode<W>: LightNode<W>,
 {
-    for count in [1, 2, 3, W as u32, W as u32 + 1, 40, 700, 9000] {
+    // Work grows with the number of lights, not with its square, which would take minutes.
+    let most = if W == 8 { 60_000 } else { 9000 };
+    for count in [1, 2, 3, W as u32, W as u32 + 1, 40, 700, most] {
         for (name, primitives) in hostile(count) {
             for params in PRESETS {
                 check::<W>(name, count as usize, &built::<W>(&primitives, &params));
@@ -176,18 +178,6 @@ fn digest(tree: &Built<8>) -> u32 {
 fn words_of_trees_are_known() {
     let digests = PRESETS.map(|params| digest(&built::<8>(&random(100_000), &params)));
     assert_eq!(digests, [0x586d_26a8, 0x7420_890a]);
-}
-
-/// Work grows with the number of lights, not with its square: quadratic work on these would take minutes.
-#[test]
-fn hostile_distributions_take_no_longer() {
-    for (name, primitives) in hostile(60_000) {
-        for params in PRESETS {
-            let tree = built::<8>(&primitives, &params);
-            assert_eq!(tree.trails.len(), primitives.len(), "{name}");
-            assert!(tree.depth <= max_levels(8), "{name}");
-        }
-    }
 }
 
 #[test]
@@ -267,24 +257,5 @@ fn nodes_are_filled() {
         let children = primitives.len() + tree.nodes.len() - 1;
         let fill = children as f64 / (8 * tree.nodes.len()) as f64;
         assert!(fill > 0.8, "{name}: {fill}");
-    }
-}
-
-/// Both sides have the boxes of their primitives.
-#[test]
-fn both_sides_of_a_plane_have_the_boxes_of_their_primitives() {
-    for seed in 0..20 {
-        let all = random(3 * CHUNK as u32 + 100 * seed);
-        let extent = Extent::of(&all);
-        let plane = Measure::of(&all, &extent, &BuildParams::BALANCED)
-            .plane
-            .expect("a plane");
-        let mut to = all.clone();
-        let (left, extents) = range::partition(&all, &mut to, &plane);
-        let sides = to.split_at(left);
-        assert!(sides.0.iter().all(|p| !plane.is_right(p)) && sides.1.iter().all(|p| plane.is_right(p)));
-        for (extent, side) in extents.iter().zip([sides.0, sides.1]) {
-            assert_eq!(*extent, Extent::of(side), "{seed}");
-        }
     }
 }

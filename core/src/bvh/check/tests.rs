@@ -110,31 +110,16 @@ fn edits_know_of_those_before() {
     );
 }
 
+/// The first wrong one, though others follow; what is within the domain is brought to its normal form.
 #[test]
 fn wrong_triangles_are_named_wherever_they_are() {
-    for (count, wrong) in [(1, 0), (9000, 17), (9000, 8999)] {
-        let mut triangles = triangles(count, 1.0);
-        triangles[wrong].p[2][1] = f32::NAN;
-        // Not the first that is found, but the first that there is.
-        triangles[count - 1].radiance[0] = -1.0;
-        let Err(EditReason::Light { index, error }) = checked(&mut triangles) else {
-            panic!("{count} {wrong}");
-        };
-        assert_eq!(index, wrong);
-        let said = alloc::format!("{error}");
-        assert!(
-            said.starts_with("coordinate y of the third vertex of a triangle is NaN"),
-            "{said}"
-        );
-    }
-    // What is within the domain is brought to its normal form on the way.
-    let mut triangles = triangles(9000, 1.0);
-    triangles[8000].p[0][0] = -0.0;
+    let mut triangles = triangles(9, 1.0);
     triangles[5].p[0][0] = 1e-40;
-    checked(&mut triangles).expect("sound");
-    for i in [5, 8000] {
-        assert_eq!(triangles[i].p[0][0].to_bits(), 0);
-    }
+    triangles[7].p[2][1] = f32::NAN;
+    triangles[8].radiance[0] = -1.0;
+    let found = checked(&mut triangles).expect_err("a wrong one");
+    assert!(matches!(found, EditReason::Light { index: 7, .. }), "{found}");
+    assert_eq!(triangles[5].p[0][0].to_bits(), 0);
 }
 
 #[test]
@@ -150,41 +135,4 @@ fn factors_on_radiance() {
             factor(radiance).expect_err("beyond it");
         }
     }
-}
-
-/// `apply_each` applies the sound edits, and names each refused one by its index.
-#[test]
-fn edits_are_applied_each_for_itself() {
-    let (mut scene, mesh, instance) = scene(2);
-    let triangles = triangles(3, 1.0);
-    let edits = vec![
-        Edit::AddMesh { triangles: vec![] },
-        Edit::AddMesh { triangles },
-        add(MeshId::added(0)),
-        add(MeshId::added(1)),
-        Edit::SetRadiance {
-            instance,
-            radiance: [1.0, 1.0, -1.0],
-        },
-        moved(instance, [3.0, 0.0, 0.0]),
-        Edit::RemoveInstance(instance),
-        moved(instance, [4.0, 0.0, 0.0]),
-        add(mesh),
-    ];
-    let (added, refused) = scene.apply_each(edits);
-    let refused: Vec<_> = refused
-        .into_iter()
-        .map(|error| (error.edit, error.reason))
-        .collect();
-    let expected = [
-        (0, EditReason::EmptyMesh),
-        (2, EditReason::UnknownMesh(MeshId::added(0))),
-        (4, EditReason::Radiance { value: -1.0 }),
-        (7, EditReason::UnknownInstance(instance)),
-    ];
-    assert_eq!(refused, expected);
-    assert_eq!((added.meshes.len(), added.instances.len()), (1, 2));
-    assert_eq!(scene.mesh_of(added.instances[0]), Some(added.meshes[0]));
-    assert_eq!(scene.mesh_of(added.instances[1]), Some(mesh));
-    assert_eq!(scene.light_count(), 5);
 }

@@ -2,22 +2,6 @@
 
 use super::*;
 
-#[test]
-fn ranges_are_joined_and_used_again() {
-    let mut ranges = Ranges::default();
-    let (a, b, c) = (ranges.take(3), ranges.take(2), ranges.take(4));
-    assert_eq!((a.clone(), b.clone(), c.clone()), (0..3, 3..5, 5..9));
-    ranges.give(a);
-    ranges.give(c);
-    assert_eq!(ranges.take(2), 0..2, "first fit");
-    ranges.give(b);
-    assert_eq!(ranges.take(9), 2..11, "all that is free at the end, and more");
-    assert_eq!(ranges.end(), 11);
-    ranges.give(0..2);
-    ranges.give(2..11);
-    assert_eq!(ranges.take(11), 0..11);
-}
-
 /// The same as a search from the first index on, and no search at all where a million holes are too small.
 #[test]
 fn the_first_that_fit() {

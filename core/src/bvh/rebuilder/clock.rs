@@ -18,14 +18,10 @@ impl Clock {
     }
 
     /// The time since then; zero in `wasm32-unknown-unknown`, which has no clock and ends a program that asks for one.
-    #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
     pub fn elapsed(self) -> Duration {
-        self.0.elapsed()
-    }
-
-    /// The time since then; zero in `wasm32-unknown-unknown`, which has no clock and ends a program that asks for one.
-    #[cfg(all(target_family = "wasm", target_os = "unknown"))]
-    pub fn elapsed(self) -> Duration {
+        #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+        return self.0.elapsed();
+        #[cfg(all(target_family = "wasm", target_os = "unknown"))]
         Duration::ZERO
     }
 }

@@ -111,12 +111,12 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     /// [`RebuildError`], once, if the build that was due failed. The frame can go on without it.
     pub fn begin_frame<I>(&mut self, scene: &mut Bvh<N, I, W>) -> Result<FrameStart, RebuildError> {
         let mut start = FrameStart::default();
-        let is_own = self.tree == scene.number();
+        let is_own = self.tree == scene.id.0;
         let first = self.flight.as_ref().and_then(|flight| flight.first);
         let needed = if is_own { first.unwrap_or(self.seen) } else { 0 };
         if !scene.follow_batches(self.id.0, needed) || !is_own {
             self.lose();
-            (self.tree, self.seen) = (scene.number(), scene.next_batch());
+            (self.tree, self.seen) = (scene.id.0, scene.next_batch());
         }
         let Some(flight) = self.flight.as_mut() else {
             return Ok(start);
@@ -148,7 +148,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
                 // The next build starts a new worker; the failed work is still to be done.
                 self.worker = None;
                 self.is_due = true;
-                return Err(RebuildError::Panicked { message });
+                return Err(RebuildError { message });
             }
         };
         self.rest(built.time);
@@ -168,7 +168,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
                 if self.params.swap == Swap::Deterministic {
                     // One by one, as a thread applies them.
                     for batch in rest.drain(..self.seen.saturating_sub(first) as usize) {
-                        top.edit(&[batch], scene.params());
+                        top.edit(&[batch], &scene.params);
                     }
                 }
                 self.is_due |= scene.next_batch() > self.seen;
@@ -212,9 +212,9 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     /// and copies at most [`RebuilderParams::bytes`] of meshes. The first call, and the first with another scene, copies the top
     /// level.
     pub fn end_frame<I>(&mut self, scene: &Bvh<N, I, W>) {
-        if self.tree != scene.number() || !scene.is_followed_by(self.id.0) {
+        if self.tree != scene.id.0 || scene.outbox.rebuilder != self.id.0 {
             self.lose();
-            (self.tree, self.seen) = (scene.number(), scene.next_batch());
+            (self.tree, self.seen) = (scene.id.0, scene.next_batch());
         }
         let batches = scene.batches_from(self.seen);
         self.is_due |= !batches.is_empty();
@@ -233,7 +233,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
         let first = matches!(work, Work::Top(_)).then_some(self.seen);
         let job = Job {
             work,
-            params: *scene.params(),
+            params: scene.params,
             waits: self.params.swap == Swap::Deterministic,
         };
         if self.worker.is_none() {
@@ -261,7 +261,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
 
     /// The next work: the top level and meshes in turn.
     fn next_work<I>(&mut self, scene: &Bvh<N, I, W>) -> Option<Work<N>> {
-        let has_top = self.is_due && !scene.is_single_level();
+        let has_top = self.is_due && !scene.single;
         if core::mem::take(&mut self.is_meshes_turn) || !has_top {
             let meshes = self.next_meshes(scene);
             if !meshes.is_empty() {

@@ -21,25 +21,20 @@ pub struct FrameStart {
     pub inline: bool,
 }
 
-/// Why a build failed. The scene keeps its trees.
+/// A build panicked. The scene keeps its trees.
 #[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum RebuildError {
-    /// Building panicked.
-    Panicked {
-        /// The message of the panic.
-        message: String,
-    },
+pub struct RebuildError {
+    /// The message of the panic.
+    pub message: String,
 }
 
 impl fmt::Display for RebuildError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Panicked { message } => write!(
-                f,
-                "the build panicked: {message}; the scene keeps its trees and the next build is tried again"
-            ),
-        }
+        let message = &self.message;
+        write!(
+            f,
+            "the build panicked: {message}; the scene keeps its trees and the next build is tried again"
+        )
     }
 }
 

@@ -3,21 +3,11 @@
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-use crate::build::BuildParams;
 use crate::bvh::Bvh;
 use crate::bvh::top::{Batch, Top};
 use crate::node::Node;
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
-    /// Number of this light BVH; no other has it.
-    pub(super) fn number(&self) -> u32 {
-        self.id.0
-    }
-
-    pub(super) fn params(&self) -> &BuildParams {
-        &self.params
-    }
-
     /// Keeps batches for a rebuilder from now on, and drops those before number `seen`; false if some from there on are not kept,
     /// or another rebuilder took part since.
     pub(super) fn follow_batches(&mut self, rebuilder: u32, seen: u64) -> bool {
@@ -32,11 +22,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         own.len -= dropped;
         own.first = own.first.max(seen);
         core::mem::replace(&mut own.rebuilder, rebuilder) == rebuilder && is_known
-    }
-
-    /// Whether batches are kept for that rebuilder.
-    pub(super) fn is_followed_by(&self, rebuilder: u32) -> bool {
-        self.outbox.rebuilder == rebuilder
     }
 
     /// Number of the next batch.

@@ -46,16 +46,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             let start = words.one()?;
             let mut mesh = Mesh {
                 live: start != INVALID,
-                is_light: false,
-                generation: 0,
-                users: Vec::new(),
-                nodes: 0..0,
-                room: 0,
-                triangles: 0..0,
-                depth: 0,
-                reach: 0.0,
-                power: 0,
-                version: 0,
+                ..Mesh::default()
             };
             if mesh.live {
                 let [end, room] = words.array()?;

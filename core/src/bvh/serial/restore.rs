@@ -100,11 +100,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                     if !is_own || core::mem::replace(&mut leaves[own.link as usize], true) {
                         return Err(misplaced(NODES));
                     }
-                    let at = own.link as usize * self.trail_words as usize;
-                    self.trails[at] = own.trail.low;
-                    if self.trail_words == 2 {
-                        self.trails[at + 1] = own.trail.high;
-                    }
+                    self.set_trail(own.link, own.trail);
                 }
                 self.meshes[index].depth = found.depth;
             }
@@ -133,11 +129,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         self.top.count = self.live.len() as u32;
         let mut opened = core::mem::take(&mut self.top.opened);
         for (&index, own) in &mut opened {
-            if !self.placed[index as usize].live {
-                return Err(misplaced(LEAVES));
-            }
             own.parts = self.parts_of(index);
-            if own.parts.len() < 2 {
+            if !self.placed[index as usize].live || own.parts.len() < 2 {
                 return Err(misplaced(LEAVES));
             }
         }
@@ -159,10 +152,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         if !leaves.iter().all(is_leaf) {
             return Err(misplaced(LEAVES));
         }
-        let count = leaves.len();
         leaves.sort_unstable();
-        leaves.dedup();
-        if leaves.len() != count {
+        if leaves.windows(2).any(|pair| pair[0] == pair[1]) {
             return Err(misplaced(LEAVES));
         }
         self.top.note_places::<W>();

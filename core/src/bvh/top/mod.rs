@@ -146,10 +146,6 @@ impl<N> Top<N> {
         nodes
     }
 
-    pub fn has_edits(&self) -> bool {
-        !self.lost.is_empty()
-    }
-
     /// The nodes of `starts` that are in use and all above them, by height.
     pub fn above_some<const W: usize>(&self, starts: impl Iterator<Item = u32>) -> Vec<(u32, u32)> {
         let mut marks = alloc::vec![0u64; self.nodes.len().div_ceil(64)];

@@ -2,7 +2,7 @@
 
 use lightbvh::importance::DefaultImportance;
 use lightbvh::refit::Instance;
-use lightbvh::requirements::{Layout, Model, Requirements, Updates};
+use lightbvh::requirements::{Layout, Model, Requirements};
 use lightbvh::{
     BuildParams, Bvh, ImportanceModel, LightNode, Lights, MomentNode, ShadingPoint, TwoSidedMomentNode,
 };
@@ -148,11 +148,7 @@ impl Source<'_> {
         let pmfs: Vec<f32> = points.par_iter().flat_map_iter(of).collect();
         let pmf = |k: usize, light: u32| pmfs[k * lights.len() + light as usize];
         let variances = variances(lights, points, pmf).into_iter().flatten().collect();
-        let bytes = match model.updates {
-            Updates::Nothing => [bvh.into_static().bytes(); 2],
-            Updates::All => [bvh.bytes(), bvh.memory()],
-        };
-        let [bytes_per_light, memory_per_light] = bytes.map(|own| own as f64 / lights.len().max(1) as f64);
+        let [bytes_per_light, memory_per_light] = [bvh.bytes(), bvh.memory()].map(|own| own as f64 / lights.len().max(1) as f64);
         Ok(Subject {
             cost: Cost {
                 bytes_per_light,
@@ -182,10 +178,9 @@ impl Source<'_> {
 type Part = (&'static str, fn(&mut Model, &Model));
 
 /// Each is taken after those before it.
-const PARTS: [Part; 3] = [
+const PARTS: [Part; 2] = [
     ("layout", |to, from| to.layout = from.layout),
     ("levels", |to, from| to.single_level = from.single_level),
-    ("updates", |to, from| to.updates = from.updates),
 ];
 
 fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
@@ -193,7 +188,6 @@ fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
     match part {
         "layout" if model.layout == Layout::TwoSidedMoments && requirements.one_sided == 0 => Promise::Bits,
         "levels" if model.single_level && is_identity => Promise::BitsBelowInstance,
-        "updates" => Promise::Bits,
         _ => Promise::Variance,
     }
 }
@@ -236,8 +230,6 @@ pub(super) fn check(
         }
         let new = source.build(&then, points)?;
         let promise = promise(part, &then, requirements);
-        // Nothing that a probability is computed from changes by the other parts.
-        let is_compared = matches!(part, "layout" | "levels");
         let seen = match promise {
             Promise::BitsBelowInstance => {
                 let seen = points.iter().map(|point| Instance::IDENTITY.to_local(point));
@@ -245,7 +237,7 @@ pub(super) fn check(
             }
             _ => &new.pmfs,
         };
-        let pairs = subject.pmfs.iter().zip(seen).filter(|_| is_compared);
+        let pairs = subject.pmfs.iter().zip(seen);
         let different = pairs.clone().filter(|(a, b)| a.to_bits() != b.to_bits()).count();
         let most = pairs.clone().map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs());
         let (compared, most) = (pairs.clone().count(), most.fold(0.0, f64::max));

@@ -8,7 +8,7 @@ use std::ffi::OsString;
 use lightbvh::BuildParams;
 use lightbvh::importance::DefaultImportance;
 use lightbvh::light::AnyLight;
-use lightbvh::requirements::{Declared, Layout, Model, Requirements, Updates};
+use lightbvh::requirements::{Declared, Layout, Model, Requirements};
 use lightbvh_gpu::KernelSet;
 use lightbvh_kernels::bvh::{Node, WIDTH};
 use serde::Serialize;
@@ -292,7 +292,7 @@ fn facts(found: &Requirements) -> [Fact; 3] {
 }
 
 /// Why each part of the smallest model is what it is: a sentence for each that begins with its name.
-fn reasons(found: &Requirements) -> [String; 3] {
+fn reasons(found: &Requirements) -> [String; 2] {
     let model = found.model();
     let layout = match (model.layout, found.one_sided) {
         (Layout::TwoSidedMoments, _) => "no light has a normal, so nodes leave their row out",
@@ -308,15 +308,7 @@ fn reasons(found: &Requirements) -> [String; 3] {
         (true, true) => "one, because one mesh stays in its place: no top level chooses it".to_owned(),
         (true, false) => "one, because all meshes stay as they are, each in one place".to_owned(),
     };
-    let updates = match model.updates {
-        Updates::Nothing => "nothing changes, so what refits and edits need is not kept",
-        Updates::All => "lights change, so everything is kept",
-    };
-    [
-        format!("layout: {layout}"),
-        format!("levels: {levels}"),
-        format!("updates: {updates}"),
-    ]
+    [format!("layout: {layout}"), format!("levels: {levels}")]
 }
 
 /// The default, and each part that is another, one after the other.
@@ -390,6 +382,5 @@ fn model_json(model: &Model) -> Value {
         "layout": model.layout.name(),
         "levels": 2 - u32::from(model.single_level),
         "width": model.width,
-        "updates": model.updates.name(),
     })
 }

@@ -5,6 +5,7 @@
 
 use lightbvh::device::vector::{cross, dot, length_squared};
 use lightbvh::exact::{div, hash, max};
+use lightbvh::refit::world_light;
 use lightbvh::{DefaultTree, EmissiveTriangle, Random64, ShadingPoint};
 
 /// The mean of `samples` light samples at `point`. `triangles` are `Bvh::triangles`; `seed` tells points apart.
@@ -21,7 +22,7 @@ pub fn direct_light(
         let random = hash(hash(seed) ^ k);
         let sampled = tree.sample(point, Random64::from(random));
         if sampled.pmf > 0.0 {
-            let triangle = tree.triangle(triangles, sampled.light, sampled.instance);
+            let triangle = world_light(triangles, tree.instances, sampled.light, sampled.instance);
             let weight = div(received(&triangle, point), sampled.pmf);
             red += triangle.radiance[0] * weight;
             green += triangle.radiance[1] * weight;

@@ -91,33 +91,6 @@ fn cut_words_are_refused() {
     assert!(error.to_string().contains("cut or damaged"), "{error}");
 }
 
-/// Numbers and lists that no tree has, written as they are.
-#[test]
-fn lists_that_are_not_those_of_the_tree_are_refused() {
-    type Small = Bvh<MomentNode<8>, Moments, 8>;
-    let wrong: [fn(&mut Small); 7] = [
-        |bvh| bvh.bottom_depth = 0,
-        |bvh| bvh.top.root = bvh.top.nodes.len() as u32,
-        |bvh| bvh.top.free.push(bvh.top.root),
-        |bvh| bvh.top.free.extend([0; 9999]),
-        |bvh| bvh.top.shapes[bvh.top.root as usize].height = 0,
-        |bvh| bvh.top.nodes.push(MomentNode::EMPTY),
-        |bvh| {
-            let own = crate::bvh::top::Opened {
-                first: u32::MAX,
-                parts: Vec::new(),
-            };
-            bvh.top.opened.insert(0, own);
-        },
-    ];
-    for (k, wrong) in wrong.into_iter().enumerate() {
-        let mut bvh: Small = small();
-        assert!(Small::from_words(&bvh.to_words()).is_ok());
-        wrong(&mut bvh);
-        assert!(Small::from_words(&bvh.to_words()).is_err(), "{k}");
-    }
-}
-
 /// A node of a bottom level comes before those below it, and what is below one is together.
 #[test]
 fn nodes_in_another_order_are_refused() {
@@ -172,16 +145,4 @@ fn numbers_that_nobody_has_are_refused() {
         super::std::format!("{error}").contains("the lights' numbers"),
         "{error}"
     );
-    // Free numbers at the end are as good as new ones.
-    let last = (0..bvh.instances().len() as u32)
-        .filter_map(|k| bvh.instance_id(k))
-        .max_by_key(|&id| bvh.lights_of(id).map(|lights| lights.end))
-        .expect("an instance");
-    bvh.remove_instance(last).expect("there");
-    bvh.refit();
-    bvh.take_removed_lights();
-    let read = Small::from_words(&bvh.to_words()).expect("its own");
-    assert!(bvh.light_end() < bvh.lights.end());
-    assert_eq!(read.light_end(), bvh.light_end());
-    assert_eq!(read.world_lights(), bvh.world_lights());
 }
