@@ -4,34 +4,6 @@ use super::*;
 use crate::Transform;
 use crate::kit::Random;
 
-/// A rotation by a random unit quaternion, in `f64`.
-fn rotation(random: &mut Random) -> [[f64; 3]; 3] {
-    let mut q = [0.0_f64; 4];
-    let mut squared = 0.0;
-    while !(0.01..=1.0).contains(&squared) {
-        q = core::array::from_fn(|_| f64::from(random.signed()));
-        squared = q.iter().map(|x| x * x).sum();
-    }
-    let [x, y, z, w] = q.map(|x| x / squared.sqrt());
-    [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - z * w),
-            2.0 * (x * z + y * w),
-        ],
-        [
-            2.0 * (x * y + z * w),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - x * w),
-        ],
-        [
-            2.0 * (x * z - y * w),
-            2.0 * (y * z + x * w),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
-    ]
-}
-
 /// Lamps stood outside of their own beams where a mesh far from its own origin is brought back: two of 34,000 lit lights were
 /// told that they do not reach a point.
 #[test]
@@ -41,7 +13,7 @@ fn a_beam_holds_what_a_map_brings_back() {
     for round in 0..20_000 {
         let far = 10.0_f64.powf(f64::from(random.unit()) * 6.0);
         let scale = 10.0_f64.powf(f64::from(random.unit()) * 4.0 - 2.0);
-        let rows = rotation(&mut random).map(|row| row.map(|x| (x * scale) as f32));
+        let rows = random.axes().map(|row| row.map(|x| (x * scale) as f32));
         let p: [f32; 3] = core::array::from_fn(|_| ((f64::from(random.signed())) * far / scale) as f32);
         let turned = |p: [f32; 3]| -> [f64; 3] {
             core::array::from_fn(|i| (0..3).map(|j| f64::from(rows[i][j]) * f64::from(p[j])).sum())
@@ -87,7 +59,7 @@ fn a_beam_holds_what_a_map_brings_back() {
 /// Columns of lengths `lengths` times `scale`, turned, with `by` of the first axis added to the second, of the second to the
 /// third, of the third to the first.
 fn map(random: &mut Random, scale: f64, lengths: [f64; 3], by: [f64; 3]) -> Transform {
-    let turn = rotation(random);
+    let turn = random.axes();
     let columns = core::array::from_fn(|j| {
         let (k, share) = match j {
             1 => (0, by[0]),
@@ -143,7 +115,7 @@ fn cones_about_another_axis_hold_the_beam() {
     let mut random = Random(23);
     let (mut told, mut none) = (0, 0);
     for _ in 0..20_000 {
-        let rows = rotation(&mut random);
+        let rows = random.axes();
         let axis = Vec3::from(rows[0].map(|x| x as f32));
         let half = 1.6 * f64::from(random.unit());
         let tilt = 1.6 * f64::from(random.unit()).powi(3);

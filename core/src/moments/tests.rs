@@ -10,7 +10,7 @@ use super::LightMoments;
 use crate::exact::{self, pow2};
 use crate::kit::{Random, cross, dot, minus, node, normalize, wide};
 use crate::light::{EmissiveTriangle, Light, TWO_SIDED};
-use crate::node::{MomentNode, Node, kind};
+use crate::node::{MomentNode, Node};
 use crate::vector::{max3, min3};
 
 impl Random {
@@ -68,26 +68,6 @@ fn merges_are_the_sums() {
                 alike(&LightMoments::merge(&sets), &merged(&sets), size);
             }
         }
-    }
-}
-
-#[test]
-fn powers_of_two_change_no_bit() {
-    let mut random = Random(3);
-    for e in [-50, -7, 1, 30] {
-        let sets = [0; 8].map(|_| random.set(1.0, 1.0));
-        let by = pow2(e);
-        let grown = sets.map(|s| LightMoments {
-            phi: s.phi * by,
-            c: s.c * by,
-            across: s.across * by,
-            along: s.along * by,
-            m: s.m,
-            h: s.h * by,
-        });
-        let (a, b) = (LightMoments::merge(&sets), LightMoments::merge(&grown));
-        assert_eq!((a.phi * by, a.c * by, a.m), (b.phi, b.c, b.m));
-        assert_eq!((a.across * by, a.along * by, a.h * by), (b.across, b.along, b.h));
     }
 }
 
@@ -224,21 +204,6 @@ fn sets_without_flux_do_not_matter() {
     }
 }
 
-/// The variance along the normal is kept as a ratio of that across, of at most 2: more is not told.
-#[test]
-fn a_set_along_its_normal_keeps_twice_its_breadth() {
-    let mut set = Random(9).set(1.0, 1.0);
-    set.across = 0.25;
-    for (along, kept) in [(0.0, 0.0), (0.125, 0.125), (0.5, 0.5), (0.75, 0.5), (100.0, 0.5)] {
-        set.along = along;
-        let mut node = MomentNode::<4>::EMPTY;
-        node.set_child(0, kind::LIGHT, 0);
-        node.set_summaries(&[set, LightMoments::EMPTY, LightMoments::EMPTY, LightMoments::EMPTY]);
-        // A code of 6 bits for the ratio, one of 3 for the breadth.
-        near(node.summary(0).along, kept, 0.02, "along");
-    }
-}
-
 /// Flux at the end of its range stays in it: merged, and rounded up to a code.
 #[test]
 fn flux_stays_in_its_range() {
@@ -252,23 +217,6 @@ fn flux_stays_in_its_range() {
         for slot in 0..8 {
             assert_eq!(node.summary(slot).phi, most, "{slot}");
         }
-    }
-}
-
-/// The frame's unit is by the greatest of all three coordinates.
-#[test]
-fn frames_reach_as_far_as_their_sets_along_each_axis() {
-    for axis in 0..3 {
-        let mut far = [0.0; 3];
-        far[axis] = 1000.0;
-        let mut sets = [LightMoments::EMPTY; 8];
-        sets[0] = Random(21).set(1.0, 2.0);
-        sets[5] = Random(22).set(1.0, 0.5);
-        sets[5].c = Vec3::from_array(far);
-        let unit = super::merge::framed(&crate::summary::Lanes::of(&sets))
-            .frame
-            .unit_exponent;
-        assert_eq!(unit, 10, "{axis}");
     }
 }
 

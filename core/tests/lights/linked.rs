@@ -169,16 +169,23 @@ fn check_all<N: MomentLayout<8>>(bvh: &Tree<N>, receivers: u32, random: &mut Ran
     let Some((own, light)) = near.and_then(|own| Some((own, bvh.triangle(own.light, own.instance)?))) else {
         return;
     };
+    macro_rules! check_by {
+        ($importance:ty, $point:expr) => {
+            let (point, mask) = ($point, !own.mask);
+            let receiver = LinkedPoint { point, mask };
+            check(
+                &bvh.by::<Linked<$importance>>(),
+                &known,
+                &receiver,
+                random,
+                seen,
+            );
+        };
+    }
     let point = ShadingPoint {
         p: light.centroid(),
         n: [0.0, 1.0, 0.0],
     };
-    let mask = !own.mask;
-    let receiver = LinkedPoint { point, mask };
-    check(&bvh.tree(), &known, &receiver, random, seen);
-    check(&bvh.by::<Linked<Flux>>(), &known, &receiver, random, seen);
-    let leveled = bvh.by::<Linked<Leveled<Moments, 9>>>();
-    check(&leveled, &known, &receiver, random, seen);
     let glossy = GlossyPoint {
         point,
         mirror: [0.0, 1.0, 0.0],
@@ -186,39 +193,21 @@ fn check_all<N: MomentLayout<8>>(bvh: &Tree<N>, receivers: u32, random: &mut Ran
         specular: 1.0,
         exponent: 65_536.0,
     };
-    let glossy = LinkedPoint { point: glossy, mask };
-    check(
-        &bvh.by::<Linked<Glossy<Moments>>>(),
-        &known,
-        &glossy,
-        random,
-        seen,
-    );
     let leaf = TransmissivePoint {
         point,
         front: 0.4,
         back: 0.6,
     };
-    let leaf = LinkedPoint { point: leaf, mask };
-    check(
-        &bvh.by::<Linked<Transmissive<Moments>>>(),
-        &known,
-        &leaf,
-        random,
-        seen,
-    );
-    let point = RaySegment {
+    let ray = RaySegment {
         from: point.p,
         to: random.within(20.0),
     };
-    let ray = LinkedPoint { point, mask };
-    check(
-        &bvh.by::<Linked<Subtended<Moments>>>(),
-        &known,
-        &ray,
-        random,
-        seen,
-    );
+    check_by!(Moments, point);
+    check_by!(Flux, point);
+    check_by!(Leveled<Moments, 9>, point);
+    check_by!(Glossy<Moments>, glossy);
+    check_by!(Transmissive<Moments>, leaf);
+    check_by!(Subtended<Moments>, ray);
 }
 
 /// With beams beside the masks, and large meshes whose parts are leaves of the top level with the instance's mask.

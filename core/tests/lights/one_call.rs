@@ -114,24 +114,13 @@ fn what_is_no_sample_is_none() {
     let none = LightBvh::default();
     assert!(none.sample_light(&point, 5_u32, [0.5; 2]).is_none());
     assert!(none.pdf_of_hit(&point, sampled.instance, 0, [0.0; 3]).is_none());
-    for wrong in [
-        ShadingPoint {
-            n: [f32::NAN; 3],
-            ..point
-        },
-        ShadingPoint {
-            n: [0.0, 1.1, 0.0],
-            ..point
-        },
-        ShadingPoint {
-            p: [f32::NAN, 0.0, 0.0],
-            ..point
-        },
-        ShadingPoint {
-            p: [f32::INFINITY, 0.0, 0.0],
-            ..point
-        },
+    for (p, n) in [
+        (point.p, [f32::NAN; 3]),
+        (point.p, [0.0, 1.1, 0.0]),
+        ([f32::NAN, 0.0, 0.0], point.n),
+        ([f32::INFINITY, 0.0, 0.0], point.n),
     ] {
+        let wrong = ShadingPoint { p, n };
         assert!(bvh.sample_light(&wrong, 5_u32, [0.5; 2]).is_none());
         assert_eq!(hit(&wrong, sampled.part), None);
     }

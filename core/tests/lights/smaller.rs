@@ -4,8 +4,8 @@ use bytemuck::cast_slice;
 use lightbvh::bvh::StaticBvh;
 use lightbvh::exact::{self, hash, pow2};
 use lightbvh::{
-    BuildParams, Bvh, Defensive, Edit, EmissiveTriangle, InstanceId, LightNode, Lights, MomentNode, Moments,
-    Node, ShadingPoint, Transform, TwoSidedMomentNode,
+    BuildParams, Bvh, Defensive, EmissiveTriangle, LightNode, Lights, MomentNode, Moments, Node,
+    ShadingPoint, Transform, TwoSidedMomentNode,
 };
 
 use crate::kit::Random;
@@ -14,78 +14,54 @@ type D = Defensive<Moments, 6>;
 
 type Default8 = Bvh<MomentNode<8>, D, 8>;
 
-/// Triangles of sizes and fluxes far apart, some without area or radiance, in a cube of 2 `size`; `flags` as given.
+/// Triangles of sizes and fluxes far apart, some without radiance, in a cube of 2 `size`; `flags` as given.
 fn mesh(random: &mut Random, size: f32, count: u32, flags: u32) -> Vec<EmissiveTriangle> {
     let triangle = |_| {
-        let at = random.within(size);
+        let (own, at) = (random.triangle(), random.within(size));
         let edge = size * pow2(-(random.below(20) as i32));
-        let vertex = |random: &mut Random| {
-            let away = random.within(edge);
-            [0, 1, 2].map(|k| at[k] + away[k])
-        };
-        let b = vertex(random);
-        let c = if random.below(12) == 0 { b } else { vertex(random) };
-        let radiance = match random.below(8) {
-            0 => 0.0,
-            _ => pow2(random.below(70) as i32 - 35),
-        };
-        // So thin that no normal is known of it: as good as two-sided.
-        let needle = flags != 0 && random.below(10) == 0;
+        let brighter = pow2(random.below(70) as i32 - 35);
         EmissiveTriangle {
-            p: if needle { thin(edge) } else { [at, b, c] },
-            radiance: [radiance; 3],
+            p: own.p.map(|v| [0, 1, 2].map(|k| at[k] + v[k] * edge)),
+            radiance: own.radiance.map(|x| x * brighter),
             mesh: 0,
-            flags: if needle { 0 } else { flags },
+            flags,
         }
     };
     (0..count).map(triangle).collect()
 }
 
-/// A cross product of 2^-70 of the longer edge squared.
-fn thin(edge: f32) -> [[f32; 3]; 3] {
-    [[0.0; 3], [edge, 0.0, 0.0], [0.0, edge * pow2(-70), 0.0]]
-}
-
-fn transform(random: &mut Random, size: f32) -> Transform {
-    let columns = match random.below(3) {
-        0 => Transform::IDENTITY.columns,
-        // Any map, flat ones too.
-        1 => [0; 3].map(|_| random.within(2.0)),
-        _ => [random.within(1.0), [0.0; 3], random.within(1.0)],
-    };
-    Transform {
-        columns,
-        translation: random.within(4.0 * size),
+/// Any map, flat ones too.
+fn place(random: &mut Random, size: f32) -> Transform {
+    let mut place = random.similarity(4.0 * size, 1.0);
+    match random.below(3) {
+        0 => place.columns = [0; 3].map(|_| random.within(2.0)),
+        1 => place.columns[1] = [0.0; 3],
+        _ => {}
     }
+    place
 }
 
 /// The same meshes, instances and moves in any light BVH.
-fn scene<N: LightNode<W>, I, const W: usize>(seed: u32, flags: u32, params: BuildParams) -> Bvh<N, I, W> {
+fn scene<N: LightNode<W>, I, const W: usize>(seed: u32, flags: u32) -> Bvh<N, I, W> {
     let random = &mut Random(seed.wrapping_mul(7919));
     let size = pow2(random.below(60) as i32 - 30);
-    let mut bvh = Bvh::new(params);
-    let mut instances: Vec<InstanceId> = Vec::new();
+    let mut bvh = Bvh::new(BuildParams::BALANCED);
+    let mut instances = Vec::new();
     for _ in 0..1 + random.below(3) {
         let count = 1 + random.below(60);
-        let own = bvh
-            .add_mesh(mesh(random, size, count, flags))
-            .expect("within the domain");
+        let own = bvh.add_mesh(mesh(random, size, count, flags)).expect("lights");
         for _ in 0..1 + random.below(4) {
-            let edit = Edit::AddInstance {
-                mesh: own,
-                transform: transform(random, size),
-                radiance: [[1.0, 0.25, 0.0][random.below(3) as usize]; 3],
-                mask: u32::MAX,
-            };
-            instances.extend(bvh.apply(vec![edit]).expect("an instance").instances);
+            let id = bvh.add_instance(own, place(random, size)).expect("a mesh");
+            let factor = [1.0, 0.25, 0.0][random.below(3) as usize];
+            bvh.set_radiance(id, [factor; 3]).expect("a factor");
+            instances.push(id);
         }
     }
     bvh.refit();
     // Refits, and a top level that edits have patched.
     for id in instances {
         if random.below(3) == 0 {
-            bvh.set_transform(id, transform(random, size))
-                .expect("within the domain");
+            bvh.set_transform(id, place(random, size)).expect("there");
         }
     }
     bvh.refit();
@@ -96,19 +72,17 @@ fn points(seed: u32, lights: &[EmissiveTriangle]) -> Vec<ShadingPoint> {
     let random = &mut Random(seed.wrapping_mul(104_729));
     let point = |_| {
         let near = lights[random.below(lights.len() as u32) as usize].p[0];
-        let size = near.into_iter().map(exact::abs).fold(pow2(-30), exact::max);
-        let away = random.within(size);
-        let mut point = random.point(0.0);
-        point.p = [0, 1, 2].map(|k| near[k] + away[k]);
+        let mut point = random.point(near.into_iter().map(exact::abs).fold(pow2(-30), exact::max));
+        (0..3).for_each(|k| point.p[k] += near[k]);
         point.checked().expect("a shading point")
     };
     (0..24).map(point).collect()
 }
 
 /// Every word but those of the row of normals, of which one constant is known; every pmf, every sample.
-fn equal_words<const W: usize>(seed: u32, params: BuildParams) {
-    let full = scene::<MomentNode<W>, D, W>(seed, EmissiveTriangle::TWO_SIDED, params);
-    let less = scene::<TwoSidedMomentNode<W>, D, W>(seed, EmissiveTriangle::TWO_SIDED, params);
+fn equal_words<const W: usize>(seed: u32) {
+    let full = scene::<MomentNode<W>, D, W>(seed, EmissiveTriangle::TWO_SIDED);
+    let less = scene::<TwoSidedMomentNode<W>, D, W>(seed, EmissiveTriangle::TWO_SIDED);
     assert_eq!(full.nodes().len(), less.nodes().len());
     assert_eq!(full.top_nodes().len(), less.top_nodes().len());
     let of_full = full.nodes().iter().chain(full.top_nodes());
@@ -152,10 +126,9 @@ fn equal_words<const W: usize>(seed: u32, params: BuildParams) {
 #[test]
 fn two_sided_moments_have_the_bits_of_moments() {
     for seed in 0..60 {
-        let params = BuildParams::BALANCED;
-        equal_words::<8>(seed, params);
-        equal_words::<4>(seed + 1000, params);
-        equal_words::<16>(seed + 2000, params);
+        equal_words::<8>(seed);
+        equal_words::<4>(seed + 1000);
+        equal_words::<16>(seed + 2000);
     }
 }
 
@@ -163,7 +136,7 @@ fn two_sided_moments_have_the_bits_of_moments() {
 #[test]
 fn two_sided_moments_lose_no_light() {
     for seed in 0..20 {
-        let bvh = scene::<TwoSidedMomentNode<8>, Moments, 8>(seed, 0, BuildParams::BALANCED);
+        let bvh = scene::<TwoSidedMomentNode<8>, Moments, 8>(seed, 0);
         bvh.validate()
             .unwrap_or_else(|violation| panic!("{seed}: {violation}"));
         let world = bvh.world_lights();
@@ -186,12 +159,10 @@ fn two_sided_moments_lose_no_light() {
 #[test]
 fn static_light_bvhs_say_the_same() {
     for seed in 0..20 {
-        let mut bvh = scene::<MomentNode<8>, D, 8>(seed, seed % 2, BuildParams::BALANCED);
+        let mut bvh = scene::<MomentNode<8>, D, 8>(seed, seed % 2);
         let bright = EmissiveTriangle {
-            p: [[0.0, 5.0, 0.0], [0.0, 5.0, 1.0], [1.0, 5.0, 0.0]],
             radiance: [1.0e6; 3],
-            mesh: 0,
-            flags: 0,
+            ..Random(seed).triangle()
         };
         let mesh = bvh.add_mesh(vec![bright]).expect("a bright lamp");
         let instance = bvh.add_instance(mesh, Transform::IDENTITY).expect("a mesh");
