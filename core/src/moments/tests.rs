@@ -11,6 +11,7 @@ use crate::exact::{self, pow2};
 use crate::kit::{Random, cross, dot, minus, node, normalize, wide};
 use crate::light::{EmissiveTriangle, Light, TWO_SIDED};
 use crate::node::{MomentNode, Node};
+use crate::summary::{Lanes, Summary};
 use crate::vector::{max3, min3};
 
 impl Random {
@@ -26,6 +27,10 @@ impl Random {
             h: Vec3::new(self.unit(), self.unit(), self.unit()) * (0.5 * scale),
         }
     }
+}
+
+fn merge(sets: &[LightMoments; 8]) -> LightMoments {
+    LightMoments::merged(&Lanes::of(sets))
 }
 
 #[track_caller]
@@ -65,7 +70,7 @@ fn merges_are_the_sums() {
                 }
                 // Lengths below 2^-100 m count as zero.
                 let size = pow2(scale.max(-83)).into();
-                alike(&LightMoments::merge(&sets), &merged(&sets), size);
+                alike(&merge(&sets), &merged(&sets), size);
             }
         }
     }
@@ -198,8 +203,8 @@ fn sets_without_flux_do_not_matter() {
                 dirty[slot] = garbage;
             }
         }
-        assert_eq!(LightMoments::merge(&plain), LightMoments::merge(&dirty));
-        assert_eq!(LightMoments::merge(&[garbage; 8]), LightMoments::EMPTY);
+        assert_eq!(merge(&plain), merge(&dirty));
+        assert_eq!(merge(&[garbage; 8]), LightMoments::EMPTY);
         assert_eq!(node::<MomentNode<8>, 8>(&plain), node(&dirty));
     }
 }
@@ -212,7 +217,7 @@ fn flux_stays_in_its_range() {
     // Rounds up to the next code, that of 2^126 and more.
     for phi in [most, most * 0.99] {
         set.phi = phi;
-        assert_eq!(LightMoments::merge(&[set; 8]).phi, most);
+        assert_eq!(merge(&[set; 8]).phi, most);
         let node: MomentNode<8> = node(&[set; 8]);
         for slot in 0..8 {
             assert_eq!(node.summary(slot).phi, most, "{slot}");
@@ -226,7 +231,7 @@ fn sets_fit_into_their_frame() {
     let mut random = Random(23);
     for _ in 0..2000 {
         let sets = [0; 8].map(|_| random.set(1.0, 1.0));
-        let rows = super::merge::framed(&crate::summary::Lanes::of(&sets)).sets.0;
+        let rows = super::merge::framed(&Lanes::of(&sets)).sets.0;
         for i in 0..8 {
             for k in 0..3 {
                 let reach = exact::abs(rows[super::row::C + k][i]) + rows[super::row::H + k][i];
@@ -244,7 +249,7 @@ fn sets_fit_into_their_frame() {
             phi: pow2(100 + ratio),
             ..random.set(1.0, 1.0)
         };
-        let rows = super::merge::framed(&crate::summary::Lanes::of(&sets)).sets.0;
+        let rows = super::merge::framed(&Lanes::of(&sets)).sets.0;
         assert_eq!(rows[super::row::PHI][6], pow2(kept), "{ratio}");
         assert_eq!(rows[super::row::PHI][0], 0.0);
         assert!(node::<MomentNode<8>, 8>(&sets).summary(6).phi > 0.0, "{ratio}");
