@@ -7,14 +7,14 @@ use lightbvh::exact::{hash, unit_f32};
 use lightbvh::light::{
     AnyLight, BoxLight, DiscLight, Light, PointLight, RectangleLight, SphereLight, SpotLight,
 };
-use lightbvh::node::{Lit, SpotMomentNode};
+use lightbvh::node::SpotMomentNode;
 use lightbvh::{Bvh, Defensive, EmissiveTriangle, Moments, ShadingPoint, Transform};
 
 /// Nodes over lights of any kind that know the cones of spots. Where a scene has one kind alone, its own type in place of
 /// `AnyLight` is smaller, and `MomentNode` in place of `SpotMomentNode` where it has no spots. A node knows the cone of spots
 /// that share it with no others: those of many lamps want a mesh of their own, bright ones a light BVH of their own
 /// (docs/walk.md, section 8).
-type Room = Bvh<Lit<SpotMomentNode<8>, AnyLight>, Defensive<Moments, 6>, 8>;
+type Room = Bvh<SpotMomentNode<8, AnyLight>, Defensive<Moments, 6>, 8>;
 
 const TRIALS: u32 = 200_000;
 

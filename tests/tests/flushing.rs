@@ -10,7 +10,7 @@ use lightbvh::importance::{
 };
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::node::{
-    CompactNode, LinkedMomentNode, LinkedSpotMomentNode, Lit, MomentLayout, MomentNode, Node, SpotMomentNode,
+    CompactNode, LinkedMomentNode, LinkedSpotMomentNode, MomentLayout, MomentNode, Node, SpotMomentNode,
     TwoSidedMomentNode,
 };
 use lightbvh::refit::{self, LIMITED_ROWS, PLAIN_ROWS, assembled, bottom_child, top_child};
@@ -192,7 +192,7 @@ fn triangles_by_moments() {
         ask::<_, Defensive<Transmissive<Moments>, 6>, _, 8>(bvh, &receiver, &point, random);
         let to = scenes::point(random, sizes).p;
         let receiver = RaySegment { from: point.p, to };
-        ask::<_, Defensive<Subtended<Moments>, 6>, _, 8>(bvh, &receiver, &point, random);
+        ask::<_, Defensive<Subtended, 6>, _, 8>(bvh, &receiver, &point, random);
     });
 }
 
@@ -212,11 +212,11 @@ fn triangles_by_bounds() {
 
 #[test]
 fn lights_of_every_kind() {
-    type Beams = Lit<SpotMomentNode<8>, AnyLight>;
+    type Beams = SpotMomentNode<8, AnyLight>;
     check::<Beams, 8, LIMITED_ROWS>(points!(Beams, 8, DefaultImportance));
-    type Plain = Lit<MomentNode<8>, AnyLight>;
+    type Plain = MomentNode<8, AnyLight>;
     check::<Plain, 8, PLAIN_ROWS>(points!(Plain, 8, DefaultImportance));
-    type Bounds = Lit<CompactNode<4>, AnyLight>;
+    type Bounds = CompactNode<4, AnyLight>;
     check::<Bounds, 4, PLAIN_ROWS>(points!(Bounds, 4, Eq4, Falcor));
 }
 
@@ -230,5 +230,5 @@ fn ask_masked<N: MomentLayout<8>>(bvh: &Bvh<N, (), 8>, random: &mut Random, size
 #[test]
 fn lights_with_masks() {
     check::<LinkedMomentNode<8>, 8, LIMITED_ROWS>(ask_masked);
-    check::<Lit<LinkedSpotMomentNode<8>, AnyLight>, 8, LIMITED_ROWS>(ask_masked);
+    check::<LinkedSpotMomentNode<8, AnyLight>, 8, LIMITED_ROWS>(ask_masked);
 }

@@ -20,13 +20,6 @@ use crate::point::LinkedPoint;
 /// A share of uniform choice goes to all lights, those without a common bit among them. So neither `Linked<Defensive<_, _>>` nor
 /// `Defensive<Linked<_>, _>` compiles. [`Leveled`](super::Leveled) takes its place.
 ///
-/// ```
-/// # use lightbvh::importance::LinkedPoint;
-/// # use lightbvh::{MaskedLights, ShadingPoint};
-/// # let lights = MaskedLights::default();
-/// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
-/// let sampled = lights.sample(&receiver, 1_u32);
-/// ```
 /// Receivers of other kinds have masks as well: a leaf of two sides, say.
 /// ```
 /// # use lightbvh::importance::{Leveled, Linked, LinkedPoint, Transmissive, TransmissivePoint};

@@ -6,11 +6,9 @@
 mod beam_row;
 mod codes;
 mod compact;
-mod lit;
 mod moment;
 
 pub use compact::CompactNode;
-pub use lit::Lit;
 pub use moment::{
     LinkedMomentNode, LinkedSpotMomentNode, MomentNode, PackedMomentNode, SpotMomentNode, TwoSidedMomentNode,
 };
@@ -48,7 +46,7 @@ pub mod kind {
 
 /// What the lights of a tree with such nodes are.
 pub trait Holds: Pod + Send + Sync {
-    /// The lights that leaves are: emissive triangles, unless a [`Lit`] says otherwise.
+    /// The lights that leaves are: emissive triangles, unless the node's type names others.
     type Light: Light;
 }
 
@@ -97,16 +95,6 @@ pub trait Node<const W: usize>: Holds {
     /// layout stores none.
     #[inline(always)]
     fn set_limits(&mut self, _limits: &[Limits; W], _summaries: &Lanes<W>) {}
-
-    /// The union of the masks of all children.
-    #[inline(always)]
-    fn merged_mask(&self) -> u32 {
-        let mut all = 0;
-        for slot in 0..W {
-            all |= self.mask(slot);
-        }
-        all
-    }
 
     /// The child's light ends at this distance from its stored box, metres; [`Limits::ENDLESS`] where there is
     /// none, or the layout stores no beams.

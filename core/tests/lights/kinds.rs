@@ -4,10 +4,9 @@
 use crate::kit::Random;
 use lightbvh::exact::hash;
 use lightbvh::light::{AnyLight, Light};
-use lightbvh::node::Lit;
 use lightbvh::{Bvh, Defensive, MomentNode, Moments, Random64, Rebuilder, ShadingPoint, Transform};
 
-type Tree = Bvh<Lit<MomentNode<8>, AnyLight>, Defensive<Moments, 6>, 8>;
+type Tree = Bvh<MomentNode<8, AnyLight>, Defensive<Moments, 6>, 8>;
 
 const PER_MESH: usize = 24;
 

@@ -144,7 +144,7 @@ fn receivers_turn_with_instances() {
         ..any_glossy(random, 5.0)
     });
     turns_with_instances::<Transmissive<Moments>, _>(30, |random| leaf(random, [0.1, 0.9]));
-    turns_with_instances::<Subtended<Moments>, _>(30, |random| random.segment(5.0, 3.0));
+    turns_with_instances::<Subtended, _>(30, |random| random.segment(5.0, 3.0));
 }
 
 const PARTS: [[f32; 2]; 6] = [
@@ -279,7 +279,7 @@ fn weights_are_means_along_the_segment() {
             ((1.0 - dot(m, m)).max(0.0).sqrt() * 255.0).round() / 255.0
         });
         let sets = [0, 1, 2, 3].map(|slot| (node.summary(slot), spreads[slot]));
-        let found = Subtended::<Moments>::weights(&node, &segment);
+        let found = Subtended::weights(&node, &segment);
         let expected = sets.map(|(set, spread)| {
             let (c, m) = (wide(set.c.to_array()), wide(set.m.to_array()));
             let (across, along) = (f64::from(set.across), f64::from(set.along));
@@ -351,7 +351,7 @@ fn weights_of_segments_are_positive_everywhere() {
                     h: Vec3::splat(across),
                 }
             });
-            for weight in Subtended::<Moments>::weights(&node(&sets), &segment) {
+            for weight in Subtended::weights(&node(&sets), &segment) {
                 assert!(
                     (pow2(-120)..=pow2(120)).contains(&weight),
                     "{weight} at {segment:?} of {sets:?}"

@@ -9,7 +9,7 @@ use crate::kit::Random;
 use crate::kit::scenes::{Lamp, lamps};
 use crate::light::AnyLight;
 use crate::node::{
-    CompactNode, LinkedMomentNode, LinkedSpotMomentNode, Lit, MomentNode, SpotMomentNode, TwoSidedMomentNode,
+    CompactNode, LinkedMomentNode, LinkedSpotMomentNode, MomentNode, SpotMomentNode, TwoSidedMomentNode,
 };
 use crate::refit::{bottom, top};
 use crate::{Bvh, Transform};
@@ -108,14 +108,13 @@ fn nodes_child_by_child_are_nodes_as_a_whole() {
 
 #[test]
 fn limits_go_by_way_of_children_too() {
-    check::<Lit<LinkedMomentNode<8>, AnyLight>, 8, LIMITED_ROWS>();
-    check::<Lit<SpotMomentNode<8>, AnyLight>, 8, LIMITED_ROWS>();
-    check::<Lit<LinkedSpotMomentNode<8>, AnyLight>, 8, LIMITED_ROWS>();
+    check::<LinkedMomentNode<8, AnyLight>, 8, LIMITED_ROWS>();
+    check::<SpotMomentNode<8, AnyLight>, 8, LIMITED_ROWS>();
+    check::<LinkedSpotMomentNode<8, AnyLight>, 8, LIMITED_ROWS>();
     // They are there to be lost.
-    let bvh = scene::<Lit<LinkedSpotMomentNode<8>, AnyLight>, 8>(&mut Random(5));
-    let of = |node: &Lit<LinkedSpotMomentNode<8>, AnyLight>, slot| {
-        (node.mask(slot), node.beam(slot), node.end(slot))
-    };
+    let bvh = scene::<LinkedSpotMomentNode<8, AnyLight>, 8>(&mut Random(5));
+    let of =
+        |node: &LinkedSpotMomentNode<8, AnyLight>, slot| (node.mask(slot), node.beam(slot), node.end(slot));
     let (nodes, _) = flat(&bvh);
     let all = || {
         nodes
@@ -129,7 +128,7 @@ fn limits_go_by_way_of_children_too() {
 /// Links to what is just beyond the end, and to what is of the other level.
 #[test]
 fn what_is_not_there_is_no_child() {
-    type Layout = Lit<LinkedSpotMomentNode<8>, AnyLight>;
+    type Layout = LinkedSpotMomentNode<8, AnyLight>;
     let bvh = scene::<Layout, 8>(&mut Random(5));
     let (triangles, instances, roots) = (bvh.triangles(), bvh.instances(), bvh.roots());
     let mut nodes = [bvh.nodes(), &[Layout::EMPTY]].concat();

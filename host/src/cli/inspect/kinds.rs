@@ -55,7 +55,7 @@ impl LightKinds {
         let layout = ["MomentNode", "SpotMomentNode"][usize::from(self.limited > 0)];
         match self.light_type() {
             "EmissiveTriangle" => format!("{layout}<{width}>"),
-            light => format!("Lit<{layout}<{width}>, {light}>"),
+            light => format!("{layout}<{width}, {light}>"),
         }
     }
 
@@ -110,12 +110,12 @@ mod tests {
             })
         };
         for (lights, node, said) in [
-            (&[point][..], "Lit<MomentNode<8>, PointLight>", "1 point"),
+            (&[point][..], "MomentNode<8, PointLight>", "1 point"),
             // A cone of a right angle and one without light need no cones.
-            (&[spot(0.0, 1.0)], "Lit<MomentNode<8>, SpotLight>", "1 spot"),
+            (&[spot(0.0, 1.0)], "MomentNode<8, SpotLight>", "1 spot"),
             (
                 &[point, spot(0.5, 0.0)],
-                "Lit<MomentNode<8>, AnyLight>",
+                "MomentNode<8, AnyLight>",
                 "1 point, 1 spot",
             ),
         ] {
