@@ -2,15 +2,20 @@
 
 mod reference;
 
+use core::slice::from_ref;
+
+use bytemuck::cast_slice;
 use glam::Vec3;
 
 use reference::{Exact, merged};
 
 use super::LightMoments;
 use crate::exact::{self, pow2};
+use crate::importance::{ImportanceModel, Moments};
 use crate::kit::{Random, cross, dot, minus, node, normalize, wide};
 use crate::light::{EmissiveTriangle, Light, TWO_SIDED};
-use crate::node::{MomentNode, Node};
+use crate::node::{MomentNode, Node, TwoSidedMomentNode};
+use crate::point::ShadingPoint;
 use crate::summary::{Lanes, Summary};
 use crate::vector::{max3, min3};
 
@@ -253,5 +258,45 @@ fn sets_fit_into_their_frame() {
         assert_eq!(rows[super::row::PHI][6], pow2(kept), "{ratio}");
         assert_eq!(rows[super::row::PHI][0], 0.0);
         assert!(node::<MomentNode<8>, 8>(&sets).summary(6).phi > 0.0, "{ratio}");
+    }
+}
+
+/// Without mean normals a node without the row of them has the bits of the other: its words, what they say, and weights.
+#[test]
+fn two_sided_nodes_leave_out_a_constant_row() {
+    fn check<const W: usize>(random: &mut Random) {
+        let scale = random.power(-60, 36);
+        let sets = [0; W].map(|_| {
+            let flux = random.power(-35, 35) * if random.below(6) == 0 { 0.0 } else { 1.0 };
+            LightMoments {
+                m: Vec3::ZERO,
+                ..random.set(scale, flux)
+            }
+        });
+        let (full, less): (MomentNode<W>, TwoSidedMomentNode<W>) = (node(&sets), node(&sets));
+        let (a, b): (&[u32], &[u32]) = (cast_slice(from_ref(&full)), cast_slice(from_ref(&less)));
+        assert_eq!((a.len(), b.len()), (6 * W, 5 * W));
+        assert_eq!((&a[..3 * W], &a[4 * W..]), (&b[..3 * W], &b[3 * W..]));
+        for (slot, set) in sets.iter().enumerate() {
+            let shines = set.phi > 0.0;
+            assert_eq!(a[3 * W + slot], if shines { !0 } else { 0 }, "{slot}");
+            assert!(!shines || full.summary(slot) == less.summary(slot), "{slot}");
+        }
+        assert_eq!(full.merged(), less.merged());
+        for n in [Vec3::ZERO, random.direction()] {
+            let away = random.vector() * (scale * random.power(-6, 6));
+            let point = ShadingPoint {
+                p: (sets[0].c + away).to_array(),
+                n: n.to_array(),
+            };
+            let (a, b) = (Moments::weights(&full, &point), Moments::weights(&less, &point));
+            assert_eq!(a.map(f32::to_bits), b.map(f32::to_bits), "{sets:?} at {point:?}");
+        }
+    }
+    let random = &mut Random(31);
+    for _ in 0..2000 {
+        check::<4>(random);
+        check::<8>(random);
+        check::<16>(random);
     }
 }
