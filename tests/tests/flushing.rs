@@ -10,8 +10,7 @@ use lightbvh::importance::{
 };
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::node::{
-    CompactNode, LinkedMomentNode, LinkedSpotMomentNode, MomentLayout, MomentNode, Node, SpotMomentNode,
-    TwoSidedMomentNode,
+    CompactNode, LinkedSpotMomentNode, MomentNode, Node, SpotMomentNode, TwoSidedMomentNode,
 };
 use lightbvh::refit::{self, LIMITED_ROWS, PLAIN_ROWS, assembled, bottom_child, top_child};
 use lightbvh::{Bvh, Defensive, Eq4, FluxOverDistance, GlossyPoint, Moments, Random64, ShadingPoint, exact};
@@ -220,15 +219,12 @@ fn lights_of_every_kind() {
     check::<Bounds, 4, PLAIN_ROWS>(points!(Bounds, 4, Eq4, Falcor));
 }
 
-/// A query of a tree with masks.
-fn ask_masked<N: MomentLayout<8>>(bvh: &Bvh<N, (), 8>, random: &mut Random, sizes: &[f32]) {
-    let point = scenes::point(random, sizes);
-    let mask = 1 + random.below(15);
-    ask::<_, Linked<Leveled<Moments, 9>>, _, 8>(bvh, &LinkedPoint { point, mask }, &point, random);
-}
-
 #[test]
 fn lights_with_masks() {
-    check::<LinkedMomentNode<8>, 8, LIMITED_ROWS>(ask_masked);
-    check::<LinkedSpotMomentNode<8, AnyLight>, 8, LIMITED_ROWS>(ask_masked);
+    type Masked = LinkedSpotMomentNode<8, AnyLight>;
+    check::<Masked, 8, LIMITED_ROWS>(|bvh, random, sizes| {
+        let point = scenes::point(random, sizes);
+        let mask = 1 + random.below(15);
+        ask::<_, Linked<Leveled<Moments, 9>>, _, 8>(bvh, &LinkedPoint { point, mask }, &point, random);
+    });
 }

@@ -9,9 +9,7 @@ mod compact;
 mod moment;
 
 pub use compact::CompactNode;
-pub use moment::{
-    LinkedMomentNode, LinkedSpotMomentNode, MomentNode, PackedMomentNode, SpotMomentNode, TwoSidedMomentNode,
-};
+pub use moment::{LinkedSpotMomentNode, MomentNode, PackedMomentNode, SpotMomentNode, TwoSidedMomentNode};
 
 use bytemuck::Pod;
 use glam::Vec3;
@@ -59,7 +57,7 @@ pub trait Node<const W: usize>: Holds {
     const EMPTY: Self;
     /// Name for tables.
     const NAME: &'static str;
-    /// Whether it stores a mask of each child, as [`LinkedMomentNode`] does.
+    /// Whether it stores a mask of each child, as [`LinkedSpotMomentNode`] does.
     const HAS_MASKS: bool = false;
     /// Whether it stores a beam of each child, as [`SpotMomentNode`] does.
     const HAS_BEAMS: bool = false;

@@ -1,5 +1,5 @@
-//! The default layout: quantised moments, 24 bytes per child; the same for lights that shine from both sides, 20 bytes; with masks, 28 bytes; with
-//! beams, 32 bytes; with both, 36 bytes.
+//! The default layout: quantised moments, 24 bytes per child; the same for lights that shine from both sides, 20 bytes; with beams,
+//! 32 bytes; with beams and masks, 36 bytes.
 
 use core::marker::PhantomData;
 
@@ -27,13 +27,11 @@ use crate::weight::{Lobe, frame, side, weight};
 const WORD_0: usize = 1;
 const WORD_1: usize = 2;
 const WORD_2: usize = 3;
-/// Rows with normals, without, and with normals and masks; two rows of beams come on top of them.
+/// Rows with normals, without, with normals and beams, and with normals, beams, and masks.
 const ORIENTED: usize = 6;
 const TWO_SIDED: usize = 5;
-const LINKED: usize = 7;
-/// Rows with normals and beams, and with normals, beams, and masks.
 const SPOT: usize = ORIENTED + 2;
-const LINKED_SPOT: usize = LINKED + 2;
+const LINKED_SPOT: usize = SPOT + 1;
 /// What the row of normals holds for a mean normal of zero: all fields at their nearest, the spread at its greatest.
 const NO_NORMAL: u32 = !0;
 
@@ -54,11 +52,6 @@ pub type MomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, 
 /// A light that shines from one side is taken as if it shone from both with the same flux: that costs variance, never a light.
 pub type TwoSidedMomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, TWO_SIDED, L>;
 
-/// A node of 28 bytes per child that knows which lights a receiver may take: the words of [`MomentNode`], and the union of the masks of the
-/// child's instances, all bits below an instance. What [`Linked`](crate::importance::Linked) needs; any other importance
-/// chooses as by [`MomentNode`], to the bit.
-pub type LinkedMomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, LINKED, L>;
-
 /// A node of 32 bytes per child for scenes with spots and ranges: the words of [`MomentNode`], a cone that holds all light of the child
 /// ([`Light::beam`](crate::light::Light::beam)), and how far from its box it ends ([`Light::end`](crate::light::Light::end)). A child whose cone or end a point lies outside of counts for 2^-16 of what it would; one
 /// whose cone it lies in for as much more as its light is gathered. Of lights without a range that are no spots, nor sets of spots that point about
@@ -69,11 +62,13 @@ pub type LinkedMomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNo
 /// They count in instances whose maps are similarities alone, for others change angles.
 pub type SpotMomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, SPOT, L>;
 
-/// [`SpotMomentNode`] with the masks of [`LinkedMomentNode`], 36 bytes per child.
+/// A node of 36 bytes per child that also knows which lights a receiver may take: the words of [`SpotMomentNode`], and the union of the
+/// masks of the child's instances, all bits below an instance. What [`Linked`](crate::importance::Linked) needs; any other importance
+/// chooses as by [`SpotMomentNode`], to the bit.
 pub type LinkedSpotMomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, LINKED_SPOT, L>;
 
-/// What [`MomentNode`] (`ROWS` is 6), [`TwoSidedMomentNode`] (5, without word 2), [`LinkedMomentNode`] (7, with masks),
-/// [`SpotMomentNode`] (8, with beams) and [`LinkedSpotMomentNode`] (9) are, over lights `L`. `W` is at least 4.
+/// What [`MomentNode`] (`ROWS` is 6), [`TwoSidedMomentNode`] (5, without word 2), [`SpotMomentNode`] (8, with beams) and
+/// [`LinkedSpotMomentNode`] (9, with beams and masks) are, over lights `L`. `W` is at least 4.
 ///
 /// | word | content |
 /// |---|---|
@@ -97,7 +92,6 @@ impl<const W: usize, const ROWS: usize, L> PackedMomentNode<W, ROWS, L> {
     const BEAMS: bool = ROWS >= SPOT;
     const WORD_3: usize = if ROWS == TWO_SIDED { WORD_2 } else { WORD_2 + 1 };
     const LINK: usize = Self::WORD_3 + 1;
-    const HAS_MASK_ROW: bool = ROWS == LINKED || ROWS == LINKED_SPOT;
     /// The last row, which is that of masks where there is one.
     const MASK: usize = ROWS - 1;
     /// The rows of beams, where there are any.
@@ -226,19 +220,18 @@ impl<const W: usize, const ROWS: usize, L: Light> Node<W> for PackedMomentNode<W
             "the header of a packed node takes four words: it has 4 to 16 children"
         );
         assert!(
-            TWO_SIDED <= ROWS && ROWS <= LINKED_SPOT,
-            "a packed node of moments has six rows, five without normals, seven with masks, eight with beams, nine with both"
+            ROWS == ORIENTED || ROWS == TWO_SIDED || ROWS == SPOT || ROWS == LINKED_SPOT,
+            "a packed node of moments has six rows, five without normals, eight with beams, or nine with beams and masks"
         );
         Self([[0; W]; ROWS], PhantomData)
     };
     const NAME: &'static str = match ROWS {
         TWO_SIDED => "two-sided moments",
         ORIENTED => "moments",
-        LINKED => "linked moments",
         SPOT => "moments with beams",
         _ => "linked moments with beams",
     };
-    const HAS_MASKS: bool = Self::HAS_MASK_ROW;
+    const HAS_MASKS: bool = ROWS == LINKED_SPOT;
     const HAS_BEAMS: bool = Self::BEAMS;
 
     #[inline(always)]
@@ -277,7 +270,7 @@ impl<const W: usize, const ROWS: usize, L: Light> Node<W> for PackedMomentNode<W
 
     #[inline(always)]
     fn mask(&self, slot: usize) -> u32 {
-        if Self::HAS_MASK_ROW {
+        if Self::HAS_MASKS {
             self.0[Self::MASK][slot]
         } else {
             u32::MAX
@@ -305,7 +298,7 @@ impl<const W: usize, const ROWS: usize, L: Light> Node<W> for PackedMomentNode<W
 
     #[inline(always)]
     fn set_limits(&mut self, limits: &[Limits; W], summaries: &Lanes<W>) {
-        if Self::HAS_MASK_ROW {
+        if Self::HAS_MASKS {
             each!(slot, W, {
                 let shines = exact::mask(self.0[WORD_1][slot] & PHI_MASK);
                 self.0[Self::MASK][slot] = limits[slot].mask & shines;
@@ -333,7 +326,7 @@ impl<const W: usize, const ROWS: usize, L: Light> Node<W> for PackedMomentNode<W
     #[inline(always)]
     fn merged_limits(&self, whole: &LightMoments) -> Limits {
         let mut all = Limits::NONE;
-        if Self::HAS_MASK_ROW {
+        if Self::HAS_MASKS {
             each!(slot, W, {
                 all.mask |= self.0[Self::MASK][slot];
             });

@@ -7,7 +7,7 @@ use lightbvh::importance::{
     Leveled, Linked, LinkedPoint, RaySegment, Subtended, Transmissive, TransmissivePoint,
 };
 use lightbvh::light::{AnyLight, Light};
-use lightbvh::node::{LinkedMomentNode, LinkedSpotMomentNode, Node};
+use lightbvh::node::{LinkedSpotMomentNode, Node, SpotMomentNode};
 use lightbvh::tree::{LightTree, OPENED};
 use lightbvh::{
     BuildParams, Bvh, Flux, Glossy, GlossyPoint, ImportanceModel, Instance, InstanceId, Lights, MeshId,
@@ -287,8 +287,8 @@ fn masks_that_allow_all_change_nothing() {
     let random = &mut Random(9);
     let own: Vec<_> = (0..700).map(|_| random.triangle()).collect();
     let lights = Lights::new(own).expect("in the domain");
-    let plain: Bvh<MomentNode<8>, Moments, 8> = Bvh::single_level(&lights, &BuildParams::default());
-    let masked: Bvh<LinkedMomentNode<8>, Linked<Moments>, 8> =
+    let plain: Bvh<SpotMomentNode<8>, Moments, 8> = Bvh::single_level(&lights, &BuildParams::default());
+    let masked: Bvh<LinkedSpotMomentNode<8>, Linked<Moments>, 8> =
         Bvh::single_level(&lights, &BuildParams::default());
     // The words of a node but for the last row are those without masks.
     let row = size_of::<[u32; 8]>();

@@ -3,7 +3,7 @@
 use crate::beam::Limits;
 use crate::choose::{FULL, choose};
 use crate::importance::{Glossy, ImportanceModel, Linked, Space};
-use crate::node::{LinkedMomentNode, Node};
+use crate::node::{LinkedSpotMomentNode, Node};
 use crate::point::{GlossyPoint, LinkedPoint, ShadingPoint};
 use crate::summary::Lanes;
 use crate::{LightMoments, exact};
@@ -19,13 +19,13 @@ impl<N> ImportanceModel<N, 4> for Extremes {
     }
 }
 
-fn node(masks: [u32; 4]) -> LinkedMomentNode<4> {
+fn node(masks: [u32; 4]) -> LinkedSpotMomentNode<4> {
     let light = LightMoments {
         phi: 1.0,
         across: 0.5,
         ..LightMoments::EMPTY
     };
-    let mut node: LinkedMomentNode<4> = crate::kit::node(&[light; 4]);
+    let mut node: LinkedSpotMomentNode<4> = crate::kit::node(&[light; 4]);
     let limits = masks.map(|mask| Limits { mask, ..Limits::NONE });
     node.set_limits(&limits, &Lanes::all(&light));
     node

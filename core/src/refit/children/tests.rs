@@ -8,9 +8,7 @@ use super::*;
 use crate::kit::Random;
 use crate::kit::scenes::{Lamp, lamps};
 use crate::light::AnyLight;
-use crate::node::{
-    CompactNode, LinkedMomentNode, LinkedSpotMomentNode, MomentNode, SpotMomentNode, TwoSidedMomentNode,
-};
+use crate::node::{CompactNode, LinkedSpotMomentNode, MomentNode, SpotMomentNode, TwoSidedMomentNode};
 use crate::refit::{bottom, top};
 use crate::{Bvh, Transform};
 
@@ -108,7 +106,6 @@ fn nodes_child_by_child_are_nodes_as_a_whole() {
 
 #[test]
 fn limits_go_by_way_of_children_too() {
-    check::<LinkedMomentNode<8, AnyLight>, 8, LIMITED_ROWS>();
     check::<SpotMomentNode<8, AnyLight>, 8, LIMITED_ROWS>();
     check::<LinkedSpotMomentNode<8, AnyLight>, 8, LIMITED_ROWS>();
     // They are there to be lost.
