@@ -5,7 +5,7 @@
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::importance::{RaySegment, Subtended};
 use lightbvh::light::LightPoint;
-use lightbvh::{Defensive, EmissiveTriangle, LightBvh, Moments, ShadingPoint, Transform};
+use lightbvh::{Defensive, EmissiveTriangle, LightBvh, ShadingPoint, Transform};
 
 const TRIALS: u32 = 200_000;
 
@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
 
-    let told = bvh.by::<Defensive<Subtended<Moments>, 6>>();
+    let told = bvh.by::<Defensive<Subtended, 6>>();
     let (mut mean, mut square) = (0.0, 0.0);
     for trial in 0..TRIALS {
         let number = hash(trial);

@@ -1,7 +1,7 @@
 //! The lights that this crate samples, and the domain in which they are accepted.
 //!
-//! A [`Bvh`](crate::Bvh) is over lights of one type, which its nodes name: [`EmissiveTriangle`], or where they are
-//! [`Lit`](crate::node::Lit) another [`Light`].
+//! A [`Bvh`](crate::Bvh) is over lights of one type, which its nodes name: [`EmissiveTriangle`], or another [`Light`] where their type
+//! says so.
 //!
 //! | | emits |
 //! |---|---|

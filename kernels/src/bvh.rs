@@ -2,7 +2,7 @@
 
 use lightbvh::importance::DefaultImportance;
 use lightbvh::light::AnyLight;
-use lightbvh::node::{DefaultNode, Holds, Lit, Node as Layout, SpotMomentNode};
+use lightbvh::node::{DefaultNode, Holds, Node as Layout, SpotMomentNode};
 use lightbvh::{
     CompactNode, EmissiveTriangle, Eq4, ImportanceModel, LightTree, Random64, SampledLight, ShadingPoint,
 };
@@ -73,7 +73,7 @@ pub type Node = DefaultNode;
 /// Node of [`Paper`].
 pub type PaperNode = CompactNode<4>;
 /// Node over lights of any kind, spots among them: the words of [`Node`], and beams.
-pub type AnyNode = Lit<SpotMomentNode<8>, AnyLight>;
+pub type AnyNode = SpotMomentNode<8, AnyLight>;
 
 /// The tree of a choice.
 pub type TreeOf<'a, C, const W: usize> =

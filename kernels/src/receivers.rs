@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
 use lightbvh::importance::{Leveled, Linked, LinkedPoint};
 use lightbvh::light::AnyLight;
-use lightbvh::node::{LinkedSpotMomentNode, Lit};
+use lightbvh::node::LinkedSpotMomentNode;
 use lightbvh::refit::{self, BlasRoot, Children, LIMITED_ROWS};
 use lightbvh::{Instance, LightPoint, LightTree, Moments, Random64, SampledLight, ShadingPoint};
 use spirv_std::spirv;
@@ -16,7 +16,7 @@ use crate::query::{PointsPush, QueryPush, query_passes};
 use crate::refit::{RefitPush, refit_passes};
 
 /// Node of `MaskedLights`.
-pub type LinkedNode = Lit<LinkedSpotMomentNode<8>, AnyLight>;
+pub type LinkedNode = LinkedSpotMomentNode<8, AnyLight>;
 /// What they are chosen by.
 pub type LinkedImportance = Linked<Leveled<Moments, 11>>;
 

@@ -10,8 +10,7 @@ use lightbvh::importance::{
 };
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::node::{
-    CompactNode, LinkedMomentNode, LinkedSpotMomentNode, Lit, MomentLayout, MomentNode, Node, SpotMomentNode,
-    TwoSidedMomentNode,
+    CompactNode, LinkedSpotMomentNode, MomentNode, Node, SpotMomentNode, TwoSidedMomentNode,
 };
 use lightbvh::refit::{self, LIMITED_ROWS, PLAIN_ROWS, assembled, bottom_child, top_child};
 use lightbvh::{Bvh, Defensive, Eq4, FluxOverDistance, GlossyPoint, Moments, Random64, ShadingPoint, exact};
@@ -192,7 +191,7 @@ fn triangles_by_moments() {
         ask::<_, Defensive<Transmissive<Moments>, 6>, _, 8>(bvh, &receiver, &point, random);
         let to = scenes::point(random, sizes).p;
         let receiver = RaySegment { from: point.p, to };
-        ask::<_, Defensive<Subtended<Moments>, 6>, _, 8>(bvh, &receiver, &point, random);
+        ask::<_, Defensive<Subtended, 6>, _, 8>(bvh, &receiver, &point, random);
     });
 }
 
@@ -212,23 +211,20 @@ fn triangles_by_bounds() {
 
 #[test]
 fn lights_of_every_kind() {
-    type Beams = Lit<SpotMomentNode<8>, AnyLight>;
+    type Beams = SpotMomentNode<8, AnyLight>;
     check::<Beams, 8, LIMITED_ROWS>(points!(Beams, 8, DefaultImportance));
-    type Plain = Lit<MomentNode<8>, AnyLight>;
+    type Plain = MomentNode<8, AnyLight>;
     check::<Plain, 8, PLAIN_ROWS>(points!(Plain, 8, DefaultImportance));
-    type Bounds = Lit<CompactNode<4>, AnyLight>;
+    type Bounds = CompactNode<4, AnyLight>;
     check::<Bounds, 4, PLAIN_ROWS>(points!(Bounds, 4, Eq4, Falcor));
-}
-
-/// A query of a tree with masks.
-fn ask_masked<N: MomentLayout<8>>(bvh: &Bvh<N, (), 8>, random: &mut Random, sizes: &[f32]) {
-    let point = scenes::point(random, sizes);
-    let mask = 1 + random.below(15);
-    ask::<_, Linked<Leveled<Moments, 9>>, _, 8>(bvh, &LinkedPoint { point, mask }, &point, random);
 }
 
 #[test]
 fn lights_with_masks() {
-    check::<LinkedMomentNode<8>, 8, LIMITED_ROWS>(ask_masked);
-    check::<Lit<LinkedSpotMomentNode<8>, AnyLight>, 8, LIMITED_ROWS>(ask_masked);
+    type Masked = LinkedSpotMomentNode<8, AnyLight>;
+    check::<Masked, 8, LIMITED_ROWS>(|bvh, random, sizes| {
+        let point = scenes::point(random, sizes);
+        let mask = 1 + random.below(15);
+        ask::<_, Linked<Leveled<Moments, 9>>, _, 8>(bvh, &LinkedPoint { point, mask }, &point, random);
+    });
 }

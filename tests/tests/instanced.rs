@@ -2,6 +2,7 @@
 
 use lightbvh::{Edit, EmissiveTriangle, INVALID, InstanceId, LightBvh, Transform};
 use lightbvh_host::render::{View, camera, render, render_path};
+use lightbvh_host::workload::render_params;
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::emitters::Emitters;
 use lightbvh_kernels::shading::pixel::Scene;
@@ -9,19 +10,7 @@ use lightbvh_tests::generate::small_triangles;
 use lightbvh_tests::world::{World, glossy, quad};
 
 const SIZE: (u32, u32) = (32, 18);
-const PARAMS: RenderParams = RenderParams {
-    width: SIZE.0,
-    height: SIZE.1,
-    samples: 4,
-    first: 0,
-    all: 0,
-    candidates: 3,
-    part: 0,
-    parts: 1,
-    seed: 11,
-    jitter: 2,
-    background: [0.1, 0.2, 0.3],
-};
+const BACKGROUND: [f32; 3] = [0.1, 0.2, 0.3];
 
 /// `count` lights of a mesh, of bright ones.
 fn lights(count: u32) -> Vec<EmissiveTriangle> {
@@ -77,6 +66,10 @@ fn images_by_instances_are_those_by_lights_in_the_world() {
         yfov: 1.0,
     };
     let camera = camera(&view, SIZE.0, SIZE.1);
+    let params = RenderParams {
+        candidates: 3,
+        ..render_params(SIZE, 4, 11, BACKGROUND)
+    };
     let own = Emitters {
         triangles: bvh.triangles(),
         instances: bvh.tree().instances,
@@ -89,16 +82,11 @@ fn images_by_instances_are_those_by_lights_in_the_world() {
             ..world.scene()
         },
     );
-    let direct = render(&through, &camera, &PARAMS, &bvh.tree());
-    assert_eq!(direct, render(&listed, &camera, &PARAMS, &bvh.tree()));
-    let paths = render_path(&through, &camera, &PARAMS, 3, &bvh.tree());
-    assert_eq!(paths, render_path(&listed, &camera, &PARAMS, 3, &bvh.tree()));
-    let lit = |image: &[[f32; 3]]| {
-        image
-            .iter()
-            .filter(|p| p[0] > 0.0 && **p != PARAMS.background)
-            .count()
-    };
+    let direct = render(&through, &camera, &params, &bvh.tree());
+    assert_eq!(direct, render(&listed, &camera, &params, &bvh.tree()));
+    let paths = render_path(&through, &camera, &params, 3, &bvh.tree());
+    assert_eq!(paths, render_path(&listed, &camera, &params, 3, &bvh.tree()));
+    let lit = |image: &[[f32; 3]]| image.iter().filter(|p| p[0] > 0.0 && **p != BACKGROUND).count();
     assert!(
         lit(&direct) > 100 && lit(&paths) > 100,
         "a dark image shows nothing"

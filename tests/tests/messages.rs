@@ -5,9 +5,7 @@ use std::error::Error;
 use lightbvh::device::point::MAX_REACH;
 use lightbvh::error::{EditError, EditReason};
 use lightbvh::light::{Light, MAX_RADIANCE, TWO_SIDED};
-use lightbvh::{
-    Bvh, CompactNode, Edit, EmissiveTriangle, Lights, LightsError, RebuildError, ShadingPoint, Transform,
-};
+use lightbvh::{Bvh, CompactNode, Edit, EmissiveTriangle, Lights, LightsError, ShadingPoint, Transform};
 
 #[track_caller]
 fn says(error: &dyn Error, words: &[&str]) {
@@ -181,15 +179,6 @@ fn files() {
     );
     let nothing = EditReason::Radiance { value: f32::NAN }.to_string();
     assert!(nothing.ends_with("(8.7e-19 to 1.2e18)"), "{nothing}");
-}
-
-#[test]
-fn panics() {
-    let message = String::from("out of luck");
-    says(
-        &RebuildError { message },
-        &["panicked: out of luck", "keeps its trees"],
-    );
 }
 
 /// Points that no guarantee covers stop a debug build.

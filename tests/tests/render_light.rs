@@ -1,11 +1,11 @@
 //! Light comes from the front of lights alone, and no surface shadows itself.
 
 use glam::Vec3;
+use lightbvh::EmissiveTriangle;
 use lightbvh::light::uniform_point;
-use lightbvh::{EmissiveTriangle, ShadingPoint};
 use lightbvh_host::render::{View, camera, render};
-use lightbvh_kernels::render::RenderParams;
-use lightbvh_kernels::shading::area::{connect, offset_distance};
+use lightbvh_host::workload::render_params;
+use lightbvh_kernels::shading::area::offset_distance;
 use lightbvh_kernels::shading::pick::Uniform;
 use lightbvh_kernels::shading::pixel::see;
 use lightbvh_kernels::shading::ray::Ray;
@@ -20,56 +20,9 @@ fn lamp(down: bool, flags: u32) -> EmissiveTriangle {
     light(if down { [a, b, c] } else { [a, c, b] }, 2.0, 0, flags)
 }
 
-fn floor(x: f32, z: f32) -> ShadingPoint {
-    ShadingPoint {
-        p: [x, 0.0, z],
-        n: [0.0, 1.0, 0.0],
-    }
-}
-
-#[test]
-fn no_light_comes_from_behind_below_or_nowhere() {
-    let below = ShadingPoint {
-        p: [0.0, 5.0, 0.0],
-        n: [0.0, 1.0, 0.0],
-    };
-    let volume = ShadingPoint {
-        p: [0.0; 3],
-        n: [0.0; 3],
-    };
-    let flat = light([[0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [2.0, 1.0, 0.0]], 2.0, 0, 1);
-    let on_it = ShadingPoint {
-        p: [-0.7, 2.0, -0.4],
-        n: [0.0, 1.0, 0.0],
-    };
-    for (point, light, pmf, uv) in [
-        (below, lamp(true, 1), 1.0, [0.3, 0.3]),
-        (volume, lamp(true, 0), 1.0, [0.3, 0.3]),
-        (floor(0.0, 0.0), flat, 1.0, [0.3, 0.3]),
-        (floor(0.0, 0.0), lamp(true, 0), 0.0, [0.3, 0.3]),
-        (on_it, lamp(true, 1), 1.0, [0.0, 0.0]),
-    ] {
-        let connection = connect(&point, Vec3::Y, &matte(1.0), &light, pmf, uv);
-        assert_eq!(connection.contribution.to_array().map(f32::to_bits), [0; 3]);
-        assert!(connection.direction.is_finite());
-    }
-}
-
 #[test]
 fn lights_are_seen_from_their_front_only_and_nothing_gives_the_background() {
-    let params = RenderParams {
-        width: 4,
-        height: 4,
-        samples: 1,
-        first: 0,
-        all: 0,
-        candidates: 1,
-        part: 0,
-        parts: 1,
-        seed: 1,
-        jitter: 2,
-        background: [0.5, 0.25, 0.125],
-    };
+    let params = render_params((4, 4), 1, 1, [0.5, 0.25, 0.125]);
     for (eye, forward, flags, expected) in [
         // From below, the lamp shows its front.
         ([0.0, 1.0, 0.0], [0.0, 1.0, 0.0], 0, [2.0; 3]),

@@ -4,34 +4,6 @@ use super::*;
 use crate::Transform;
 use crate::kit::Random;
 
-/// A rotation by a random unit quaternion, in `f64`.
-fn rotation(random: &mut Random) -> [[f64; 3]; 3] {
-    let mut q = [0.0_f64; 4];
-    let mut squared = 0.0;
-    while !(0.01..=1.0).contains(&squared) {
-        q = core::array::from_fn(|_| f64::from(random.signed()));
-        squared = q.iter().map(|x| x * x).sum();
-    }
-    let [x, y, z, w] = q.map(|x| x / squared.sqrt());
-    [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - z * w),
-            2.0 * (x * z + y * w),
-        ],
-        [
-            2.0 * (x * y + z * w),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - x * w),
-        ],
-        [
-            2.0 * (x * z - y * w),
-            2.0 * (y * z + x * w),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
-    ]
-}
-
 /// Lamps stood outside of their own beams where a mesh far from its own origin is brought back: two of 34,000 lit lights were
 /// told that they do not reach a point.
 #[test]
@@ -41,7 +13,7 @@ fn a_beam_holds_what_a_map_brings_back() {
     for round in 0..20_000 {
         let far = 10.0_f64.powf(f64::from(random.unit()) * 6.0);
         let scale = 10.0_f64.powf(f64::from(random.unit()) * 4.0 - 2.0);
-        let rows = rotation(&mut random).map(|row| row.map(|x| (x * scale) as f32));
+        let rows = random.axes().map(|row| row.map(|x| (x * scale) as f32));
         let p: [f32; 3] = core::array::from_fn(|_| ((f64::from(random.signed())) * far / scale) as f32);
         let turned = |p: [f32; 3]| -> [f64; 3] {
             core::array::from_fn(|i| (0..3).map(|j| f64::from(rows[i][j]) * f64::from(p[j])).sum())
@@ -87,7 +59,7 @@ fn a_beam_holds_what_a_map_brings_back() {
 /// Columns of lengths `lengths` times `scale`, turned, with `by` of the first axis added to the second, of the second to the
 /// third, of the third to the first.
 fn map(random: &mut Random, scale: f64, lengths: [f64; 3], by: [f64; 3]) -> Transform {
-    let turn = rotation(random);
+    let turn = random.axes();
     let columns = core::array::from_fn(|j| {
         let (k, share) = match j {
             1 => (0, by[0]),
@@ -135,47 +107,4 @@ fn maps_that_are_uneven_are_known() {
             }
         }
     }
-}
-
-/// The cosine of the cone about another axis is that of the sum of both angles, rounded down, and none from 90 degrees on.
-#[test]
-fn cones_about_another_axis_hold_the_beam() {
-    let mut random = Random(23);
-    let (mut told, mut none) = (0, 0);
-    for _ in 0..20_000 {
-        let rows = rotation(&mut random);
-        let axis = Vec3::from(rows[0].map(|x| x as f32));
-        let half = 1.6 * f64::from(random.unit());
-        let tilt = 1.6 * f64::from(random.unit()).powi(3);
-        let tilted: [f64; 3] = core::array::from_fn(|i| tilt.cos() * rows[0][i] + tilt.sin() * rows[1][i]);
-        let length = 0.05 + 0.95 * f64::from(random.unit());
-        let beam = Beam {
-            axis,
-            cos_theta_e: half.cos() as f32,
-            c: Vec3::ZERO,
-            radius: 0.0,
-        };
-        let about = Vec3::from(tilted.map(|x| (x * length) as f32));
-        let found = f64::from(beam.cosine_about(about));
-        let exact = (half + tilt).cos();
-        if half + tilt < 1.55 {
-            assert!(found <= exact + 1e-7, "{half} {tilt}: {found}, {exact}");
-            // Not by much: 2^-11 rad and a little.
-            let widened = (half + tilt + 8e-4).cos() - 4e-6;
-            assert!(found >= widened, "{half} {tilt}: {found}, {widened}");
-            told += 1;
-        } else if half + tilt > core::f64::consts::FRAC_PI_2 {
-            assert_eq!(found, -1.0, "{half} {tilt}");
-            none += 1;
-        }
-    }
-    assert!(told > 5_000 && none > 5_000, "{told} {none}");
-    // An axis without direction is about nothing.
-    let beam = Beam {
-        axis: Vec3::Z,
-        cos_theta_e: 0.9,
-        c: Vec3::ZERO,
-        radius: 0.0,
-    };
-    assert_eq!(beam.cosine_about(Vec3::new(0.0, 0.0, 0.01)), -1.0);
 }

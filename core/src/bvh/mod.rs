@@ -70,7 +70,7 @@ use crate::build::BuildParams;
 use crate::importance::{DefaultImportance, Leveled, Linked, Moments};
 use crate::instance::Instance;
 use crate::light::AnyLight;
-use crate::node::{DefaultNode, Holds, LinkedSpotMomentNode, Lit, Node, SpotMomentNode};
+use crate::node::{DefaultNode, Holds, LinkedSpotMomentNode, Node, SpotMomentNode};
 use crate::refit::BlasRoot;
 use crate::tree::LightTree;
 
@@ -157,11 +157,11 @@ pub struct Parts<'a, N> {
 pub type LightBvh = Bvh<DefaultNode, DefaultImportance, 8>;
 
 /// [`LightBvh`] over lights of every kind, whose nodes know cones and ranges.
-pub type AnyLights = Bvh<Lit<SpotMomentNode<8>, AnyLight>, DefaultImportance, 8>;
+pub type AnyLights = Bvh<SpotMomentNode<8, AnyLight>, DefaultImportance, 8>;
 
 /// [`AnyLights`] with masks: an instance lights the receivers, [`LinkedPoint`](crate::importance::LinkedPoint)s, of which its mask has a bit, and no
 /// others. In place of a share of uniform choice each child with such a light keeps about 1/2048 of its node.
-pub type MaskedLights = Bvh<Lit<LinkedSpotMomentNode<8>, AnyLight>, Linked<Leveled<Moments, 11>>, 8>;
+pub type MaskedLights = Bvh<LinkedSpotMomentNode<8, AnyLight>, Linked<Leveled<Moments, 11>>, 8>;
 
 impl<N: Node<W>, I, const W: usize> Default for Bvh<N, I, W> {
     fn default() -> Self {

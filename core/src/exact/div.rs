@@ -58,7 +58,7 @@ pub fn div_emulated(a: f32, b: f32) -> f32 {
     let below_one = numerator < denominator;
     let shift = if below_one { 24 } else { 23 };
     let scale = if below_one { 16_777_216.0 } else { 8_388_608.0 };
-    let reciprocal = recip_steps(f32::from_bits((b_bits & FRACTION) | ONE));
+    let reciprocal = recip(f32::from_bits((b_bits & FRACTION) | ONE));
     let estimate = f32::from_bits((a_bits & FRACTION) | ONE) * reciprocal * scale;
     let mut quotient = estimate as u32;
     let mut remainder = (numerator << shift).wrapping_sub(quotient.wrapping_mul(denominator)) as i32;
@@ -110,13 +110,15 @@ pub fn div_emulated(a: f32, b: f32) -> f32 {
 }
 
 /// About `1 / x`, within 7e-6 relative, the same bits on every processor; for weights that must be equal on both sides
-/// but need not be accurate.
+/// but need not be accurate: two Newton steps `r (2 - x r)` from a seed that the bits of `x` give.
 ///
 /// Domain: 2^-126 <= |x| <= 2^125; there neither the seed nor a step leaves the normal range.
 #[inline]
 #[must_use]
 pub fn recip(x: f32) -> f32 {
-    recip_steps(x)
+    let seed = recip_seed(x);
+    let once = seed * (2.0 - x * seed);
+    once * (2.0 - x * once)
 }
 
 /// About `1 / x`, within 3e-3 relative, the same bits on every processor: one Newton step. Domain: as [`recip`].
@@ -125,14 +127,6 @@ pub fn recip(x: f32) -> f32 {
 pub fn recip_rough(x: f32) -> f32 {
     let seed = recip_seed(x);
     seed * (2.0 - x * seed)
-}
-
-/// Two Newton steps `r (2 - x r)` from a seed that the bits of `x` give.
-#[inline]
-fn recip_steps(x: f32) -> f32 {
-    let seed = recip_seed(x);
-    let once = seed * (2.0 - x * seed);
-    once * (2.0 - x * once)
 }
 
 /// Subtracting from this constant negates the exponent and, linearly, the significand; it is the one that leaves the

@@ -1,8 +1,8 @@
 //! The paper's importance, Eq. 4.
 
-use super::sight::{LEAST_ALONG, MIN_DISTANCE_SQUARED, offset};
+use super::sight::{LEAST_ALONG, MIN_DISTANCE_SQUARED, offset, over_distance};
 use super::{ImportanceModel, Scaled, Space, on_one_scale};
-use crate::exact::{self, exponent, pow2, recip_rough, rsqrt_rough, significand};
+use crate::exact::{self, pow2, rsqrt_rough};
 use crate::node::{BoundsNode, Cluster};
 use crate::point::ShadingPoint;
 use crate::vector::{dot, length_squared};
@@ -39,18 +39,16 @@ impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W> for Eq4 {
     fn weights_in(node: &N, point: &ShadingPoint, _: Space) -> [f32; W] {
         let mut scaled = [Scaled::ZERO; W];
         for slot in 0..W {
-            let cluster = node.cluster(slot);
-            let (factor, d_squared) = Eq4::factor(&cluster, point);
-            scaled[slot] = over_distance(&cluster, d_squared, factor);
+            scaled[slot] = Eq4::scaled(&node.cluster(slot), point);
         }
         on_one_scale(&scaled)
     }
 }
 
 impl Eq4 {
-    /// The product of the cosines' bounds, [`FLOOR`] where it is zero, and d².
+    /// Φ over the softened distance, times the product of the cosines' bounds, [`FLOOR`] where that is zero.
     #[inline(always)]
-    pub(crate) fn factor(cluster: &Cluster, point: &ShadingPoint) -> (f32, f32) {
+    pub(super) fn scaled(cluster: &Cluster, point: &ShadingPoint) -> Scaled {
         let v = offset(cluster.center, point);
         let n = point.normal();
         let d_squared = exact::max(length_squared(v), MIN_DISTANCE_SQUARED);
@@ -94,19 +92,9 @@ impl Eq4 {
         let reach = if surrounded { 1.0 } else { facing } + SLACK;
         let orientation = if reach > 0.0 { reach } else { 0.0 };
 
-        (exact::max(incident * orientation, FLOOR), d_squared)
+        let factor = exact::max(incident * orientation, FLOOR);
+        over_distance(cluster.phi, d_squared + r_squared * SOFTENING, factor)
     }
-}
-
-/// Φ · factor / (d² + r²/12), exponents apart.
-#[inline(always)]
-pub(super) fn over_distance(cluster: &Cluster, distance_squared: f32, factor: f32) -> Scaled {
-    let soft = exact::max(
-        distance_squared + cluster.radius_squared * SOFTENING,
-        MIN_DISTANCE_SQUARED,
-    );
-    let value = significand(cluster.phi) * recip_rough(significand(soft)) * factor;
-    Scaled::of(cluster.phi, value, -exponent(soft))
 }
 
 /// Square root by the rough reciprocal root; 2^-62 for anything below 2^-124.

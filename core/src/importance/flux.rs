@@ -1,8 +1,8 @@
 //! Flux over squared distance, and flux alone: without cosines.
 
-use super::sight::{MIN_DISTANCE_SQUARED, offset};
+use super::sight::{offset, over_distance};
 use super::{ImportanceModel, Scaled, Space, on_one_scale};
-use crate::exact::{self, exponent, recip_rough, significand};
+use crate::exact::significand;
 use crate::node::Node;
 use crate::point::ShadingPoint;
 use crate::summary::Summary;
@@ -20,9 +20,7 @@ impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for FluxOverDistance {
         for slot in 0..W {
             let summary = node.summary(slot);
             let (phi, away) = (summary.phi(), offset(summary.center(), point));
-            let soft = exact::max(length_squared(away) + summary.spread(), MIN_DISTANCE_SQUARED);
-            let value = significand(phi) * recip_rough(significand(soft));
-            scaled[slot] = Scaled::of(phi, value, -exponent(soft));
+            scaled[slot] = over_distance(phi, length_squared(away) + summary.spread(), 1.0);
         }
         on_one_scale(&scaled)
     }

@@ -8,7 +8,7 @@ use crate::node::Node;
 use crate::point::LinkedPoint;
 
 /// Light linking: the importance `I` over the lights of instances of whose masks [`LinkedPoint`] has a bit. On layouts that store masks, as
-/// [`LinkedMomentNode`](crate::node::LinkedMomentNode); another does not compile.
+/// [`LinkedSpotMomentNode`](crate::node::LinkedSpotMomentNode); another does not compile.
 ///
 /// The weight of a child is zero where the union of its instances' masks has no bit of the receiver's. Lights without flux are in no union. Masks are of
 /// [instances](crate::Edit::SetMask): a single level has none. So a
@@ -20,36 +20,29 @@ use crate::point::LinkedPoint;
 /// A share of uniform choice goes to all lights, those without a common bit among them. So neither `Linked<Defensive<_, _>>` nor
 /// `Defensive<Linked<_>, _>` compiles. [`Leveled`](super::Leveled) takes its place.
 ///
-/// ```
-/// # use lightbvh::importance::LinkedPoint;
-/// # use lightbvh::{MaskedLights, ShadingPoint};
-/// # let lights = MaskedLights::default();
-/// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
-/// let sampled = lights.sample(&receiver, 1_u32);
-/// ```
 /// Receivers of other kinds have masks as well: a leaf of two sides, say.
 /// ```
 /// # use lightbvh::importance::{Leveled, Linked, LinkedPoint, Transmissive, TransmissivePoint};
-/// # use lightbvh::node::LinkedMomentNode;
+/// # use lightbvh::node::LinkedSpotMomentNode;
 /// # use lightbvh::{Bvh, Moments, ShadingPoint};
 /// # let leaf = TransmissivePoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, front: 0.5, back: 0.5 };
 /// let receiver = LinkedPoint { point: leaf, mask: 1 };
-/// let lights = Bvh::<LinkedMomentNode<8>, Linked<Leveled<Transmissive<Moments>, 9>>, 8>::default();
+/// let lights = Bvh::<LinkedSpotMomentNode<8>, Linked<Leveled<Transmissive<Moments>, 9>>, 8>::default();
 /// let sampled = lights.sample(&receiver, 1_u32);
 /// ```
 /// ```compile_fail
 /// # use lightbvh::importance::{Defensive, Linked, LinkedPoint};
-/// # use lightbvh::node::LinkedMomentNode;
+/// # use lightbvh::node::LinkedSpotMomentNode;
 /// # use lightbvh::{Bvh, Moments, ShadingPoint};
 /// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
-/// let sampled = Bvh::<LinkedMomentNode<8>, Linked<Defensive<Moments, 6>>, 8>::default().sample(&receiver, 1_u32);
+/// let sampled = Bvh::<LinkedSpotMomentNode<8>, Linked<Defensive<Moments, 6>>, 8>::default().sample(&receiver, 1_u32);
 /// ```
 /// ```compile_fail
 /// # use lightbvh::importance::{Defensive, Linked, LinkedPoint};
-/// # use lightbvh::node::LinkedMomentNode;
+/// # use lightbvh::node::LinkedSpotMomentNode;
 /// # use lightbvh::{Bvh, Moments, ShadingPoint};
 /// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
-/// let sampled = Bvh::<LinkedMomentNode<8>, Defensive<Linked<Moments>, 6>, 8>::default().sample(&receiver, 1_u32);
+/// let sampled = Bvh::<LinkedSpotMomentNode<8>, Defensive<Linked<Moments>, 6>, 8>::default().sample(&receiver, 1_u32);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Linked<I>(PhantomData<I>);
@@ -58,7 +51,7 @@ impl<N: Node<W>, I: ImportanceModel<N, W, P>, P, const W: usize> ImportanceModel
     for Linked<I>
 {
     const UNIFORM_HALVINGS: u32 = {
-        assert!(N::HAS_MASKS, "masks are stored by `LinkedMomentNode`");
+        assert!(N::HAS_MASKS, "masks are stored by `LinkedSpotMomentNode`");
         assert!(
             I::UNIFORM_HALVINGS == 0,
             "a share of uniform choice would go to lights that are masked out; `Leveled` takes its place"

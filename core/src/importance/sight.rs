@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use crate::exact::pow2;
+use super::Scaled;
+use crate::exact::{self, exponent, pow2, recip_rough, significand};
 use crate::point::ShadingPoint;
 use crate::vector::flush3;
 
@@ -19,4 +20,12 @@ pub(super) const LEAST_ALONG: f32 = pow2(-75);
 #[inline(always)]
 pub(super) fn offset(center: Vec3, point: &ShadingPoint) -> Vec3 {
     flush3(center - point.position(), LEAST_OFFSET)
+}
+
+/// `phi` · `factor` / `squared`, exponents apart: a squared distance with what softens it, m².
+#[inline(always)]
+pub(super) fn over_distance(phi: f32, squared: f32, factor: f32) -> Scaled {
+    let soft = exact::max(squared, MIN_DISTANCE_SQUARED);
+    let value = significand(phi) * recip_rough(significand(soft)) * factor;
+    Scaled::of(phi, value, -exponent(soft))
 }

@@ -2,9 +2,7 @@
 
 mod line;
 
-use core::marker::PhantomData;
-
-use super::{ImportanceModel, Moments, Scaled, Space, on_one_scale};
+use super::{ImportanceModel, Scaled, Space, on_one_scale};
 use crate::exact::{self, pow2, rsqrt_rough, significand};
 use crate::node::MomentLayout;
 use crate::point::RaySegment;
@@ -14,27 +12,27 @@ use line::Line;
 
 /// What a [`RaySegment`] receives: flux times the angle under which the lights see the segment, over their least distance from its line (Conty
 /// Estevez & Kulla 2018, their Eq. 4: what 1/d² comes to along a line), times the emitters' cosine, a mean of two places on
-/// the segment. On the layouts of [`Moments`].
+/// the segment. On the layouts of [`Moments`](super::Moments).
 ///
 /// - ∫ 1/(d² + s²) dt over the segment of length L is θ/D, with D² = the squared least distance + s², and θ the angle of the segment
-///   at that distance; s² is the variance of the lights' positions by which [`Moments`] softens distances. The weight
+///   at that distance; s² is the variance of the lights' positions by which [`Moments`](super::Moments) softens distances. The weight
 ///   takes θ/(D L), which has a limit for segments without length: 1/(d² + s²).
 /// - tan(θ/2) = D L/(a b + a·b + s²), a and b from the lights to both ends. Its arc is x/(1 + 0.28 x²), or π/2 less that of 1/x: within 1 %.
-/// - The emitters' cosine is that of [`Moments`] where a quarter and three quarters of the angle lie before: bisectors, found by the
+/// - The emitters' cosine is that of [`Moments`](super::Moments) where a quarter and three quarters of the angle lie before: bisectors, found by the
 ///   theorem, not by a tangent.
 ///
 /// Phase functions and transmittance are the caller's. A weight is positive wherever there is flux.
 #[derive(Clone, Copy, Debug)]
-pub struct Subtended<I>(PhantomData<I>);
+pub struct Subtended;
 
 /// √2.
 const SQRT_2: f32 = core::f32::consts::SQRT_2;
-/// As in [`Moments`]: the variance in the cosine's distance, in squared deviations across.
+/// As in [`Moments`](super::Moments): the variance in the cosine's distance, in squared deviations across.
 const FAR: f32 = 2.5;
 /// Squared distances are at least this, in units of the scale.
 const LEAST_SQUARED: f32 = pow2(-30);
 
-impl<N: MomentLayout<W>, const W: usize> ImportanceModel<N, W, RaySegment> for Subtended<Moments> {
+impl<N: MomentLayout<W>, const W: usize> ImportanceModel<N, W, RaySegment> for Subtended {
     #[inline(always)]
     fn weights_in(node: &N, segment: &RaySegment, _: Space) -> [f32; W] {
         let mut scaled = [Scaled::ZERO; W];

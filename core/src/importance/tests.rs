@@ -18,21 +18,6 @@ impl Random {
     fn extents(&mut self, size: f32) -> Vec3 {
         Vec3::new(self.unit(), self.unit(), self.unit()) * size
     }
-
-    fn direction(&mut self) -> Vec3 {
-        loop {
-            let v = wide(self.vector());
-            if (0.01..=1.0).contains(&dot(v, v)) {
-                return narrow(normalize(v));
-            }
-        }
-    }
-
-    /// From 2^`low` to 2^`high`, as often in each octave.
-    fn power(&mut self, low: i32, high: i32) -> f32 {
-        let octave = low + self.below((high - low) as u32) as i32;
-        pow2(octave) * (1.0 + self.unit())
-    }
 }
 
 /// How far a box of these half extents reaches along `n`: the highest of its corners.

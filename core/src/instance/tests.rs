@@ -8,7 +8,7 @@ use super::Instance;
 use crate::Transform;
 use crate::bounds::LightBounds;
 use crate::exact::pow2;
-use crate::kit::{Random, Wide, cross, dot, normalize, times, triangle, wide};
+use crate::kit::{Random, Wide, cross, dot, narrow, normalize, times, triangle, wide};
 use crate::moments::LightMoments;
 use crate::point::ShadingPoint;
 
@@ -145,9 +145,7 @@ fn cones_stay_where_lengths_stay() {
         let (columns, map) = if turn % 2 == 0 {
             map(&mut random, 1.0)
         } else {
-            let x = normalize(wide(random.vector()));
-            let y = normalize(cross(x, wide(random.vector())));
-            let columns = [x, y, cross(x, y)].map(|v| Vec3::from_array(v.map(|x| 3.0 * x as f32)));
+            let columns = random.axes().map(|v| narrow(times(v, 3.0)));
             (columns, Map::of(columns))
         };
         let instance = placed(columns, Vec3::new(0.0, 0.0, 0.0), 1.0);

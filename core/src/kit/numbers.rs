@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::exact::{hash, unit_f32};
+use crate::exact::{hash, pow2, unit_f32};
 
 /// Hashes of 1, 2, 3 and so on after its seed.
 #[derive(Clone)]
@@ -31,6 +31,29 @@ impl Random {
 
     pub fn vector(&mut self) -> Vec3 {
         Vec3::new(self.signed(), self.signed(), self.signed())
+    }
+
+    /// From 2^`low` to 2^`high`, as often in each octave.
+    pub fn power(&mut self, low: i32, high: i32) -> f32 {
+        let octave = low + self.below((high - low) as u32) as i32;
+        pow2(octave) * (1.0 + self.unit())
+    }
+
+    /// A unit vector.
+    pub fn direction(&mut self) -> Vec3 {
+        loop {
+            let v = wide(self.vector());
+            if (0.01..=1.0).contains(&dot(v, v)) {
+                return narrow(normalize(v));
+            }
+        }
+    }
+
+    /// Three unit vectors at right angles to each other.
+    pub fn axes(&mut self) -> [Wide; 3] {
+        let x = wide(self.direction());
+        let y = normalize(cross(x, wide(self.vector())));
+        [x, y, cross(x, y)]
     }
 }
 

@@ -215,12 +215,3 @@ impl<const W: usize> Framed<W> {
         if shines { merged } else { LightMoments::EMPTY }
     }
 }
-
-impl LightMoments {
-    /// The moments of `W` sets together, summed by halves of the slots; sets without flux are ignored.
-    #[inline]
-    #[must_use]
-    pub fn merge<const W: usize>(sets: &[Self; W]) -> Self {
-        framed(&Lanes::of(sets)).merged()
-    }
-}

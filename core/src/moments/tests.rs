@@ -2,15 +2,21 @@
 
 mod reference;
 
+use core::slice::from_ref;
+
+use bytemuck::cast_slice;
 use glam::Vec3;
 
 use reference::{Exact, merged};
 
 use super::LightMoments;
 use crate::exact::{self, pow2};
+use crate::importance::{ImportanceModel, Moments};
 use crate::kit::{Random, cross, dot, minus, node, normalize, wide};
 use crate::light::{EmissiveTriangle, Light, TWO_SIDED};
-use crate::node::{MomentNode, Node, kind};
+use crate::node::{MomentNode, Node, TwoSidedMomentNode};
+use crate::point::ShadingPoint;
+use crate::summary::{Lanes, Summary};
 use crate::vector::{max3, min3};
 
 impl Random {
@@ -26,6 +32,10 @@ impl Random {
             h: Vec3::new(self.unit(), self.unit(), self.unit()) * (0.5 * scale),
         }
     }
+}
+
+fn merge(sets: &[LightMoments; 8]) -> LightMoments {
+    LightMoments::merged(&Lanes::of(sets))
 }
 
 #[track_caller]
@@ -65,29 +75,9 @@ fn merges_are_the_sums() {
                 }
                 // Lengths below 2^-100 m count as zero.
                 let size = pow2(scale.max(-83)).into();
-                alike(&LightMoments::merge(&sets), &merged(&sets), size);
+                alike(&merge(&sets), &merged(&sets), size);
             }
         }
-    }
-}
-
-#[test]
-fn powers_of_two_change_no_bit() {
-    let mut random = Random(3);
-    for e in [-50, -7, 1, 30] {
-        let sets = [0; 8].map(|_| random.set(1.0, 1.0));
-        let by = pow2(e);
-        let grown = sets.map(|s| LightMoments {
-            phi: s.phi * by,
-            c: s.c * by,
-            across: s.across * by,
-            along: s.along * by,
-            m: s.m,
-            h: s.h * by,
-        });
-        let (a, b) = (LightMoments::merge(&sets), LightMoments::merge(&grown));
-        assert_eq!((a.phi * by, a.c * by, a.m), (b.phi, b.c, b.m));
-        assert_eq!((a.across * by, a.along * by, a.h * by), (b.across, b.along, b.h));
     }
 }
 
@@ -218,24 +208,9 @@ fn sets_without_flux_do_not_matter() {
                 dirty[slot] = garbage;
             }
         }
-        assert_eq!(LightMoments::merge(&plain), LightMoments::merge(&dirty));
-        assert_eq!(LightMoments::merge(&[garbage; 8]), LightMoments::EMPTY);
+        assert_eq!(merge(&plain), merge(&dirty));
+        assert_eq!(merge(&[garbage; 8]), LightMoments::EMPTY);
         assert_eq!(node::<MomentNode<8>, 8>(&plain), node(&dirty));
-    }
-}
-
-/// The variance along the normal is kept as a ratio of that across, of at most 2: more is not told.
-#[test]
-fn a_set_along_its_normal_keeps_twice_its_breadth() {
-    let mut set = Random(9).set(1.0, 1.0);
-    set.across = 0.25;
-    for (along, kept) in [(0.0, 0.0), (0.125, 0.125), (0.5, 0.5), (0.75, 0.5), (100.0, 0.5)] {
-        set.along = along;
-        let mut node = MomentNode::<4>::EMPTY;
-        node.set_child(0, kind::LIGHT, 0);
-        node.set_summaries(&[set, LightMoments::EMPTY, LightMoments::EMPTY, LightMoments::EMPTY]);
-        // A code of 6 bits for the ratio, one of 3 for the breadth.
-        near(node.summary(0).along, kept, 0.02, "along");
     }
 }
 
@@ -247,28 +222,11 @@ fn flux_stays_in_its_range() {
     // Rounds up to the next code, that of 2^126 and more.
     for phi in [most, most * 0.99] {
         set.phi = phi;
-        assert_eq!(LightMoments::merge(&[set; 8]).phi, most);
+        assert_eq!(merge(&[set; 8]).phi, most);
         let node: MomentNode<8> = node(&[set; 8]);
         for slot in 0..8 {
             assert_eq!(node.summary(slot).phi, most, "{slot}");
         }
-    }
-}
-
-/// The frame's unit is by the greatest of all three coordinates.
-#[test]
-fn frames_reach_as_far_as_their_sets_along_each_axis() {
-    for axis in 0..3 {
-        let mut far = [0.0; 3];
-        far[axis] = 1000.0;
-        let mut sets = [LightMoments::EMPTY; 8];
-        sets[0] = Random(21).set(1.0, 2.0);
-        sets[5] = Random(22).set(1.0, 0.5);
-        sets[5].c = Vec3::from_array(far);
-        let unit = super::merge::framed(&crate::summary::Lanes::of(&sets))
-            .frame
-            .unit_exponent;
-        assert_eq!(unit, 10, "{axis}");
     }
 }
 
@@ -278,7 +236,7 @@ fn sets_fit_into_their_frame() {
     let mut random = Random(23);
     for _ in 0..2000 {
         let sets = [0; 8].map(|_| random.set(1.0, 1.0));
-        let rows = super::merge::framed(&crate::summary::Lanes::of(&sets)).sets.0;
+        let rows = super::merge::framed(&Lanes::of(&sets)).sets.0;
         for i in 0..8 {
             for k in 0..3 {
                 let reach = exact::abs(rows[super::row::C + k][i]) + rows[super::row::H + k][i];
@@ -296,9 +254,49 @@ fn sets_fit_into_their_frame() {
             phi: pow2(100 + ratio),
             ..random.set(1.0, 1.0)
         };
-        let rows = super::merge::framed(&crate::summary::Lanes::of(&sets)).sets.0;
+        let rows = super::merge::framed(&Lanes::of(&sets)).sets.0;
         assert_eq!(rows[super::row::PHI][6], pow2(kept), "{ratio}");
         assert_eq!(rows[super::row::PHI][0], 0.0);
         assert!(node::<MomentNode<8>, 8>(&sets).summary(6).phi > 0.0, "{ratio}");
+    }
+}
+
+/// Without mean normals a node without the row of them has the bits of the other: its words, what they say, and weights.
+#[test]
+fn two_sided_nodes_leave_out_a_constant_row() {
+    fn check<const W: usize>(random: &mut Random) {
+        let scale = random.power(-60, 36);
+        let sets = [0; W].map(|_| {
+            let flux = random.power(-35, 35) * if random.below(6) == 0 { 0.0 } else { 1.0 };
+            LightMoments {
+                m: Vec3::ZERO,
+                ..random.set(scale, flux)
+            }
+        });
+        let (full, less): (MomentNode<W>, TwoSidedMomentNode<W>) = (node(&sets), node(&sets));
+        let (a, b): (&[u32], &[u32]) = (cast_slice(from_ref(&full)), cast_slice(from_ref(&less)));
+        assert_eq!((a.len(), b.len()), (6 * W, 5 * W));
+        assert_eq!((&a[..3 * W], &a[4 * W..]), (&b[..3 * W], &b[3 * W..]));
+        for (slot, set) in sets.iter().enumerate() {
+            let shines = set.phi > 0.0;
+            assert_eq!(a[3 * W + slot], if shines { !0 } else { 0 }, "{slot}");
+            assert!(!shines || full.summary(slot) == less.summary(slot), "{slot}");
+        }
+        assert_eq!(full.merged(), less.merged());
+        for n in [Vec3::ZERO, random.direction()] {
+            let away = random.vector() * (scale * random.power(-6, 6));
+            let point = ShadingPoint {
+                p: (sets[0].c + away).to_array(),
+                n: n.to_array(),
+            };
+            let (a, b) = (Moments::weights(&full, &point), Moments::weights(&less, &point));
+            assert_eq!(a.map(f32::to_bits), b.map(f32::to_bits), "{sets:?} at {point:?}");
+        }
+    }
+    let random = &mut Random(31);
+    for _ in 0..2000 {
+        check::<4>(random);
+        check::<8>(random);
+        check::<16>(random);
     }
 }

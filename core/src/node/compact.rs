@@ -1,5 +1,7 @@
 //! The layout of 28 bytes per child.
 
+use core::marker::PhantomData;
+
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
@@ -7,9 +9,9 @@ use super::{BoundsNode, Cluster, Holds, Node};
 use crate::bounds::LightBounds;
 use crate::cone::{normalized, widened};
 use crate::exact::{self, exponent, pow2};
-use crate::light::EmissiveTriangle;
+use crate::light::{EmissiveTriangle, Light};
 use crate::summary::Lanes;
-use crate::vector::length_squared;
+use crate::vector::{flush3, length_squared, max3};
 
 // Words of a child; each is an array over the slots.
 const CENTER_X: usize = 0;
@@ -47,11 +49,11 @@ const AXIS_ERROR_COS_DEFECT: f32 = pow2(-19);
 /// Lights are diffuse emitters: they reach up to 90° from a normal.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
-pub struct CompactNode<const W: usize>([[u32; W]; 7]);
+pub struct CompactNode<const W: usize, L = EmissiveTriangle>([[u32; W]; 7], PhantomData<L>);
 
 const _: () = assert!(size_of::<CompactNode<2>>() == 56);
 
-impl<const W: usize> CompactNode<W> {
+impl<const W: usize, L> CompactNode<W, L> {
     #[inline(always)]
     fn float(&self, field: usize, slot: usize) -> f32 {
         f32::from_bits(self.0[field][slot])
@@ -100,14 +102,14 @@ impl<const W: usize> CompactNode<W> {
     }
 }
 
-impl<const W: usize> Holds for CompactNode<W> {
-    type Light = EmissiveTriangle;
+impl<const W: usize, L: Light> Holds for CompactNode<W, L> {
+    type Light = L;
 }
 
-impl<const W: usize> Node<W> for CompactNode<W> {
+impl<const W: usize, L: Light> Node<W> for CompactNode<W, L> {
     type Summary = LightBounds;
 
-    const EMPTY: Self = Self([[0; W]; 7]);
+    const EMPTY: Self = Self([[0; W]; 7], PhantomData);
     const NAME: &'static str = "compact";
 
     #[inline(always)]
@@ -161,7 +163,7 @@ impl<const W: usize> Node<W> for CompactNode<W> {
     }
 }
 
-impl<const W: usize> BoundsNode<W> for CompactNode<W> {
+impl<const W: usize, L: Light> BoundsNode<W> for CompactNode<W, L> {
     #[inline(always)]
     fn cluster(&self, slot: usize) -> Cluster {
         let (half, stored_unit) = self.half_extents(slot);
@@ -187,17 +189,11 @@ impl<const W: usize> BoundsNode<W> for CompactNode<W> {
 /// Centre, and the word of half extents that reach both corners from it.
 #[inline(always)]
 fn pack_box(min: Vec3, max: Vec3) -> (Vec3, u32) {
-    let center = Vec3::new(
-        exact::flush((min.x + max.x) * 0.5, crate::light::MIN_COORDINATE),
-        exact::flush((min.y + max.y) * 0.5, crate::light::MIN_COORDINATE),
-        exact::flush((min.z + max.z) * 0.5, crate::light::MIN_COORDINATE),
-    );
+    let center = flush3((min + max) * 0.5, crate::light::MIN_COORDINATE);
     // The rounded difference is short of the true one by at most 2^-24 of it; 2^-20 more than makes up for that.
     const OUTWARD: f32 = 1.0 + pow2(-20);
-    let hx = exact::max(max.x - center.x, center.x - min.x) * OUTWARD;
-    let hy = exact::max(max.y - center.y, center.y - min.y) * OUTWARD;
-    let hz = exact::max(max.z - center.z, center.z - min.z) * OUTWARD;
-    let greatest = exact::max(hx, exact::max(hy, hz));
+    let h = max3(max - center, center - min) * OUTWARD;
+    let greatest = exact::max(h.x, exact::max(h.y, h.z));
     let e = exponent(greatest);
     let bounded = if e < MIN_EXTENT_EXPONENT {
         MIN_EXTENT_EXPONENT
@@ -214,7 +210,7 @@ fn pack_box(min: Vec3, max: Vec3) -> (Vec3, u32) {
         if up == 0 && h > 0.0 { 1 } else { up }
     };
     let word =
-        (((unit_exponent + UNIT_BIAS) as u32) << 24) | (units(hx) << 16) | (units(hy) << 8) | units(hz);
+        (((unit_exponent + UNIT_BIAS) as u32) << 24) | (units(h.x) << 16) | (units(h.y) << 8) | units(h.z);
     (center, if greatest > 0.0 { word } else { 0 })
 }
 

@@ -6,14 +6,10 @@
 mod beam_row;
 mod codes;
 mod compact;
-mod lit;
 mod moment;
 
 pub use compact::CompactNode;
-pub use lit::Lit;
-pub use moment::{
-    LinkedMomentNode, LinkedSpotMomentNode, MomentNode, PackedMomentNode, SpotMomentNode, TwoSidedMomentNode,
-};
+pub use moment::{LinkedSpotMomentNode, MomentNode, PackedMomentNode, SpotMomentNode, TwoSidedMomentNode};
 
 use bytemuck::Pod;
 use glam::Vec3;
@@ -48,7 +44,7 @@ pub mod kind {
 
 /// What the lights of a tree with such nodes are.
 pub trait Holds: Pod + Send + Sync {
-    /// The lights that leaves are: emissive triangles, unless a [`Lit`] says otherwise.
+    /// The lights that leaves are: emissive triangles, unless the node's type names others.
     type Light: Light;
 }
 
@@ -61,7 +57,7 @@ pub trait Node<const W: usize>: Holds {
     const EMPTY: Self;
     /// Name for tables.
     const NAME: &'static str;
-    /// Whether it stores a mask of each child, as [`LinkedMomentNode`] does.
+    /// Whether it stores a mask of each child, as [`LinkedSpotMomentNode`] does.
     const HAS_MASKS: bool = false;
     /// Whether it stores a beam of each child, as [`SpotMomentNode`] does.
     const HAS_BEAMS: bool = false;
@@ -97,16 +93,6 @@ pub trait Node<const W: usize>: Holds {
     /// layout stores none.
     #[inline(always)]
     fn set_limits(&mut self, _limits: &[Limits; W], _summaries: &Lanes<W>) {}
-
-    /// The union of the masks of all children.
-    #[inline(always)]
-    fn merged_mask(&self) -> u32 {
-        let mut all = 0;
-        for slot in 0..W {
-            all |= self.mask(slot);
-        }
-        all
-    }
 
     /// The child's light ends at this distance from its stored box, metres; [`Limits::ENDLESS`] where there is
     /// none, or the layout stores no beams.

@@ -1,5 +1,7 @@
-//! The default layout: quantised moments, 24 bytes per child; the same for lights that shine from both sides, 20 bytes; with masks, 28 bytes; with
-//! beams, 32 bytes; with both, 36 bytes.
+//! The default layout: quantised moments, 24 bytes per child; the same for lights that shine from both sides, 20 bytes; with beams,
+//! 32 bytes; with beams and masks, 36 bytes.
+
+use core::marker::PhantomData;
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -13,7 +15,7 @@ use super::codes::{
 use super::{Holds, MomentLayout, Node};
 use crate::beam::{Beam, Limits, Space, Union};
 use crate::exact::{self, pow2};
-use crate::light::EmissiveTriangle;
+use crate::light::{EmissiveTriangle, Light};
 use crate::moments::{Frame, Framed, LEAST_LENGTH, LightMoments, row};
 use crate::summary::{Lanes, SUMMARY_WORDS};
 use crate::unroll::each;
@@ -25,13 +27,11 @@ use crate::weight::{Lobe, frame, side, weight};
 const WORD_0: usize = 1;
 const WORD_1: usize = 2;
 const WORD_2: usize = 3;
-/// Rows with normals, without, and with normals and masks; two rows of beams come on top of them.
+/// Rows with normals, without, with normals and beams, and with normals, beams, and masks.
 const ORIENTED: usize = 6;
 const TWO_SIDED: usize = 5;
-const LINKED: usize = 7;
-/// Rows with normals and beams, and with normals, beams, and masks.
 const SPOT: usize = ORIENTED + 2;
-const LINKED_SPOT: usize = LINKED + 2;
+const LINKED_SPOT: usize = SPOT + 1;
 /// What the row of normals holds for a mean normal of zero: all fields at their nearest, the spread at its greatest.
 const NO_NORMAL: u32 = !0;
 
@@ -39,36 +39,36 @@ const NO_NORMAL: u32 = !0;
 const PER_SQRT_2: f32 = SQRT_HALF * pow2(31);
 const WORD_RANGE: f32 = EXTENT_RANGE * pow2(31);
 
-/// The default node, of 24 bytes per child.
-pub type MomentNode<const W: usize> = PackedMomentNode<W, ORIENTED>;
+/// The default node, of 24 bytes per child, over lights `L`.
+///
+/// `Bvh<MomentNode<8, PointLight>, Defensive<Moments, 6>, 8>` is `LightBvh` over points. [`crate::light`] says what instances
+/// that scale make of flux, and what does not know other lights yet.
+pub type MomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, ORIENTED, L>;
 
 /// A node of 20 bytes per child for scenes whose lights all shine from both sides: the mean normals of [`MomentNode`] are then zero, and
 /// its row of them is one constant. This node leaves that row out. All other words, all weights and all probabilities are those of
 /// [`MomentNode`], to the bit.
 ///
 /// A light that shines from one side is taken as if it shone from both with the same flux: that costs variance, never a light.
-pub type TwoSidedMomentNode<const W: usize> = PackedMomentNode<W, TWO_SIDED>;
-
-/// A node of 28 bytes per child that knows which lights a receiver may take: the words of [`MomentNode`], and the union of the masks of the
-/// child's instances, all bits below an instance. What [`Linked`](crate::importance::Linked) needs; any other importance
-/// chooses as by [`MomentNode`], to the bit.
-pub type LinkedMomentNode<const W: usize> = PackedMomentNode<W, LINKED>;
+pub type TwoSidedMomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, TWO_SIDED, L>;
 
 /// A node of 32 bytes per child for scenes with spots and ranges: the words of [`MomentNode`], a cone that holds all light of the child
 /// ([`Light::beam`](crate::light::Light::beam)), and how far from its box it ends ([`Light::end`](crate::light::Light::end)). A child whose cone or end a point lies outside of counts for 2^-16 of what it would; one
 /// whose cone it lies in for as much more as its light is gathered. Of lights without a range that are no spots, nor sets of spots that point about
 /// the same way, nothing is stored, and weights are those of [`MomentNode`], to the bit.
 ///
-/// `Bvh<Lit<SpotMomentNode<8>, SpotLight>, DefaultImportance, 8>` is a tree over [`SpotLight`](crate::light::SpotLight)s.
+/// `Bvh<SpotMomentNode<8, SpotLight>, DefaultImportance, 8>` is a tree over [`SpotLight`](crate::light::SpotLight)s.
 ///
 /// They count in instances whose maps are similarities alone, for others change angles.
-pub type SpotMomentNode<const W: usize> = PackedMomentNode<W, SPOT, true>;
+pub type SpotMomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, SPOT, L>;
 
-/// [`SpotMomentNode`] with the masks of [`LinkedMomentNode`], 36 bytes per child.
-pub type LinkedSpotMomentNode<const W: usize> = PackedMomentNode<W, LINKED_SPOT, true>;
+/// A node of 36 bytes per child that also knows which lights a receiver may take: the words of [`SpotMomentNode`], and the union of the
+/// masks of the child's instances, all bits below an instance. What [`Linked`](crate::importance::Linked) needs; any other importance
+/// chooses as by [`SpotMomentNode`], to the bit.
+pub type LinkedSpotMomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, LINKED_SPOT, L>;
 
-/// What [`MomentNode`] (`ROWS` is 6), [`TwoSidedMomentNode`] (5, without word 2), [`LinkedMomentNode`] (7, with masks) are; with
-/// `BEAMS` [`SpotMomentNode`] (8) and [`LinkedSpotMomentNode`] (9). `W` is at least 4.
+/// What [`MomentNode`] (`ROWS` is 6), [`TwoSidedMomentNode`] (5, without word 2), [`SpotMomentNode`] (8, with beams) and
+/// [`LinkedSpotMomentNode`] (9, with beams and masks) are, over lights `L`. `W` is at least 4.
 ///
 /// | word | content |
 /// |---|---|
@@ -83,21 +83,20 @@ pub type LinkedSpotMomentNode<const W: usize> = PackedMomentNode<W, LINKED_SPOT,
 /// | 7 | mask |
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
-pub struct PackedMomentNode<const W: usize, const ROWS: usize, const BEAMS: bool = false>([[u32; W]; ROWS]);
+pub struct PackedMomentNode<const W: usize, const ROWS: usize, L = EmissiveTriangle>(
+    [[u32; W]; ROWS],
+    PhantomData<L>,
+);
 
-impl<const W: usize, const ROWS: usize, const BEAMS: bool> PackedMomentNode<W, ROWS, BEAMS> {
+impl<const W: usize, const ROWS: usize, L> PackedMomentNode<W, ROWS, L> {
+    const BEAMS: bool = ROWS >= SPOT;
     const WORD_3: usize = if ROWS == TWO_SIDED { WORD_2 } else { WORD_2 + 1 };
     const LINK: usize = Self::WORD_3 + 1;
-    const HAS_MASK_ROW: bool = if BEAMS {
-        ROWS == LINKED_SPOT
-    } else {
-        ROWS == LINKED
-    };
     /// The last row, which is that of masks where there is one.
     const MASK: usize = ROWS - 1;
     /// The rows of beams, where there are any.
-    const BEAM: usize = if BEAMS { Self::LINK + 1 } else { Self::LINK };
-    const END: usize = if BEAMS { Self::LINK + 2 } else { Self::LINK };
+    const BEAM: usize = if Self::BEAMS { Self::LINK + 1 } else { Self::LINK };
+    const END: usize = if Self::BEAMS { Self::LINK + 2 } else { Self::LINK };
 
     /// Word 2 of a child with flux; where no normals are stored, that of none.
     #[inline(always)]
@@ -208,11 +207,11 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> PackedMomentNode<W, R
     }
 }
 
-impl<const W: usize, const ROWS: usize, const BEAMS: bool> Holds for PackedMomentNode<W, ROWS, BEAMS> {
-    type Light = EmissiveTriangle;
+impl<const W: usize, const ROWS: usize, L: Light> Holds for PackedMomentNode<W, ROWS, L> {
+    type Light = L;
 }
 
-impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMomentNode<W, ROWS, BEAMS> {
+impl<const W: usize, const ROWS: usize, L: Light> Node<W> for PackedMomentNode<W, ROWS, L> {
     type Summary = LightMoments;
 
     const EMPTY: Self = {
@@ -221,30 +220,19 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
             "the header of a packed node takes four words: it has 4 to 16 children"
         );
         assert!(
-            if BEAMS {
-                ROWS == SPOT || ROWS == LINKED_SPOT
-            } else {
-                ROWS == ORIENTED || ROWS == TWO_SIDED || ROWS == LINKED
-            },
-            "a packed node of moments has six rows, five without normals, or seven with masks; with beams eight, or nine with masks"
+            ROWS == ORIENTED || ROWS == TWO_SIDED || ROWS == SPOT || ROWS == LINKED_SPOT,
+            "a packed node of moments has six rows, five without normals, eight with beams, or nine with beams and masks"
         );
-        Self([[0; W]; ROWS])
+        Self([[0; W]; ROWS], PhantomData)
     };
-    const NAME: &'static str = if BEAMS {
-        if ROWS == SPOT {
-            "moments with beams"
-        } else {
-            "linked moments with beams"
-        }
-    } else if ROWS == ORIENTED {
-        "moments"
-    } else if ROWS == TWO_SIDED {
-        "two-sided moments"
-    } else {
-        "linked moments"
+    const NAME: &'static str = match ROWS {
+        TWO_SIDED => "two-sided moments",
+        ORIENTED => "moments",
+        SPOT => "moments with beams",
+        _ => "linked moments with beams",
     };
-    const HAS_MASKS: bool = Self::HAS_MASK_ROW;
-    const HAS_BEAMS: bool = BEAMS;
+    const HAS_MASKS: bool = ROWS == LINKED_SPOT;
+    const HAS_BEAMS: bool = Self::BEAMS;
 
     #[inline(always)]
     fn kind(&self, slot: usize) -> u32 {
@@ -282,7 +270,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
 
     #[inline(always)]
     fn mask(&self, slot: usize) -> u32 {
-        if Self::HAS_MASK_ROW {
+        if Self::HAS_MASKS {
             self.0[Self::MASK][slot]
         } else {
             u32::MAX
@@ -291,7 +279,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
 
     #[inline(always)]
     fn beam(&self, slot: usize) -> Beam {
-        if BEAMS {
+        if Self::BEAMS {
             let unit = pow2(self.unit_exponent());
             beam_of(self.0[Self::BEAM][slot], &self.summary(slot), unit)
         } else {
@@ -301,7 +289,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
 
     #[inline(always)]
     fn end(&self, slot: usize) -> f32 {
-        if BEAMS && self.0[Self::END][slot] != 0 {
+        if Self::BEAMS && self.0[Self::END][slot] != 0 {
             f32::from_bits(self.0[Self::END][slot])
         } else {
             Limits::ENDLESS
@@ -310,13 +298,13 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
 
     #[inline(always)]
     fn set_limits(&mut self, limits: &[Limits; W], summaries: &Lanes<W>) {
-        if Self::HAS_MASK_ROW {
+        if Self::HAS_MASKS {
             each!(slot, W, {
                 let shines = exact::mask(self.0[WORD_1][slot] & PHI_MASK);
                 self.0[Self::MASK][slot] = limits[slot].mask & shines;
             });
         }
-        if BEAMS {
+        if Self::BEAMS {
             let (unit, per_unit) = (pow2(self.unit_exponent()), pow2(-self.unit_exponent()));
             // Beams are long: a loop, also in kernels.
             for slot in 0..W {
@@ -338,10 +326,12 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
     #[inline(always)]
     fn merged_limits(&self, whole: &LightMoments) -> Limits {
         let mut all = Limits::NONE;
-        if Self::HAS_MASK_ROW {
-            all.mask = self.merged_mask();
+        if Self::HAS_MASKS {
+            each!(slot, W, {
+                all.mask |= self.0[Self::MASK][slot];
+            });
         }
-        if BEAMS {
+        if Self::BEAMS {
             let shines = |slot: usize| self.0[WORD_1][slot] & PHI_MASK != 0;
             let (mut are_narrow, mut end) = (true, 0.0);
             each!(slot, W, {
@@ -385,9 +375,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
     }
 }
 
-impl<const W: usize, const ROWS: usize, const BEAMS: bool> MomentLayout<W>
-    for PackedMomentNode<W, ROWS, BEAMS>
-{
+impl<const W: usize, const ROWS: usize, L: Light> MomentLayout<W> for PackedMomentNode<W, ROWS, L> {
     #[inline(always)]
     fn moment_weights(&self, p: Vec3, n: Vec3, space: Space) -> [f32; W] {
         let frame = frame(self.origin(), self.unit_exponent(), p);
@@ -416,7 +404,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> MomentLayout<W>
                 reach: up_sum + dot(up, Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16))),
             };
             weights[i] = weight(&lobe, &side);
-            if BEAMS {
+            if Self::BEAMS {
                 let cone = beam_factor(self.0[Self::BEAM][i], &lobe, WORD_UNIT, frame.unit, near.slack);
                 let h = Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16)) * WORD_UNIT
                     + Vec3::new(1.0, 1.0, 1.0);

@@ -8,7 +8,7 @@ use crate::emission::{MAX_SUM, MIN_PHI};
 use crate::exact::{self, exponent, pow2, significand};
 use crate::instance::{Instance, flushed};
 use crate::light::{Light, MIN_COORDINATE};
-use crate::vector::{abs3, dot, flush3, greatest_exponent, length_squared, max3};
+use crate::vector::{abs3, dot, flush3, greatest_exponent, length_squared};
 
 /// A constant of its own: rust-gpu does not fold an expression of literals.
 const THIRD: f32 = 1.0 / 3.0;
@@ -23,15 +23,21 @@ impl Instance {
         L::FLUX_POWER == 2 && (!L::HAS_FLUX_POWERS || self.mirrored & Self::IS_NOT_BY_AREA == 0)
     }
 
+    /// Half extents of the box around a mapped box of the half extents `half`.
+    #[inline(always)]
+    fn extent_to_world(&self, half: Vec3) -> Vec3 {
+        let (a, b, c) = (abs3(self.column(0)), abs3(self.column(1)), abs3(self.column(2)));
+        (a * half.x + b * half.y) + c * half.z
+    }
+
     /// Bounds in the world of what has the bounds `local` in the space of the mesh: the box around the mapped box; the cone
     /// about the mapped axis where the map leaves the axis its length, as similarities do, else all directions.
     #[inline(always)]
     pub(crate) fn bounds_to_world(&self, local: &LightBounds) -> LightBounds {
         let center = flushed((local.min + local.max) * 0.5);
         let half = flushed(local.max - center);
-        let (a, b, c) = (abs3(self.column(0)), abs3(self.column(1)), abs3(self.column(2)));
         let middle = self.forward(center) + self.origin();
-        let extent = (a * half.x + b * half.y) + c * half.z;
+        let extent = self.extent_to_world(half);
         let turned = self.normal_to_world(flushed(local.axis));
         let squared = length_squared(turned);
         let axis = if squared > pow2(-30) {
@@ -79,18 +85,8 @@ impl Instance {
         };
 
         // Map and deviations of about 1, by powers of two.
-        let entries = max3(
-            abs3(self.column(0)),
-            max3(abs3(self.column(1)), abs3(self.column(2))),
-        );
-        let map_exponent = greatest_exponent(entries, -100);
+        let ([a, b, c], map_exponent) = self.columns_of_one();
         let own_exponent = greatest_exponent(Vec3::new(local.across, local.along, 0.0), -100);
-        let to_one = pow2(-map_exponent);
-        let (a, b, c) = (
-            flushed(self.column(0) * to_one),
-            flushed(self.column(1) * to_one),
-            flushed(self.column(2) * to_one),
-        );
         let across = local.across * pow2(-own_exponent);
         let along = local.along * pow2(-own_exponent);
         let (va, vn) = (across * across, along * along);
@@ -110,8 +106,6 @@ impl Instance {
         // The roots below are zero or at least 2^-42: deviations are zero or normal numbers.
         let e = map_exponent + own_exponent;
         let unit = if e < LEAST_WORLD_EXPONENT { 0.0 } else { pow2(e) };
-        let h = flushed(local.h);
-        let (x, y, z) = (abs3(self.column(0)), abs3(self.column(1)), abs3(self.column(2)));
         LightMoments {
             phi: self.flux_to_world(local.phi, area),
             c: self.forward(flushed(local.c)) + self.origin(),
@@ -122,7 +116,7 @@ impl Instance {
             } else {
                 Vec3::new(0.0, 0.0, 0.0)
             },
-            h: (x * h.x + y * h.y) + z * h.z,
+            h: self.extent_to_world(flushed(local.h)),
         }
     }
 

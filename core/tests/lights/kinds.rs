@@ -4,10 +4,9 @@
 use crate::kit::Random;
 use lightbvh::exact::hash;
 use lightbvh::light::{AnyLight, Light};
-use lightbvh::node::Lit;
 use lightbvh::{Bvh, Defensive, MomentNode, Moments, Random64, Rebuilder, ShadingPoint, Transform};
 
-type Tree = Bvh<Lit<MomentNode<8>, AnyLight>, Defensive<Moments, 6>, 8>;
+type Tree = Bvh<MomentNode<8, AnyLight>, Defensive<Moments, 6>, 8>;
 
 const PER_MESH: usize = 24;
 
@@ -165,40 +164,5 @@ fn any_light_is_its_kind() {
         words[16] = kind;
         let any: AnyLight = *bytemuck::from_bytes(bytemuck::cast_slice(words));
         any.checked().expect_err("of no kind");
-    }
-}
-
-/// Two instances of one white lamp, as far from a point: they are chosen as their colours' luminances are to each other.
-#[test]
-fn colors_count_by_luminance() {
-    let colors = [[1.0, 0.0, 0.0], [0.0, 0.0, 3.0], [0.2, 0.5, 0.9], [0.0; 3]];
-    let mut bvh: Bvh<Lit<MomentNode<8>, AnyLight>, Moments, 8> = Bvh::default();
-    let bulb = lightbvh::light::PointLight {
-        p: [0.0; 3],
-        intensity: [1.0; 3],
-        range: 0.0,
-        mesh: 0,
-    };
-    let mesh = bvh.add_mesh(vec![bulb.into()]).expect("in the domain");
-    let ids = [-1.0, 1.0].map(|x| {
-        let at = Transform::at([x, 3.0, 0.0]);
-        bvh.add_instance(mesh, at).expect("in the domain")
-    });
-    let point = ShadingPoint {
-        p: [0.0; 3],
-        n: [0.0, 1.0, 0.0],
-    };
-    bvh.set_radiance(ids[1], [0.5; 3]).expect("a factor");
-    for color in colors {
-        bvh.set_radiance(ids[0], color).expect("a factor");
-        bvh.refit();
-        let [own, other] = ids.map(|id| f64::from(bvh.pmf_of(&point, id, 0).expect("a light")));
-        let share = luminance(color) / (luminance(color) + 0.5);
-        // Flux is stored to 1/32.
-        assert!(
-            (own - share).abs() < 0.04 * share.max(1.0 - share),
-            "{own} {share}"
-        );
-        assert!((own + other - 1.0).abs() < 1.0e-6);
     }
 }

@@ -1,6 +1,7 @@
 //! Lights of each kind, and a room.
 
 pub use crate::numbers::{Random, Wide, dot, minus, times};
+use crate::numbers::{cross, narrow, normalize};
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::light::{
     AnyLight, BoxLight, DiscLight, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
@@ -13,26 +14,12 @@ impl Random {
     }
 
     pub fn unit_vector(&mut self) -> [f32; 3] {
-        loop {
-            let v = self.within(1.0);
-            let squared: f32 = v.iter().map(|x| x * x).sum();
-            if (0.01..=1.0).contains(&squared) {
-                return v.map(|x| x / squared.sqrt());
-            }
-        }
+        self.direction().to_array()
     }
 
     /// A unit vector at right angles to a unit vector.
     pub fn across(&mut self, axis: [f32; 3]) -> [f32; 3] {
-        loop {
-            let other = self.unit_vector();
-            let d: f32 = (0..3).map(|k| other[k] * axis[k]).sum();
-            if d.abs() < 0.9 {
-                let v: [f32; 3] = core::array::from_fn(|k| other[k] - d * axis[k]);
-                let length = v.iter().map(|x| x * x).sum::<f32>().sqrt();
-                return v.map(|x| x / length);
-            }
-        }
+        narrow(normalize(cross(wide(axis), wide(self.within(1.0))))).to_array()
     }
 
     /// On a surface within `reach`, or one of three in a volume.
@@ -47,10 +34,7 @@ impl Random {
 
     /// A rotation times `scale` and up to 4 or a fourth of that, one of two mirrored.
     pub fn similarity(&mut self, reach: f32, scale: f32) -> Transform {
-        let a = self.unit_vector();
-        let b = self.across(a);
-        let c: [f32; 3] =
-            core::array::from_fn(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
+        let [a, b, c] = self.axes().map(|v| narrow(v).to_array());
         let s = scale * 4.0_f32.powf(self.signed());
         let sign = if self.below(2) == 0 { -s } else { s };
         Transform {

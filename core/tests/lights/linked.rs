@@ -7,14 +7,14 @@ use lightbvh::importance::{
     Leveled, Linked, LinkedPoint, RaySegment, Subtended, Transmissive, TransmissivePoint,
 };
 use lightbvh::light::{AnyLight, Light};
-use lightbvh::node::{LinkedMomentNode, LinkedSpotMomentNode, Lit, MomentLayout, Node};
+use lightbvh::node::{LinkedSpotMomentNode, Node, SpotMomentNode};
 use lightbvh::tree::{LightTree, OPENED};
 use lightbvh::{
     BuildParams, Bvh, Flux, Glossy, GlossyPoint, ImportanceModel, Instance, InstanceId, Lights, MeshId,
     MomentNode, Moments, Random64, Rebuilder, Receiver, SampledLight, ShadingPoint, Transform,
 };
 
-type Tree<N> = Bvh<Lit<N, AnyLight>, Linked<Moments>, 8>;
+type Tree = Bvh<LinkedSpotMomentNode<8, AnyLight>, Linked<Moments>, 8>;
 
 impl Random {
     /// Of few bits, so that some receivers have few lights; none for one in eight, all for one in eight.
@@ -62,7 +62,7 @@ fn lights(random: &mut Random, count: u32) -> Vec<AnyLight> {
     (0..count).map(|_| random.leveled()).collect()
 }
 
-fn put<N: MomentLayout<8>>(bvh: &mut Tree<N>, mesh: MeshId, random: &mut Random) -> InstanceId {
+fn put(bvh: &mut Tree, mesh: MeshId, random: &mut Random) -> InstanceId {
     let id = bvh.add_instance(mesh, random.place()).expect("in the domain");
     bvh.set_mask(id, random.mask()).expect("an instance");
     id
@@ -76,7 +76,7 @@ struct Known {
     mask: u32,
 }
 
-fn known<N: MomentLayout<8>>(bvh: &Tree<N>) -> Vec<Known> {
+fn known(bvh: &Tree) -> Vec<Known> {
     let mut all = Vec::new();
     for id in (0..bvh.instances().len() as u32).filter_map(|k| bvh.instance_id(k)) {
         let mesh = bvh.mesh_of(id).expect("of an instance");
@@ -158,7 +158,7 @@ fn check<N: Node<8>, I: ImportanceModel<N, 8, LinkedPoint<P>>, P: Receiver>(
 }
 
 /// The same for receivers of every kind in the bright, masked-out light `near`.
-fn check_all<N: MomentLayout<8>>(bvh: &Tree<N>, receivers: u32, random: &mut Random, seen: &mut Seen) {
+fn check_all(bvh: &Tree, receivers: u32, random: &mut Random, seen: &mut Seen) {
     bvh.validate().expect("nodes are what refit makes");
     let known = known(bvh);
     for _ in 0..receivers {
@@ -169,16 +169,23 @@ fn check_all<N: MomentLayout<8>>(bvh: &Tree<N>, receivers: u32, random: &mut Ran
     let Some((own, light)) = near.and_then(|own| Some((own, bvh.triangle(own.light, own.instance)?))) else {
         return;
     };
+    macro_rules! check_by {
+        ($importance:ty, $point:expr) => {
+            let (point, mask) = ($point, !own.mask);
+            let receiver = LinkedPoint { point, mask };
+            check(
+                &bvh.by::<Linked<$importance>>(),
+                &known,
+                &receiver,
+                random,
+                seen,
+            );
+        };
+    }
     let point = ShadingPoint {
         p: light.centroid(),
         n: [0.0, 1.0, 0.0],
     };
-    let mask = !own.mask;
-    let receiver = LinkedPoint { point, mask };
-    check(&bvh.tree(), &known, &receiver, random, seen);
-    check(&bvh.by::<Linked<Flux>>(), &known, &receiver, random, seen);
-    let leveled = bvh.by::<Linked<Leveled<Moments, 9>>>();
-    check(&leveled, &known, &receiver, random, seen);
     let glossy = GlossyPoint {
         point,
         mirror: [0.0, 1.0, 0.0],
@@ -186,49 +193,30 @@ fn check_all<N: MomentLayout<8>>(bvh: &Tree<N>, receivers: u32, random: &mut Ran
         specular: 1.0,
         exponent: 65_536.0,
     };
-    let glossy = LinkedPoint { point: glossy, mask };
-    check(
-        &bvh.by::<Linked<Glossy<Moments>>>(),
-        &known,
-        &glossy,
-        random,
-        seen,
-    );
     let leaf = TransmissivePoint {
         point,
         front: 0.4,
         back: 0.6,
     };
-    let leaf = LinkedPoint { point: leaf, mask };
-    check(
-        &bvh.by::<Linked<Transmissive<Moments>>>(),
-        &known,
-        &leaf,
-        random,
-        seen,
-    );
-    let point = RaySegment {
+    let ray = RaySegment {
         from: point.p,
         to: random.within(20.0),
     };
-    let ray = LinkedPoint { point, mask };
-    check(
-        &bvh.by::<Linked<Subtended<Moments>>>(),
-        &known,
-        &ray,
-        random,
-        seen,
-    );
+    check_by!(Moments, point);
+    check_by!(Flux, point);
+    check_by!(Leveled<Moments, 9>, point);
+    check_by!(Glossy<Moments>, glossy);
+    check_by!(Transmissive<Moments>, leaf);
+    check_by!(Subtended, ray);
 }
 
 /// With beams beside the masks, and large meshes whose parts are leaves of the top level with the instance's mask.
 #[test]
 fn two_levels_go_on_by_edits() {
-    type Both = Tree<LinkedSpotMomentNode<8>>;
     let (mut seen, mut opened) = (Seen::default(), 0);
     for seed in 0..4 {
         let random = &mut Random(1000 * seed + 7);
-        let mut bvh = Both::default();
+        let mut bvh = Tree::default();
         let mut ids = Vec::new();
         for _ in 0..2 + random.below(6) {
             let count = if seed == 3 { 300 } else { 1 + random.below(40) };
@@ -276,10 +264,10 @@ fn two_levels_go_on_by_edits() {
             .filter(|&&place| place != u32::MAX && place & OPENED != 0)
             .count();
         let words = bvh.to_words();
-        let read = Both::from_words(&words).expect("the words just written");
+        let read = Tree::from_words(&words).expect("the words just written");
         assert!(read.to_words() == words);
         check_all(&read, 4, random, &mut seen);
-        assert!(Bvh::<Lit<MomentNode<8>, AnyLight>, Moments, 8>::from_words(&words).is_err());
+        assert!(Bvh::<MomentNode<8, AnyLight>, Moments, 8>::from_words(&words).is_err());
     }
     assert!(
         seen.without > 30 && seen.partial > 100 && opened > 0,
@@ -293,8 +281,8 @@ fn masks_that_allow_all_change_nothing() {
     let random = &mut Random(9);
     let own: Vec<_> = (0..700).map(|_| random.triangle()).collect();
     let lights = Lights::new(own).expect("in the domain");
-    let plain: Bvh<MomentNode<8>, Moments, 8> = Bvh::single_level(&lights, &BuildParams::default());
-    let masked: Bvh<LinkedMomentNode<8>, Linked<Moments>, 8> =
+    let plain: Bvh<SpotMomentNode<8>, Moments, 8> = Bvh::single_level(&lights, &BuildParams::default());
+    let masked: Bvh<LinkedSpotMomentNode<8>, Linked<Moments>, 8> =
         Bvh::single_level(&lights, &BuildParams::default());
     // The words of a node but for the last row are those without masks.
     let row = size_of::<[u32; 8]>();
@@ -322,7 +310,7 @@ fn masks_that_allow_all_change_nothing() {
 fn least_shares_bound_probabilities() {
     const LEAST: f64 = 1.0 / 512.0;
     let random = &mut Random(12);
-    let mut bvh = Tree::<LinkedMomentNode<8>>::default();
+    let mut bvh = Tree::default();
     for _ in 0..60 {
         let mesh = bvh.add_mesh(lights(random, 10)).expect("in the domain");
         put(&mut bvh, mesh, random);

@@ -50,7 +50,7 @@ fn scenes_of_points_and_spots_are_verified_and_inspected() {
 
     let found = report(&format!("inspect {path} --json"));
     assert_eq!(found["kinds"]["said"], "2 PointLight, 1 SpotLight");
-    assert_eq!(found["kinds"]["node"], "Lit<SpotMomentNode<8>, AnyLight>");
+    assert_eq!(found["kinds"]["node"], "SpotMomentNode<8, AnyLight>");
 }
 
 #[test]

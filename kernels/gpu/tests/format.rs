@@ -8,7 +8,7 @@ use std::ops::Range;
 use lightbvh::light::{
     AnyLight, BoxLight, DiscLight, Light, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
 };
-use lightbvh::node::{LinkedMomentNode, LinkedSpotMomentNode, SpotMomentNode};
+use lightbvh::node::{LinkedSpotMomentNode, SpotMomentNode};
 use lightbvh::refit::BlasRoot;
 use lightbvh::{
     CompactNode, EmissiveTriangle, Instance, LightBvh, MomentNode, SampledLight, TreeWords,
@@ -58,7 +58,6 @@ fn layouts_have_their_words() {
         ("MomentNode<8>", size_of::<MomentNode<8>>(), 8),
         ("MomentNode<16>", size_of::<MomentNode<16>>(), 16),
         ("TwoSidedMomentNode<8>", size_of::<TwoSidedMomentNode<8>>(), 8),
-        ("LinkedMomentNode<8>", size_of::<LinkedMomentNode<8>>(), 8),
         ("SpotMomentNode<8>", size_of::<SpotMomentNode<8>>(), 8),
         ("LinkedSpotMomentNode<8>", size_of::<LinkedSpotMomentNode<8>>(), 8),
         ("CompactNode<4>", size_of::<CompactNode<4>>(), 4),

@@ -12,7 +12,7 @@ use crate::kit::scenes::{
     Lamp, bare, edits, instances, lamps, lights, moved, number, points, scattered, sound, sound_samples,
 };
 use crate::light::{AnyLight, Light};
-use crate::node::{CompactNode, Holds, LinkedSpotMomentNode, Lit};
+use crate::node::{CompactNode, Holds, LinkedSpotMomentNode};
 use crate::refit::{self, BlasRoot};
 use crate::summary::Summary;
 use crate::{Edit, LightBvh, Rebuilder, RebuilderParams, TreeWords};
@@ -238,7 +238,7 @@ where
 #[test]
 fn mirrors_follow_by_plans_alone() {
     follows::<CompactNode<2>, Eq4, 2>(3);
-    follows::<Lit<LinkedSpotMomentNode<8>, AnyLight>, Defensive<Moments, 6>, 8>(4);
+    follows::<LinkedSpotMomentNode<8, AnyLight>, Defensive<Moments, 6>, 8>(4);
 }
 
 /// The log and the lists of changed triangles are bounded.

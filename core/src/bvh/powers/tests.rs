@@ -13,12 +13,12 @@ use crate::light::{
     AnyLight, BoxLight, DiscLight, EmissiveTriangle, Light, PointLight, RectangleLight, SphereLight,
     SpotLight,
 };
-use crate::node::{CompactNode, Lit, MomentNode, Node};
+use crate::node::{CompactNode, MomentNode, Node};
 use crate::summary::Summary;
 use crate::transform::Transform;
 
-type Tree<L> = Bvh<Lit<MomentNode<8>, L>, Defensive<Moments, 6>, 8>;
-type BoundsTree<L> = Bvh<Lit<CompactNode<4>, L>, Eq4, 4>;
+type Tree<L> = Bvh<MomentNode<8, L>, Defensive<Moments, 6>, 8>;
+type BoundsTree<L> = Bvh<CompactNode<4, L>, Eq4, 4>;
 
 const PER_MESH: usize = 5;
 

@@ -10,7 +10,6 @@ use glam::Vec3;
 use formula::{FLOOR, HORIZON, Lights, SLACK};
 
 use super::{Random, minus, narrow, normalize, times, wide};
-use crate::importance::eq4::over_distance;
 use crate::importance::{Cluster, Eq4};
 use crate::point::ShadingPoint;
 use crate::vector::{cross, length_squared, max3};
@@ -37,9 +36,7 @@ fn cluster(bounds: &LightBounds) -> Cluster {
 }
 
 fn weight(bounds: &LightBounds, point: &ShadingPoint) -> f64 {
-    let cluster = cluster(bounds);
-    let (factor, distance_squared) = Eq4::factor(&cluster, point);
-    let scaled = over_distance(&cluster, distance_squared, factor);
+    let scaled = Eq4::scaled(&cluster(bounds), point);
     f64::from(scaled.significand) * 2.0_f64.powi(scaled.exponent)
 }
 

@@ -1,10 +1,10 @@
-//! Weights of which masks leave some.
+//! The least and the greatest weights: of which masks leave some, and times what is reflected.
 
 use crate::beam::Limits;
 use crate::choose::{FULL, choose};
-use crate::importance::{ImportanceModel, Linked, Space};
-use crate::node::{LinkedMomentNode, Node};
-use crate::point::{LinkedPoint, ShadingPoint};
+use crate::importance::{Glossy, ImportanceModel, Linked, Space};
+use crate::node::{LinkedSpotMomentNode, Node};
+use crate::point::{GlossyPoint, LinkedPoint, ShadingPoint};
 use crate::summary::Lanes;
 use crate::{LightMoments, exact};
 
@@ -19,33 +19,29 @@ impl<N> ImportanceModel<N, 4> for Extremes {
     }
 }
 
-fn node(masks: [u32; 4]) -> LinkedMomentNode<4> {
+fn node(masks: [u32; 4]) -> LinkedSpotMomentNode<4> {
     let light = LightMoments {
         phi: 1.0,
+        across: 0.5,
         ..LightMoments::EMPTY
     };
-    let mut node: LinkedMomentNode<4> = crate::kit::node(&[light; 4]);
+    let mut node: LinkedSpotMomentNode<4> = crate::kit::node(&[light; 4]);
     let limits = masks.map(|mask| Limits { mask, ..Limits::NONE });
     node.set_limits(&limits, &Lanes::all(&light));
     node
 }
 
-fn receiver(mask: u32) -> LinkedPoint<ShadingPoint> {
-    LinkedPoint {
-        point: ShadingPoint {
-            p: [0.0; 3],
-            n: [0.0; 3],
-        },
-        mask,
-    }
-}
+const POINT: ShadingPoint = ShadingPoint {
+    p: [0.0; 3],
+    n: [0.0, 1.0, 0.0],
+};
 
 /// However far below the others those are that are left, all numbers are shared out among them.
 #[test]
 fn what_is_left_gets_all_numbers() {
     let node = node([1, 2, 4, 8]);
     for mask in 0..16 {
-        let weights = Linked::<Extremes>::weights(&node, &receiver(mask));
+        let weights = Linked::<Extremes>::weights(&node, &LinkedPoint { point: POINT, mask });
         let mut sum = 0;
         for slot in 0..4 {
             let is_left = mask >> slot & 1 == 1 && WEIGHTS[slot] > 0.0;
@@ -60,5 +56,27 @@ fn what_is_left_gets_all_numbers() {
         }
         let any = mask & 7 != 0;
         assert_eq!(sum, if any { FULL } else { 0 }, "{mask}");
+    }
+}
+
+#[test]
+fn glossy_weights_stay_in_their_range() {
+    let range = exact::pow2(-120)..=exact::pow2(120);
+    for (away, exponent, specular) in [(9.0, 1.0, 0.0), (0.0, 65_536.0, 1.0), (9.0, 65_536.0, 1.0)] {
+        for up in [0.0, 1.0, -1.0] {
+            let receiver = GlossyPoint {
+                point: ShadingPoint {
+                    p: [away; 3],
+                    ..POINT
+                },
+                mirror: [0.0, up, 0.0],
+                diffuse: 0.0,
+                specular,
+                exponent,
+            };
+            let [most, least, tiny, none] = Glossy::<Extremes>::weights(&node([0; 4]), &receiver);
+            let are_in = [most, least, tiny].iter().all(|w| range.contains(w));
+            assert!(are_in && none == 0.0, "{most} {least} {tiny} {none}");
+        }
     }
 }

@@ -8,9 +8,8 @@ use super::*;
 use crate::kit::Random;
 use crate::kit::scenes::{Lamp, bare, lamps};
 use crate::light::AnyLight;
-use crate::node::{
-    CompactNode, LinkedMomentNode, LinkedSpotMomentNode, Lit, MomentNode, SpotMomentNode, TwoSidedMomentNode,
-};
+use crate::node::{CompactNode, LinkedSpotMomentNode, MomentNode, SpotMomentNode, TwoSidedMomentNode};
+use crate::refit::{bottom, top};
 use crate::{Bvh, Transform};
 
 /// Two meshes, a small and a large one, each twice, one of the instances of the larger turned and scaled.
@@ -93,14 +92,12 @@ fn nodes_child_by_child_are_nodes_as_a_whole() {
 
 #[test]
 fn limits_go_by_way_of_children_too() {
-    check::<Lit<LinkedMomentNode<8>, AnyLight>, 8, LIMITED_ROWS>();
-    check::<Lit<SpotMomentNode<8>, AnyLight>, 8, LIMITED_ROWS>();
-    check::<Lit<LinkedSpotMomentNode<8>, AnyLight>, 8, LIMITED_ROWS>();
+    check::<SpotMomentNode<8, AnyLight>, 8, LIMITED_ROWS>();
+    check::<LinkedSpotMomentNode<8, AnyLight>, 8, LIMITED_ROWS>();
     // They are there to be lost.
-    let bvh = scene::<Lit<LinkedSpotMomentNode<8>, AnyLight>, 8>(&mut Random(5));
-    let of = |node: &Lit<LinkedSpotMomentNode<8>, AnyLight>, slot| {
-        (node.mask(slot), node.beam(slot), node.end(slot))
-    };
+    let bvh = scene::<LinkedSpotMomentNode<8, AnyLight>, 8>(&mut Random(5));
+    let of =
+        |node: &LinkedSpotMomentNode<8, AnyLight>, slot| (node.mask(slot), node.beam(slot), node.end(slot));
     let (nodes, _) = flat(&bvh);
     let all = || {
         nodes
@@ -114,7 +111,7 @@ fn limits_go_by_way_of_children_too() {
 /// Links to what is just beyond the end, and to what is of the other level.
 #[test]
 fn what_is_not_there_is_no_child() {
-    type Layout = Lit<LinkedSpotMomentNode<8>, AnyLight>;
+    type Layout = LinkedSpotMomentNode<8, AnyLight>;
     let bvh = scene::<Layout, 8>(&mut Random(5));
     let (triangles, instances, roots) = (bvh.triangles(), bvh.instances(), bvh.roots());
     let mut nodes = [bvh.nodes(), &[Layout::EMPTY]].concat();

@@ -55,7 +55,7 @@ impl LightKinds {
         let layout = ["MomentNode", "SpotMomentNode"][usize::from(self.limited > 0)];
         match self.light_type() {
             "EmissiveTriangle" => format!("{layout}<{width}>"),
-            light => format!("Lit<{layout}<{width}>, {light}>"),
+            light => format!("{layout}<{width}, {light}>"),
         }
     }
 
@@ -93,9 +93,9 @@ mod tests {
     #[test]
     fn cones_below_a_right_angle_that_shine_need_a_wider_node() {
         for (cos_outer, intensity, node) in [
-            (0.0, 1.0, "Lit<MomentNode<8>, SpotLight>"),
-            (0.5, 0.0, "Lit<MomentNode<8>, SpotLight>"),
-            (0.5, 1.0, "Lit<SpotMomentNode<8>, SpotLight>"),
+            (0.0, 1.0, "MomentNode<8, SpotLight>"),
+            (0.5, 0.0, "MomentNode<8, SpotLight>"),
+            (0.5, 1.0, "SpotMomentNode<8, SpotLight>"),
         ] {
             let spot = AnyLight::from(SpotLight {
                 p: [0.0; 3],
