@@ -4,9 +4,7 @@
 //! point receives of it.
 
 use lightbvh::exact::{hash, unit_f32};
-use lightbvh::light::{
-    AnyLight, BoxLight, DiscLight, Light, PointLight, RectangleLight, SphereLight, SpotLight,
-};
+use lightbvh::light::{AnyLight, DiscLight, Light, PointLight, RectangleLight, SphereLight, SpotLight};
 use lightbvh::node::{Lit, SpotMomentNode};
 use lightbvh::{Bvh, Defensive, EmissiveTriangle, Moments, ShadingPoint, Transform};
 
@@ -55,11 +53,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             radiance,
             ..DiscLight::DARK
         }),
-        AnyLight::from(BoxLight {
-            half: [half[0], half[1], [0.0, 0.2, 0.0]],
-            radiance,
-            ..BoxLight::DARK
-        }),
     ];
 
     let mut room = Room::default();
@@ -78,8 +71,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         p: [4.0, 0.0, 1.0],
         n: [0.0, 1.0, 0.0],
     };
-    let mut shares = [0.0; 7];
-    let mut received = [0.0; 7];
+    let mut shares = [0.0; 6];
+    let mut received = [0.0; 6];
     for trial in 0..TRIALS {
         let sampled = room.sample(&point, hash(trial));
         let Some(light) = room.triangle(sampled.light, sampled.instance) else {
@@ -92,7 +85,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         shares[kind] += 1.0 / TRIALS as f32;
         received[kind] += arriving / sampled.pmf / TRIALS as f32;
     }
-    let names = ["triangle", "point", "spot", "sphere", "rectangle", "disc", "box"];
+    let names = ["triangle", "point", "spot", "sphere", "rectangle", "disc"];
     for (name, (share, received)) in names.iter().zip(shares.iter().zip(received)) {
         println!(
             "{name:9}: {:5.1} % of the samples, {received:.4} W/m²",

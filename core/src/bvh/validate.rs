@@ -104,7 +104,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let mesh = &self.meshes[index as usize];
         let root = self.roots[index as usize].node;
         equal(root, INVALID, "root", mesh.root(), root)?;
-        equal(INVALID, index, "flux power", self.power_of(index), mesh.power)?;
+        equal(
+            INVALID,
+            index,
+            "flux by area",
+            u32::from(self.goes_by_area(index)),
+            u32::from(mesh.is_by_area),
+        )?;
         let expected = self.root_of(index);
         same_words(INVALID, index, &expected, &self.roots[index as usize])?;
         let is_alone = self.is_alone(mesh.triangles.len());
@@ -169,7 +175,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             count,
             listed: found.listed,
             mask: placed.mask,
-            ..self.in_place(placed.mesh, placed.transform, placed.radiance)
+            ..placed.transform.instance_by(placed.radiance, mesh.is_by_area)
         };
         same_words(INVALID, index, &expected, found)?;
         let user = mesh.users.get(placed.user as usize).copied();

@@ -235,7 +235,7 @@ fn radiance_in_the_world() {
             radiance,
             ..triangle([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
         };
-        let instance = Transform::IDENTITY.instance_by(factor, 2);
+        let instance = Transform::IDENTITY.instance_by(factor, true);
         triangle.in_world(&instance, 7).radiance
     };
     let of = |radiance, factor| of_colors(radiance, [factor; 3]);

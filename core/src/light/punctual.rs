@@ -56,16 +56,16 @@ pub struct SpotLight {
 /// Least difference of the two cosines that the intensity falls over: a sharp edge is one as wide.
 const LEAST_FALL: f32 = pow2(-20);
 /// Full solid angle over the greatest power of two in it, and its exponent.
-pub(super) const FOUR_PI: f32 = 4.0 * core::f32::consts::PI;
-pub(super) const TWO_PI: f32 = 2.0 * core::f32::consts::PI;
+const FOUR_PI: f32 = 4.0 * core::f32::consts::PI;
+const TWO_PI: f32 = 2.0 * core::f32::consts::PI;
 /// Constants of their own: rust-gpu does not fold an expression of literals.
 const THIRD: f32 = 1.0 / 3.0;
 /// The length of the mean direction of a diffuse emitter is 2/3; a mean normal is that over it.
-pub(super) const PER_MEAN_DIRECTION: f32 = 1.5;
+const PER_MEAN_DIRECTION: f32 = 1.5;
 
 /// What is known of a light without size.
 #[inline(always)]
-pub(super) fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
+fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
     LightMoments {
         phi,
         c: vector(p),
@@ -78,7 +78,7 @@ pub(super) fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
 
 /// `per_intensity` times the luminance of an intensity, W.
 #[inline(always)]
-pub(super) fn phi(intensity: &[f32; 3], per_intensity: f32) -> f32 {
+fn phi(intensity: &[f32; 3], per_intensity: f32) -> f32 {
     let luminance = luminance_of(intensity);
     let phi = bounded_phi(significand(luminance) * per_intensity, exponent(luminance));
     if luminance > 0.0 { phi } else { 0.0 }
@@ -89,24 +89,8 @@ pub(super) fn phi(intensity: &[f32; 3], per_intensity: f32) -> f32 {
 /// root mean square of what they get. That is the geometric mean of the flux and of that of a diffuse emitter as bright along its axis,
 /// π times the intensity, where the flux is less. Nodes with beams take it from there.
 #[inline(always)]
-pub(super) fn phi_per_intensity(flux: f32) -> f32 {
+fn phi_per_intensity(flux: f32) -> f32 {
     exact::max(flux, exact::sqrt(flux * core::f32::consts::PI))
-}
-
-/// A cone of this cosine or less is all directions.
-const WHOLE: f32 = -1.0 + pow2(-16);
-
-/// Whether a direction, of length 1 up to 2^-16, lies within a cone.
-#[inline(always)]
-pub(super) fn within_cone(axis: Vec3, cosine: f32, direction: Vec3) -> bool {
-    // Straight behind a direction that is a little longer than 1 would be beyond all.
-    (0.5 * apart_squared(axis, direction) <= 1.0 - cosine) | (cosine <= WHOLE)
-}
-
-/// Twice 1 less the cosine of two directions: cosines of a narrow cone have no digits for it, nor lengths that are nearly 1.
-#[inline(always)]
-fn apart_squared(axis: Vec3, direction: Vec3) -> f32 {
-    length_squared(flush3(direction - axis, pow2(-40)))
 }
 
 /// The part of its intensity that a light at `p` with this range has at `from`.
@@ -140,7 +124,7 @@ fn checked_range(range: f32) -> Result<f32, DomainError> {
 }
 
 #[inline(always)]
-pub(super) fn at(p: &[f32; 3], intensity: [f32; 3]) -> LightPoint {
+fn at(p: &[f32; 3], intensity: [f32; 3]) -> LightPoint {
     LightPoint {
         p: *p,
         density: 1.0,
@@ -160,7 +144,7 @@ impl Light for PointLight {
     };
 
     of_mesh_at_place!();
-    const FLUX_POWER: u32 = 0;
+    const ARE_SURFACES: bool = false;
     type Slots<const W: usize> = Each<Self, W>;
 
     fn checked(mut self) -> Result<Self, DomainError> {
@@ -233,7 +217,8 @@ impl SpotLight {
     #[inline(always)]
     #[must_use]
     fn falloff(&self, direction: Vec3) -> f32 {
-        let gap = 0.5 * apart_squared(vector(&self.axis), direction);
+        // 1 less the cosine: cosines of a narrow cone have no digits for it, nor lengths that are nearly 1.
+        let gap = 0.5 * length_squared(flush3(direction - vector(&self.axis), pow2(-40)));
         let linear = exact::clamp(exact::div((1.0 - self.cos_outer) - gap, self.fall()), 0.0, 1.0);
         // What a device flushes is cut here.
         exact::flush(linear * linear, pow2(-60))
@@ -275,7 +260,7 @@ impl Light for SpotLight {
     };
 
     of_mesh_at_place!();
-    const FLUX_POWER: u32 = 0;
+    const ARE_SURFACES: bool = false;
     type Slots<const W: usize> = Each<Self, W>;
 
     fn checked(mut self) -> Result<Self, DomainError> {

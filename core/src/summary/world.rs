@@ -20,7 +20,7 @@ impl Instance {
     /// Whether [`flux`](Self::flux) of its lights, of type `L`, grows with area.
     #[inline(always)]
     fn is_by_area<L: Light>(&self) -> bool {
-        L::FLUX_POWER == 2 && (!L::HAS_FLUX_POWERS || self.mirrored & Self::IS_NOT_BY_AREA == 0)
+        L::ARE_SURFACES || self.mirrored & Self::IS_NOT_BY_AREA == 0
     }
 
     /// Bounds in the world of what has the bounds `local` in the space of the mesh: the box around the mapped box; the cone

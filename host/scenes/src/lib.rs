@@ -34,7 +34,6 @@ mod framing;
 mod glb_out;
 mod glow;
 mod gltf_in;
-mod ies_in;
 mod instances;
 mod lamps;
 mod lit_by;
@@ -50,7 +49,6 @@ mod place;
 mod ply_in;
 #[cfg(feature = "formats")]
 mod polygon;
-mod profile;
 mod random;
 mod ray_bvh;
 mod scene;
@@ -77,7 +75,6 @@ pub use environment::read_environment;
 pub use error::SceneError;
 pub use files::Limits;
 pub use frame::{FRAMES_PER_SECOND, Frame, MeshRange};
-pub use ies_in::Photometry;
 pub use instances::Instances;
 pub use load::{BUILT_IN, STAGE};
 pub use model::{
@@ -85,7 +82,6 @@ pub use model::{
     SceneData, Skin,
 };
 pub use paint::{IN_PLACE, MAX_SIDE, Paint, Picture, Texture, Wrap};
-pub use profile::{Profile, Sent};
 pub use ray_bvh::{RayBvh, RayBvhError};
 pub use scene::Scene;
 pub use scene_light::SceneLight;

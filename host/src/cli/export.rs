@@ -38,10 +38,7 @@ pub(super) fn run(args: &Args) -> Result<Outcome, HostError> {
     let known = |kind| {
         matches!(
             kind,
-            AnalyticKind::Directional
-                | AnalyticKind::Point
-                | AnalyticKind::Spot { .. }
-                | AnalyticKind::Profile { .. }
+            AnalyticKind::Directional | AnalyticKind::Point | AnalyticKind::Spot { .. }
         )
     };
     let lost = scene
@@ -52,7 +49,7 @@ pub(super) fn run(args: &Args) -> Result<Outcome, HostError> {
         .count();
     if lost > 0 {
         news!(
-            "{}: glTF has no word for spheres, rectangles, discs and boxes that shine: {lost} left out",
+            "{}: glTF has no word for spheres, rectangles and discs that shine: {lost} left out",
             scene.name()
         );
     }

@@ -8,8 +8,7 @@ use super::super::error::{SceneError, not_compiled};
 use super::Document;
 
 /// Extensions that are read, and whether the feature `formats` is needed for it.
-const READ: [(&str, bool); 13] = [
-    ("EXT_lights_ies", false),
+const READ: [(&str, bool); 12] = [
     ("EXT_mesh_gpu_instancing", false),
     ("EXT_meshopt_compression", true),
     ("EXT_texture_webp", true),
