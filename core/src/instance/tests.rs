@@ -91,7 +91,7 @@ fn moments_in_the_world() {
             m: Vec3::from_array(axis.map(|x| x as f32)) * length,
             h: Vec3::new(random.unit(), random.unit(), random.unit()) * size,
         };
-        let found = instance.moments_to_world::<crate::EmissiveTriangle>(&local);
+        let found = instance.moments_to_world(&local);
 
         let greatest = map
             .columns

@@ -183,7 +183,6 @@ impl Light for AnyLight {
         kind: Self::POINT,
     };
     of_mesh!();
-    const ARE_SURFACES: bool = false;
     type Slots<const W: usize> = Each<Self, W>;
 
     fn checked(self) -> Result<Self, DomainError> {
@@ -220,22 +219,12 @@ impl Light for AnyLight {
 
     #[inline(always)]
     fn end(&self) -> f32 {
-        if self.kind() == Self::POINT {
-            self.point().end()
-        } else if self.kind() == Self::SPOT {
-            self.spot().end()
-        } else {
-            Limits::ENDLESS
-        }
+        by_kind!(self, own => own.end(), Limits::ENDLESS)
     }
 
     #[inline(always)]
     fn beam(&self) -> Beam {
-        if self.kind() == Self::SPOT {
-            self.spot().beam()
-        } else {
-            Beam::ANYWHERE
-        }
+        by_kind!(self, own => own.beam(), Beam::ANYWHERE)
     }
 
     #[inline(always)]

@@ -84,15 +84,6 @@ fn phi(intensity: &[f32; 3], per_intensity: f32) -> f32 {
     if luminance > 0.0 { phi } else { 0.0 }
 }
 
-/// What a tree takes for the flux of a light that shines in few directions, W for each W/sr along its axis, where the flux is `flux` for each. Most nodes
-/// know no narrow cone, so whether a point lies in it cannot be told; the choice with the least variance over all points is then by the
-/// root mean square of what they get. That is the geometric mean of the flux and of that of a diffuse emitter as bright along its axis,
-/// π times the intensity, where the flux is less. Nodes with beams take it from there.
-#[inline(always)]
-fn phi_per_intensity(flux: f32) -> f32 {
-    exact::max(flux, exact::sqrt(flux * core::f32::consts::PI))
-}
-
 /// The part of its intensity that a light at `p` with this range has at `from`.
 #[inline(always)]
 fn window(p: &[f32; 3], range: f32, from: Vec3) -> f32 {
@@ -144,7 +135,6 @@ impl Light for PointLight {
     };
 
     of_mesh_at_place!();
-    const ARE_SURFACES: bool = false;
     type Slots<const W: usize> = Each<Self, W>;
 
     fn checked(mut self) -> Result<Self, DomainError> {
@@ -161,6 +151,11 @@ impl Light for PointLight {
     #[inline(always)]
     fn has_flux(&self) -> bool {
         luminance_of(&self.intensity) > 0.0
+    }
+
+    #[inline(always)]
+    fn is_surface(&self) -> bool {
+        false
     }
 
     #[inline(always)]
@@ -240,10 +235,17 @@ impl SpotLight {
         [whole, first]
     }
 
-    /// What a tree takes for its flux.
+    /// What a tree takes for its flux, W. Most nodes
+    /// know no narrow cone, so whether a point lies in it cannot be told; the choice with the least variance over all points is then by the
+    /// root mean square of what they get. That is the geometric mean of the flux and of that of a diffuse emitter as bright along its axis,
+    /// π times the intensity, where the flux is less. Nodes with beams take it from there.
     #[inline(always)]
     fn phi(&self) -> f32 {
-        phi(&self.intensity, phi_per_intensity(TWO_PI * self.integrals()[0]))
+        let flux = TWO_PI * self.integrals()[0];
+        phi(
+            &self.intensity,
+            exact::max(flux, exact::sqrt(flux * core::f32::consts::PI)),
+        )
     }
 }
 
@@ -260,7 +262,6 @@ impl Light for SpotLight {
     };
 
     of_mesh_at_place!();
-    const ARE_SURFACES: bool = false;
     type Slots<const W: usize> = Each<Self, W>;
 
     fn checked(mut self) -> Result<Self, DomainError> {
@@ -291,13 +292,28 @@ impl Light for SpotLight {
     }
 
     #[inline(always)]
+    fn is_surface(&self) -> bool {
+        false
+    }
+
+    #[inline(always)]
     fn end(&self) -> f32 {
         end(self.range)
     }
 
+    /// Anywhere from 90° on.
     #[inline(always)]
     fn beam(&self) -> Beam {
-        Beam::of_cone(vector(&self.p), vector(&self.axis), self.cos_outer)
+        if self.cos_outer > 0.0 {
+            Beam {
+                axis: vector(&self.axis),
+                cos_theta_e: self.cos_outer,
+                c: vector(&self.p),
+                radius: 0.0,
+            }
+        } else {
+            Beam::ANYWHERE
+        }
     }
 
     /// A cone of normals that is one direction, where half the sphere about it holds all that the spot sends.

@@ -24,8 +24,6 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     const DARK: Self;
     /// Which of its words is the [`mesh`](Self::mesh); all others are its own.
     const MESH_WORD: usize;
-    /// Whether every light of this type emits from a surface.
-    const ARE_SURFACES: bool = true;
     /// The lights of a node's slots, as processors compute several of them at a time.
     #[doc(hidden)]
     type Slots<const W: usize>: LightSlots<Self, W>;
@@ -50,7 +48,7 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     /// Whether it emits from a surface: its flux then grows with area where an instance scales, else not at all.
     #[inline(always)]
     fn is_surface(&self) -> bool {
-        Self::ARE_SURFACES
+        true
     }
     /// Its light ends at this distance from its box, metres: [`Limits::ENDLESS`], unless it has a range. Read where nodes store beams alone.
     #[inline(always)]

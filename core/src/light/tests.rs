@@ -30,28 +30,18 @@ fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
     );
 }
 
-/// Means over the middles of a grid of numbers.
-fn over_grid<const K: usize>(n: usize, mut of: impl FnMut([f32; 2]) -> [f64; K]) -> [f64; K] {
-    let mut sum = [0.0; K];
-    for i in 0..n * n {
-        let value = of([i % n, i / n].map(|k| (k as f32 + 0.5) / n as f32));
-        for k in 0..K {
-            sum[k] += value[k] / (n * n) as f64;
-        }
-    }
-    sum
-}
-
-/// The mean of the irradiance estimated at a receiver, weighted as luminance.
+/// The mean of the irradiance estimated at a receiver, weighted as luminance, over the middles of a grid of numbers.
 fn estimated<L: Light>(light: &L, receiver: &ShadingPoint) -> f64 {
-    let [mean] = over_grid(512, |uv| {
+    let (n, mut sum) = (512, 0.0);
+    for i in 0..n * n {
+        let uv = [i % n, i / n].map(|k| (k as f32 + 0.5) / n as f32);
         let [r, g, b] = light
             .point_for(receiver.position(), uv)
             .irradiance(receiver)
             .map(f64::from);
-        [0.2126 * r + 0.7152 * g + 0.0722 * b]
-    });
-    mean
+        sum += 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    }
+    sum / f64::from(n * n)
 }
 
 fn receivers() -> Vec<ShadingPoint> {

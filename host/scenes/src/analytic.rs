@@ -52,19 +52,13 @@ pub enum AnalyticKind {
 }
 
 impl AnalyticKind {
-    /// Half the size of a light with a size, metres.
+    /// Half the size of a light with a size, metres; empty for lights without, which scales of their nodes do not change.
     pub(super) fn half(&self) -> &[f32] {
         match self {
             Self::Directional | Self::Point | Self::Spot { .. } => &[],
             Self::Sphere { radius } => std::slice::from_ref(radius),
             Self::Rectangle { half } | Self::Disc { half } => half,
         }
-    }
-
-    /// How far the light reaches from its middle, metres; none of lights without size, which scales of their nodes do not change.
-    pub(super) fn extent(&self) -> Option<f64> {
-        let squares = self.half().iter().map(|&x| f64::from(x) * f64::from(x));
-        (!self.half().is_empty()).then(|| squares.sum::<f64>().sqrt())
     }
 }
 
