@@ -67,22 +67,6 @@ impl Beam {
         radius: 0.0,
     };
 
-    /// From one place into a cone; anywhere from 90° on.
-    #[inline(always)]
-    #[must_use]
-    pub(crate) fn of_cone(p: Vec3, axis: Vec3, cosine: f32) -> Self {
-        if cosine > 0.0 {
-            Self {
-                axis,
-                cos_theta_e: cosine,
-                c: p,
-                radius: 0.0,
-            }
-        } else {
-            Self::ANYWHERE
-        }
-    }
-
     /// Whether it says anything.
     #[inline(always)]
     #[must_use]

@@ -63,7 +63,7 @@ impl Cone {
     /// result's bits.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
-        // Bulbs and boxes shine everywhere: most unions high up in a tree are of spheres, and need no arithmetic.
+        // Bulbs shine everywhere: most unions high up in a tree are of spheres, and need no arithmetic.
         if self.cos_theta_o <= -1.0 {
             self
         } else if other.cos_theta_o <= -1.0 {

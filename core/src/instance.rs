@@ -46,9 +46,8 @@ pub struct Instance {
     pub inverse: [[f32; 3]; 3],
     /// √3 over the Frobenius norm of A⁻¹: makes A⁻ᵀ a map of normals of about unit length.
     pub per_inverse: f32,
-    /// Mean factor from the flux of a light of the mesh to that in the world: the luminance of `radiance`, times what A makes of the measure over which the
-    /// mesh emits ([`Light::FLUX_POWER`](crate::light::Light::FLUX_POWER)). Of surfaces that is the Frobenius norm of A's cofactors over √3, of volumes the magnitude of A's
-    /// determinant, of lights without size 1. Zero, or 2^-100 to 2^100.
+    /// Mean factor from the flux of a light of the mesh to that in the world: the luminance of `radiance`, times what A makes of areas:
+    /// the Frobenius norm of its cofactors over √3, or 1 of a mesh whose lights have no size ([`Light::is_surface`](crate::light::Light::is_surface)). Zero, or 2^-100 to 2^100.
     pub flux: f32,
     /// Factor on the mesh's radiance, linear RGB; zeros turn it off.
     pub radiance: [f32; 3],
@@ -82,7 +81,7 @@ impl Instance {
 
     /// Bit of [`mirrored`](Self::mirrored): the determinant of A is negative.
     pub const MIRRORS: u32 = 1;
-    /// Bit of [`mirrored`](Self::mirrored): a mesh of [`AnyLight`](crate::light::AnyLight)s, none of which emits from a surface.
+    /// Bit of [`mirrored`](Self::mirrored): a mesh of lights, none of which emits from a surface.
     pub const IS_NOT_BY_AREA: u32 = 2;
 
     /// Whether its map turns left hands into right ones.

@@ -9,8 +9,6 @@
 //! | [`RectangleLight`], [`DiscLight`] | as that; parallelograms and ellipses too |
 //! | [`SphereLight`] | from its surface outward |
 //! | [`PointLight`], [`SpotLight`] | from a place without size, in every direction or into a cone |
-//! | [`ProfileLight`] | from a place without size, in each direction what a table says: IES profiles |
-//! | [`BoxLight`] | from every place within it in every direction |
 //! | [`AnyLight`] | as the one of these that it is, for trees over several kinds |
 //!
 //! [`Light::point_for`] gives a [`LightPoint`] on each of them, [`LightPoint::irradiance`] what that sends. Builders, refits, samples, pmfs,
@@ -18,16 +16,14 @@
 //! `lightbvh_gpu::KernelSet::ANY` are the kernels over [`AnyLight`], and the reference renderer shows all of them.
 //! Environment maps and suns stand beside the tree: [`infinite`].
 //!
-//! **Instances scale.** The top level knows how flux grows with an instance's scale: with area where lights are surfaces, with volume where
-//! they are boxes, not at all where they are points and spots ([`Light::FLUX_POWER`]). It takes one rule for all lights of a mesh. A mesh of
-//! [`AnyLight`]s that differ in it goes by area: its scaled instances have too much or too little weight, which costs variance, and
-//! biases nothing.
+//! **Instances scale.** The top level knows how flux grows with an instance's scale: with area where lights are surfaces, not at all where they are
+//! points and spots ([`Light::is_surface`]). It takes one rule for all lights of a mesh. A mesh of [`AnyLight`]s that differ in it goes by
+//! area: its scaled instances have too much or too little weight, which costs variance, and biases nothing.
 
 mod any;
 mod flat;
 pub mod infinite;
 mod point;
-mod profile;
 mod punctual;
 mod record;
 mod round;
@@ -35,17 +31,14 @@ mod sphere;
 #[cfg(test)]
 mod tests;
 mod triangle;
-mod volume;
 
 pub use any::AnyLight;
 pub use flat::{DiscLight, RectangleLight};
 pub use point::{LightPoint, uniform_point};
-pub use profile::ProfileLight;
 pub use punctual::{PointLight, SpotLight};
 pub use record::{Light, LightSlots, world_light};
 pub use sphere::SphereLight;
 pub use triangle::EmissiveTriangle;
-pub use volume::BoxLight;
 
 #[doc(inline)]
 pub use crate::domain::{MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE};

@@ -28,8 +28,8 @@ pub trait Summary: Copy + PartialEq + Debug + Send + Sync + 'static {
     fn of_lights<L: Light, const W: usize>(lights: &L::Slots<W>, summaries: &mut Lanes<W>);
     /// Of all the children of a node; the order of the slots is part of the result's bits.
     fn merged<const W: usize>(children: &Lanes<W>) -> Self;
-    /// Of the lights, of type `L`, of a bottom level that `instance` puts into the world.
-    fn to_world<L: Light>(&self, instance: &Instance) -> Self;
+    /// Of the lights of a bottom level that `instance` puts into the world.
+    fn to_world(&self, instance: &Instance) -> Self;
 
     /// Radiant flux Φ, W; zero, or in [`MIN_PHI`](crate::bounds::MIN_PHI)`..=2^126`.
     fn phi(&self) -> f32;

@@ -52,7 +52,7 @@ impl Transform {
     /// instances makes of it, to the bit, but for the instance's factor on radiance.
     #[must_use]
     pub fn place<L: Light>(&self, light: &L, mesh: u32) -> L {
-        light.in_world(&self.instance_by([1.0; 3], light.flux_power()), mesh)
+        light.in_world(&self.instance_by([1.0; 3], true), mesh)
     }
 
     /// Whether every entry is a number within the domain, and a mesh of which no coordinate is beyond `reach` stays within it.
@@ -107,11 +107,11 @@ impl Transform {
     /// `f32` products allow: weights then mean little, and stay positive.
     #[cfg(test)]
     pub(crate) fn instance(&self, radiance: f32) -> Instance {
-        self.instance_by([radiance; 3], 2)
+        self.instance_by([radiance; 3], true)
     }
 
-    /// The same of a mesh whose flux grows as lengths to `power`: [`Light::FLUX_POWER`](crate::light::Light::FLUX_POWER).
-    pub(crate) fn instance_by(&self, radiance: [f32; 3], power: u32) -> Instance {
+    /// The same of a mesh whose flux grows with area, or not at all.
+    pub(crate) fn instance_by(&self, radiance: [f32; 3], is_by_area: bool) -> Instance {
         let columns = [self.column(0), self.column(1), self.column(2)];
         // Entries of about 1, so that products of three stay in range.
         let entry = columns
@@ -141,13 +141,9 @@ impl Transform {
         let norm = exact::sqrt(squares(&inverse.map(|column| column.map(f64::from))) as f32);
         let per_inverse = if norm > 0.0 { SQRT_3 / f64::from(norm) } else { 0.0 };
         let area = f64::from(exact::sqrt(squares(&cofactors) as f32)) / SQRT_3 * (entry * entry);
-        let measure = match power {
-            0 => 1.0,
-            3 => magnitude(determinant) * (entry * entry * entry),
-            _ => area,
-        };
         let luminance = luminance_of(&radiance);
-        let flux = (measure * f64::from(luminance)) as f32;
+        let flux = (if is_by_area { area } else { 1.0 } * f64::from(luminance)) as f32;
+        let not_by_area = if is_by_area { 0 } else { Instance::IS_NOT_BY_AREA };
         Instance {
             columns: self
                 .columns
@@ -161,7 +157,7 @@ impl Transform {
                 0.0
             },
             radiance,
-            mirrored: u32::from(determinant < 0.0),
+            mirrored: u32::from(determinant < 0.0) | not_by_area,
             ..Instance::IDENTITY
         }
     }

@@ -58,15 +58,6 @@ pub fn point(random: &mut Random, side: f32) -> ShadingPoint {
     ShadingPoint { p, n }
 }
 
-/// A unit direction across a unit `axis`.
-#[must_use]
-pub fn across(axis: [f32; 3]) -> [f32; 3] {
-    let [x, y, z] = axis;
-    let across = if x.abs() < 0.6 { [0.0, -z, y] } else { [-z, 0.0, x] };
-    let length = across.iter().map(|x| x * x).sum::<f32>().sqrt();
-    across.map(|x| x / length)
-}
-
 /// 2^e with `e` uniform in `low..=high`, times a significand.
 pub fn log_uniform(random: &mut Random, low: i32, high: i32) -> f32 {
     let e = low + random.below((high - low + 1) as u32) as i32;

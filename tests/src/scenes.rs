@@ -1,13 +1,11 @@
 //! Lights of every kind and size, and scenes of them at the ends of the domain: at one place or far apart, in maps that shrink and
 //! stretch them.
 
-use lightbvh::light::{
-    AnyLight, BoxLight, DiscLight, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
-};
+use lightbvh::light::{AnyLight, DiscLight, PointLight, RectangleLight, SphereLight, SpotLight};
 use lightbvh::node::Node;
 use lightbvh::{Bvh, EmissiveTriangle, ShadingPoint, Transform, exact};
 
-use crate::generate::{Random, across, extreme_triangle, log_uniform};
+use crate::generate::{Random, extreme_triangle, log_uniform};
 use crate::placing;
 
 /// Lights of a type.
@@ -56,14 +54,14 @@ impl Any for EmissiveTriangle {
 impl Any for AnyLight {
     fn any(random: &mut Random, p: [f32; 3], size: f32, shine: [f32; 3]) -> Self {
         let (flags, mesh) = (random.below(2) * EmissiveTriangle::TWO_SIDED, 0);
-        let half = [0; 3].map(|_| vector(random, size));
+        let half = [0; 2].map(|_| vector(random, size));
         let axis = random.direction();
         let range = match random.below(3) {
             0 => (8.0 * size).clamp(exact::pow2(-20), exact::pow2(40)),
             _ => 0.0,
         };
         let cos_outer = random.between(-1.0, 0.99);
-        match random.below(8) {
+        match random.below(6) {
             0 => EmissiveTriangle::any(random, p, size, shine).into(),
             1 => PointLight {
                 p,
@@ -91,37 +89,18 @@ impl Any for AnyLight {
             .into(),
             4 => RectangleLight {
                 p,
-                half: [half[0], half[1]],
+                half,
                 radiance: shine,
                 mesh,
                 flags,
             }
             .into(),
-            5 => DiscLight {
-                p,
-                half: [half[0], half[1]],
-                radiance: shine,
-                mesh,
-                flags,
-            }
-            .into(),
-            6 => ProfileLight {
-                p,
-                intensity: shine,
-                axis,
-                across: across(axis),
-                cos_outer,
-                whole: exact::pow2(-(random.below(40) as i32)),
-                mean_cosine: random.between(cos_outer, 1.0),
-                mesh,
-                flags: random.below(2) * ProfileLight::MIRRORED,
-            }
-            .into(),
-            _ => BoxLight {
+            _ => DiscLight {
                 p,
                 half,
                 radiance: shine,
                 mesh,
+                flags,
             }
             .into(),
         }

@@ -17,7 +17,6 @@ mod messages;
 mod methods;
 mod metrics;
 mod path;
-mod profiles;
 mod rebuilder;
 mod refit;
 mod regressions;

@@ -27,8 +27,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// and added lights have the uniform share alone.
     ///
     /// Time is in proportion to the edits, to the triangles in them, and to the instances of each mesh that is deformed as a
-    /// whole, reaches farther than before, or has lights of another [`flux_power`](crate::light::Light::flux_power) than
-    /// before, as often as it is. A mesh is built within the call that adds it: 0.2 to 0.4 µs for each triangle. The top level
+    /// whole, reaches farther than before, or gets its first [surface](crate::light::Light::is_surface) or loses its
+    /// last, as often as it is. A mesh is built within the call that adds it: 0.2 to 0.4 µs for each triangle. The top level
     /// is edited by the next refit (measured: `docs/dynamics.md`).
     ///
     /// # Errors
@@ -208,7 +208,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             count: placed.lights.len() as u32,
             listed: self.instances[index as usize].listed,
             mask: placed.mask,
-            ..self.in_place(placed.mesh, placed.transform, placed.radiance)
+            ..placed.transform.instance_by(placed.radiance, mesh.is_by_area)
         }
     }
 

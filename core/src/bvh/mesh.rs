@@ -4,9 +4,9 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Bvh;
+use super::area::is_by_area;
 use super::edit::MeshId;
 use super::log::Entry;
-use super::powers::common_power;
 use super::records::{Mesh, put};
 use super::refit::SWEPT;
 use crate::build::{Topology, build_over};
@@ -60,7 +60,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             generation,
             triangles: range,
             reach: reach_of(triangles),
-            power: common_power(triangles),
+            is_by_area: is_by_area(triangles),
             ..Mesh::default()
         };
         put(&mut self.meshes, index, mesh);
@@ -129,8 +129,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             *to = from.of_mesh(index);
         }
         self.log.push(Entry::Triangles(range.clone()));
-        let power = self.power_of(index);
-        if core::mem::replace(&mut self.meshes[index as usize].power, power) != power {
+        let by_area = self.goes_by_area(index);
+        if core::mem::replace(&mut self.meshes[index as usize].is_by_area, by_area) != by_area {
             for user in self.meshes[index as usize].users.clone() {
                 self.place(user);
             }

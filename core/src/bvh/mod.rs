@@ -20,6 +20,7 @@
 //! | more than a quarter of the instances are added, removed or move far | the whole top level |
 
 mod apply;
+mod area;
 mod check;
 mod construct;
 mod edit;
@@ -28,7 +29,6 @@ mod lights;
 mod log;
 mod mesh;
 mod one;
-mod powers;
 mod query;
 mod ranges;
 #[cfg(feature = "std")]

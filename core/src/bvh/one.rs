@@ -90,7 +90,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// depth of the mesh's tree, of which a [`refit`](Self::refit) then computes the paths to them; all of it where they are
     /// more than a sixteenth of the mesh. If they reach farther from
     /// the mesh's origin than any triangle did since the mesh was set as a whole, each instance of the mesh is looked at.
-    /// A mesh of points or boxes alone in a type of several kinds of light is looked at as a whole.
+    /// A mesh of points and spots alone is looked at as a whole.
     ///
     /// # Errors
     /// [`EditReason`], [`EditReason::Range`] where they are not all in the mesh; nothing is changed then.

@@ -25,8 +25,8 @@ pub(super) struct Mesh {
     pub depth: u32,
     /// Greatest magnitude of a coordinate that its lights reached since all of them were set.
     pub reach: f32,
-    /// The power of an instance's scale by which the flux of its lights grows.
-    pub power: u32,
+    /// Whether the flux of its lights grows with area where an instance scales.
+    pub is_by_area: bool,
     /// Counts edits of its triangles.
     pub version: u64,
 }

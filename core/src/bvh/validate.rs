@@ -78,7 +78,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let mesh = &self.meshes[index as usize];
         let root = self.roots[index as usize].node;
         equal(root, INVALID, "root", mesh.root(), root)?;
-        equal(INVALID, index, "flux power", self.power_of(index), mesh.power)?;
+        equal(
+            INVALID,
+            index,
+            "flux by area",
+            u32::from(self.goes_by_area(index)),
+            u32::from(mesh.is_by_area),
+        )?;
         let expected = self.root_of(index);
         same_words(INVALID, index, &expected, &self.roots[index as usize])?;
         let is_alone = self.is_alone(mesh.triangles.len());

@@ -91,7 +91,7 @@ fn moments_in_the_world() {
             m: Vec3::from_array(axis.map(|x| x as f32)) * length,
             h: Vec3::new(random.unit(), random.unit(), random.unit()) * size,
         };
-        let found = instance.moments_to_world::<crate::EmissiveTriangle>(&local);
+        let found = instance.moments_to_world(&local);
 
         let greatest = map
             .columns
@@ -233,7 +233,7 @@ fn radiance_in_the_world() {
             radiance,
             ..triangle([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
         };
-        let instance = Transform::IDENTITY.instance_by(factor, 2);
+        let instance = Transform::IDENTITY.instance_by(factor, true);
         triangle.in_world(&instance, 7).radiance
     };
     let of = |radiance, factor| of_colors(radiance, [factor; 3]);

@@ -1,6 +1,6 @@
 //! One light of each kind.
 
-use crate::light::{BoxLight, DiscLight, RectangleLight, SphereLight, SpotLight};
+use crate::light::{DiscLight, RectangleLight, SphereLight, SpotLight};
 
 pub const SHINE: [f32; 3] = [2.0, 3.0, 5.0];
 
@@ -42,14 +42,5 @@ pub fn disc(flags: u32) -> DiscLight {
         radiance: SHINE,
         mesh: 0,
         flags,
-    }
-}
-
-pub fn glow() -> BoxLight {
-    BoxLight {
-        p: [1.0, 2.0, -1.0],
-        half: [[0.5, 0.1, 0.0], [0.0, 0.75, 0.0], [0.2, 0.0, 0.25]],
-        radiance: SHINE,
-        mesh: 0,
     }
 }

@@ -5,26 +5,26 @@ use glam::Vec3;
 
 use super::record::{Each, Light, of_mesh};
 use super::{
-    BoxLight, DiscLight, EmissiveTriangle, INVALID, LightPoint, PointLight, ProfileLight, RectangleLight,
-    SphereLight, SpotLight, TWO_SIDED,
+    DiscLight, EmissiveTriangle, INVALID, LightPoint, PointLight, RectangleLight, SphereLight, SpotLight,
+    TWO_SIDED,
 };
 use crate::beam::{Beam, Limits};
 use crate::bounds::{LightBounds, LightMoments};
 use crate::domain::DomainError;
 use crate::instance::Instance;
 
-/// A light of any kind: 68 bytes, of which the kind says what they mean. Made of one of the others by `From`, and one of them again by
+/// A light of any kind: 56 bytes, of which the kind says what they mean. Made of one of the others by `From`, and one of them again by
 /// [`kind`](Self::kind) and, where that is its kind, `TryFrom`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct AnyLight {
     /// A place, then axes, edges, radius and cosines as the kind has them, in the order of its fields; zero where it has fewer.
-    words: [[f32; 3]; 4],
+    words: [[f32; 3]; 3],
     /// Radiance or intensity, linear RGB.
     emission: [f32; 3],
     /// Index of the mesh light that owns it.
     mesh: u32,
-    /// The kind, and above it [`TWO_SIDED`](EmissiveTriangle::TWO_SIDED) where it has sides, or [`MIRRORED`](ProfileLight::MIRRORED).
+    /// The kind, and above it [`TWO_SIDED`](EmissiveTriangle::TWO_SIDED) where it has sides.
     kind: u32,
 }
 
@@ -44,10 +44,6 @@ impl AnyLight {
     pub const RECTANGLE: u32 = 4;
     /// A [`DiscLight`].
     pub const DISC: u32 = 5;
-    /// A [`BoxLight`].
-    pub const BOX: u32 = 6;
-    /// A [`ProfileLight`].
-    pub const PROFILE: u32 = 7;
 
     /// Which kind it is: one of the constants.
     #[inline(always)]
@@ -56,7 +52,7 @@ impl AnyLight {
         self.kind & ((1 << KIND_BITS) - 1)
     }
 
-    /// Radiance of its surface, W/(m² sr), or what the kind has in its place: intensity, W/sr, or what a metre adds, W/(m³ sr). Linear RGB.
+    /// Radiance of its surface, W/(m² sr), or where the kind has no surface its intensity, W/sr. Linear RGB.
     #[inline(always)]
     #[must_use]
     pub fn emission(&self) -> [f32; 3] {
@@ -88,14 +84,12 @@ const NONE: [f32; 3] = [0.0; 3];
 
 /// For each kind the light that the words say, by a function of this name, and the flags and words of a light.
 macro_rules! kinds {
-    ($any:ident, $own:ident: $($(#[$doc:meta])* $vis:vis $as:ident: $light:ident $kind:ident $emission:ident {
+    ($any:ident, $own:ident: $($as:ident: $light:ident $kind:ident $emission:ident {
         $($field:ident: $of:expr),*
     } $flags:expr, $words:expr;)*) => {
         impl AnyLight {
-            $($(#[$doc])*
-            #[inline(always)]
-            #[must_use]
-            $vis fn $as(&self) -> $light {
+            $(#[inline(always)]
+            fn $as(&self) -> $light {
                 let $any = self;
                 $light { $emission: $any.emission, mesh: $any.mesh, $($field: $of),* }
             })*
@@ -127,31 +121,23 @@ macro_rules! kinds {
 kinds!(any, own:
     triangle: EmissiveTriangle TRIANGLE radiance {
         p: [any.words[0], any.words[1], any.words[2]], flags: any.flags()
-    } own.flags, [own.p[0], own.p[1], own.p[2], NONE];
+    } own.flags, [own.p[0], own.p[1], own.p[2]];
     point: PointLight POINT intensity {
         p: any.words[0], range: any.words[1][0]
-    } 0, [own.p, [own.range, 0.0, 0.0], NONE, NONE];
+    } 0, [own.p, [own.range, 0.0, 0.0], NONE];
     spot: SpotLight SPOT intensity {
         p: any.words[0], axis: any.words[1],
         cos_inner: any.words[2][0], cos_outer: any.words[2][1], range: any.words[2][2]
-    } 0, [own.p, own.axis, [own.cos_inner, own.cos_outer, own.range], NONE];
+    } 0, [own.p, own.axis, [own.cos_inner, own.cos_outer, own.range]];
     sphere: SphereLight SPHERE radiance {
         p: any.words[0], radius: any.words[1][0]
-    } 0, [own.p, [own.radius, 0.0, 0.0], NONE, NONE];
+    } 0, [own.p, [own.radius, 0.0, 0.0], NONE];
     rectangle: RectangleLight RECTANGLE radiance {
         p: any.words[0], half: [any.words[1], any.words[2]], flags: any.flags()
-    } own.flags, [own.p, own.half[0], own.half[1], NONE];
+    } own.flags, [own.p, own.half[0], own.half[1]];
     disc: DiscLight DISC radiance {
         p: any.words[0], half: [any.words[1], any.words[2]], flags: any.flags()
-    } own.flags, [own.p, own.half[0], own.half[1], NONE];
-    volume: BoxLight BOX radiance {
-        p: any.words[0], half: [any.words[1], any.words[2], any.words[3]]
-    } 0, [own.p, own.half[0], own.half[1], own.half[2]];
-    /// It as a [`ProfileLight`]; numbers that mean nothing where it is of another kind.
-    pub profile: ProfileLight PROFILE intensity {
-        p: any.words[0], axis: any.words[1], across: any.words[2],
-        cos_outer: any.words[3][0], whole: any.words[3][1], mean_cosine: any.words[3][2], flags: any.flags()
-    } own.flags, [own.p, own.axis, own.across, [own.cos_outer, own.whole, own.mean_cosine]];
+    } own.flags, [own.p, own.half[0], own.half[1]];
 );
 
 /// What `$of` says of the light as what its kind makes it; any kind that is none counts as a point without intensity.
@@ -159,7 +145,7 @@ macro_rules! by_kind {
     ($self:ident, $own:ident => $of:expr, $none:expr) => {
         by_kind!(
             $self, $own => $of, $none;
-            TRIANGLE triangle, POINT point, SPOT spot, SPHERE sphere, RECTANGLE rectangle, DISC disc, BOX volume, PROFILE profile
+            TRIANGLE triangle, POINT point, SPOT spot, SPHERE sphere, RECTANGLE rectangle, DISC disc
         )
     };
     ($self:ident, $own:ident => $of:expr, $none:expr; $($kind:ident $as:ident),*) => {
@@ -191,13 +177,12 @@ fn point_on(light: AnyLight, from: Vec3, uv: [f32; 2]) -> LightPoint {
 impl Light for AnyLight {
     const NAME: &'static str = "light of any kind";
     const DARK: Self = Self {
-        words: [NONE; 4],
+        words: [NONE; 3],
         emission: [0.0; 3],
         mesh: INVALID,
         kind: Self::POINT,
     };
     of_mesh!();
-    const HAS_FLUX_POWERS: bool = true;
     type Slots<const W: usize> = Each<Self, W>;
 
     fn checked(self) -> Result<Self, DomainError> {
@@ -228,30 +213,18 @@ impl Light for AnyLight {
     }
 
     #[inline(always)]
-    fn flux_power(&self) -> u32 {
-        by_kind!(self, own => own.flux_power(), PointLight::FLUX_POWER)
+    fn is_surface(&self) -> bool {
+        by_kind!(self, own => own.is_surface(), false)
     }
 
     #[inline(always)]
     fn end(&self) -> f32 {
-        if self.kind() == Self::POINT {
-            self.point().end()
-        } else if self.kind() == Self::SPOT {
-            self.spot().end()
-        } else {
-            Limits::ENDLESS
-        }
+        by_kind!(self, own => own.end(), Limits::ENDLESS)
     }
 
     #[inline(always)]
     fn beam(&self) -> Beam {
-        if self.kind() == Self::SPOT {
-            self.spot().beam()
-        } else if self.kind() == Self::PROFILE {
-            self.profile().beam()
-        } else {
-            Beam::ANYWHERE
-        }
+        by_kind!(self, own => own.beam(), Beam::ANYWHERE)
     }
 
     #[inline(always)]

@@ -16,14 +16,14 @@ pub struct LightPoint {
     pub p: [f32; 3],
     /// Density over the light's area, 1/m², at most 2^120; 0 where it has none. Of a triangle, a rectangle and a disc the inverse of their
     /// area, of a sphere that of the part a receiver may see, the same for all its points (where a ray met the light, that of any
-    /// [`point_for`](super::Light::point_for) the receiver is the density); [`IS_POINT`](Self::IS_POINT) and [`IS_VOLUME`](Self::IS_VOLUME) say what else it is.
+    /// [`point_for`](super::Light::point_for) the receiver is the density); 1 of an [`IS_POINT`](Self::IS_POINT).
     ///
     /// For a light chosen with probability `pmf`, seen at distance `d` under the cosine `c` of its normal, the density over solid
     /// angle is `pmf · density · d² / c` (pbrt-v4, section 6.5.4).
     pub density: f32,
     /// Unit normal of the front side; zero where the light has no area.
     pub normal: [f32; 3],
-    /// [`EmissiveTriangle::flags`](super::EmissiveTriangle::flags), [`IS_POINT`](Self::IS_POINT) or [`IS_VOLUME`](Self::IS_VOLUME).
+    /// [`EmissiveTriangle::flags`](super::EmissiveTriangle::flags), or [`IS_POINT`](Self::IS_POINT).
     pub flags: u32,
     /// Radiance, W/(m² sr), where `flags` do not say otherwise.
     pub radiance: [f32; 3],
@@ -38,9 +38,6 @@ impl LightPoint {
     /// Bit of [`flags`](Self::flags): a light without size. `radiance` is its intensity towards the receiver, W/sr, `density` 1, and there is
     /// no cosine at the light.
     pub const IS_POINT: u32 = 2;
-    /// Bit of [`flags`](Self::flags): a place in a volume. `radiance` is what a metre adds, W/(m³ sr), `density` is over volume, 1/m³, and
-    /// there is no cosine at the light.
-    pub const IS_VOLUME: u32 = 4;
 
     /// The point `p` of a surface of the normal `n`; without density and normal where the light has no area.
     #[inline(always)]
@@ -140,7 +137,7 @@ impl LightPoint {
         } else {
             exact::max(emitted, 0.0)
         };
-        if self.flags & (Self::IS_POINT | Self::IS_VOLUME) != 0 {
+        if self.flags & Self::IS_POINT != 0 {
             1.0
         } else {
             emitted
@@ -148,14 +145,13 @@ impl LightPoint {
     }
 
     /// Density over solid angle, 1/sr, with which a receiver at `from` finds the point where its light is chosen with probability `pmf`: `pmf · density ·
-    /// d² / c` (pbrt-v4, section 6.5.4), at most 2^120. Zero where the light does not emit to there, and of lights that no ray meets: points, spots,
-    /// profiles and boxes.
+    /// d² / c` (pbrt-v4, section 6.5.4), at most 2^120. Zero where the light does not emit to there, and of lights that no ray meets: points and spots.
     #[inline(always)]
     #[must_use]
     pub fn density_seen(&self, from: Vec3, pmf: f32) -> f32 {
         let seen = self.seen_from(from);
         let cosine = exact::flush(self.emitted(seen.d, seen.per_distance), exact::pow2(-40));
-        let has_area = self.flags & (Self::IS_POINT | Self::IS_VOLUME) == 0;
+        let has_area = self.flags & Self::IS_POINT == 0;
         let counts = has_area & (cosine > 0.0) & (self.density > 0.0) & (seen.squared >= 0.25);
         let density = exact::max(self.density, exact::pow2(-120));
         let value = exact::div(

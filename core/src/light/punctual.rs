@@ -56,16 +56,16 @@ pub struct SpotLight {
 /// Least difference of the two cosines that the intensity falls over: a sharp edge is one as wide.
 const LEAST_FALL: f32 = pow2(-20);
 /// Full solid angle over the greatest power of two in it, and its exponent.
-pub(super) const FOUR_PI: f32 = 4.0 * core::f32::consts::PI;
-pub(super) const TWO_PI: f32 = 2.0 * core::f32::consts::PI;
+const FOUR_PI: f32 = 4.0 * core::f32::consts::PI;
+const TWO_PI: f32 = 2.0 * core::f32::consts::PI;
 /// Constants of their own: rust-gpu does not fold an expression of literals.
 const THIRD: f32 = 1.0 / 3.0;
 /// The length of the mean direction of a diffuse emitter is 2/3; a mean normal is that over it.
-pub(super) const PER_MEAN_DIRECTION: f32 = 1.5;
+const PER_MEAN_DIRECTION: f32 = 1.5;
 
 /// What is known of a light without size.
 #[inline(always)]
-pub(super) fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
+fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
     LightMoments {
         phi,
         c: vector(p),
@@ -78,35 +78,10 @@ pub(super) fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
 
 /// `per_intensity` times the luminance of an intensity, W.
 #[inline(always)]
-pub(super) fn phi(intensity: &[f32; 3], per_intensity: f32) -> f32 {
+fn phi(intensity: &[f32; 3], per_intensity: f32) -> f32 {
     let luminance = luminance_of(intensity);
     let phi = bounded_phi(significand(luminance) * per_intensity, exponent(luminance));
     if luminance > 0.0 { phi } else { 0.0 }
-}
-
-/// What a tree takes for the flux of a light that shines in few directions, W for each W/sr along its axis, where the flux is `flux` for each. Most nodes
-/// know no narrow cone, so whether a point lies in it cannot be told; the choice with the least variance over all points is then by the
-/// root mean square of what they get. That is the geometric mean of the flux and of that of a diffuse emitter as bright along its axis,
-/// π times the intensity, where the flux is less. Nodes with beams take it from there.
-#[inline(always)]
-pub(super) fn phi_per_intensity(flux: f32) -> f32 {
-    exact::max(flux, exact::sqrt(flux * core::f32::consts::PI))
-}
-
-/// A cone of this cosine or less is all directions.
-const WHOLE: f32 = -1.0 + pow2(-16);
-
-/// Whether a direction, of length 1 up to 2^-16, lies within a cone.
-#[inline(always)]
-pub(super) fn within_cone(axis: Vec3, cosine: f32, direction: Vec3) -> bool {
-    // Straight behind a direction that is a little longer than 1 would be beyond all.
-    (0.5 * apart_squared(axis, direction) <= 1.0 - cosine) | (cosine <= WHOLE)
-}
-
-/// Twice 1 less the cosine of two directions: cosines of a narrow cone have no digits for it, nor lengths that are nearly 1.
-#[inline(always)]
-fn apart_squared(axis: Vec3, direction: Vec3) -> f32 {
-    length_squared(flush3(direction - axis, pow2(-40)))
 }
 
 /// The part of its intensity that a light at `p` with this range has at `from`.
@@ -140,7 +115,7 @@ fn checked_range(range: f32) -> Result<f32, DomainError> {
 }
 
 #[inline(always)]
-pub(super) fn at(p: &[f32; 3], intensity: [f32; 3]) -> LightPoint {
+fn at(p: &[f32; 3], intensity: [f32; 3]) -> LightPoint {
     LightPoint {
         p: *p,
         density: 1.0,
@@ -160,7 +135,6 @@ impl Light for PointLight {
     };
 
     of_mesh_at_place!();
-    const FLUX_POWER: u32 = 0;
     type Slots<const W: usize> = Each<Self, W>;
 
     fn checked(mut self) -> Result<Self, DomainError> {
@@ -177,6 +151,11 @@ impl Light for PointLight {
     #[inline(always)]
     fn has_flux(&self) -> bool {
         luminance_of(&self.intensity) > 0.0
+    }
+
+    #[inline(always)]
+    fn is_surface(&self) -> bool {
+        false
     }
 
     #[inline(always)]
@@ -233,7 +212,8 @@ impl SpotLight {
     #[inline(always)]
     #[must_use]
     fn falloff(&self, direction: Vec3) -> f32 {
-        let gap = 0.5 * apart_squared(vector(&self.axis), direction);
+        // 1 less the cosine: cosines of a narrow cone have no digits for it, nor lengths that are nearly 1.
+        let gap = 0.5 * length_squared(flush3(direction - vector(&self.axis), pow2(-40)));
         let linear = exact::clamp(exact::div((1.0 - self.cos_outer) - gap, self.fall()), 0.0, 1.0);
         // What a device flushes is cut here.
         exact::flush(linear * linear, pow2(-60))
@@ -255,10 +235,17 @@ impl SpotLight {
         [whole, first]
     }
 
-    /// What a tree takes for its flux.
+    /// What a tree takes for its flux, W. Most nodes
+    /// know no narrow cone, so whether a point lies in it cannot be told; the choice with the least variance over all points is then by the
+    /// root mean square of what they get. That is the geometric mean of the flux and of that of a diffuse emitter as bright along its axis,
+    /// π times the intensity, where the flux is less. Nodes with beams take it from there.
     #[inline(always)]
     fn phi(&self) -> f32 {
-        phi(&self.intensity, phi_per_intensity(TWO_PI * self.integrals()[0]))
+        let flux = TWO_PI * self.integrals()[0];
+        phi(
+            &self.intensity,
+            exact::max(flux, exact::sqrt(flux * core::f32::consts::PI)),
+        )
     }
 }
 
@@ -275,7 +262,6 @@ impl Light for SpotLight {
     };
 
     of_mesh_at_place!();
-    const FLUX_POWER: u32 = 0;
     type Slots<const W: usize> = Each<Self, W>;
 
     fn checked(mut self) -> Result<Self, DomainError> {
@@ -306,13 +292,28 @@ impl Light for SpotLight {
     }
 
     #[inline(always)]
+    fn is_surface(&self) -> bool {
+        false
+    }
+
+    #[inline(always)]
     fn end(&self) -> f32 {
         end(self.range)
     }
 
+    /// Anywhere from 90° on.
     #[inline(always)]
     fn beam(&self) -> Beam {
-        Beam::of_cone(vector(&self.p), vector(&self.axis), self.cos_outer)
+        if self.cos_outer > 0.0 {
+            Beam {
+                axis: vector(&self.axis),
+                cos_theta_e: self.cos_outer,
+                c: vector(&self.p),
+                radius: 0.0,
+            }
+        } else {
+            Beam::ANYWHERE
+        }
     }
 
     /// A cone of normals that is one direction, where half the sphere about it holds all that the spot sends.

@@ -24,11 +24,6 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     const DARK: Self;
     /// Which of its words is the [`mesh`](Self::mesh); all others are its own.
     const MESH_WORD: usize;
-    /// How its flux grows where an instance makes lengths s times as great: as s to this power. 2 of surfaces, whose area grows; 0 of
-    /// lights without size; 3 of volumes.
-    const FLUX_POWER: u32 = 2;
-    /// Whether one of its lights may have another [`flux_power`](Self::flux_power) than [`FLUX_POWER`](Self::FLUX_POWER).
-    const HAS_FLUX_POWERS: bool = false;
     /// The lights of a node's slots, as processors compute several of them at a time.
     #[doc(hidden)]
     type Slots<const W: usize>: LightSlots<Self, W>;
@@ -50,10 +45,10 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     fn reach(&self) -> f32;
     /// Whether it has flux.
     fn has_flux(&self) -> bool;
-    /// The [`FLUX_POWER`](Self::FLUX_POWER) of this one: 0, 2 or 3.
+    /// Whether it emits from a surface: its flux then grows with area where an instance scales, else not at all.
     #[inline(always)]
-    fn flux_power(&self) -> u32 {
-        Self::FLUX_POWER
+    fn is_surface(&self) -> bool {
+        true
     }
     /// Its light ends at this distance from its box, metres: [`Limits::ENDLESS`], unless it has a range. Read where nodes store beams alone.
     #[inline(always)]
@@ -179,12 +174,8 @@ pub(in crate::light) fn checked_axis(axis: [f32; 3]) -> Result<[f32; 3], DomainE
     if (1.0 - NORMAL_TOLERANCE..=1.0 + NORMAL_TOLERANCE).contains(&squared) {
         Ok(unit(axis))
     } else {
-        let what = "the axis of a spot or a profile, or the direction of a sun,";
-        Err(DomainError::vector(
-            what,
-            axis,
-            "length 1, and across at right angles; normalize it",
-        ))
+        let what = "the axis of a spot, or the direction of a sun,";
+        Err(DomainError::vector(what, axis, "length 1; normalize it"))
     }
 }
 

@@ -11,7 +11,7 @@ use glam::Vec3;
 
 use super::*;
 use crate::exact;
-use crate::kit::lights::{SHINE, disc, glow, rectangle, sphere, spot};
+use crate::kit::lights::{SHINE, disc, rectangle, sphere, spot};
 use crate::kit::{Random, Wide, cross, dot, minus, narrow, normalize, times, wide};
 use crate::point::ShadingPoint;
 use crate::transform::Transform;
@@ -23,21 +23,6 @@ fn luminance() -> f64 {
     0.2126 * 2.0 + 0.7152 * 3.0 + 0.0722 * 5.0
 }
 
-/// A table of one half up to 60°: axis and across as words say, flux and mean direction as of a spot with a sharp edge there.
-fn profile() -> ProfileLight {
-    ProfileLight {
-        p: [1.0, 2.0, -1.0],
-        intensity: SHINE,
-        axis: [0.0, -1.0, 0.0],
-        across: [0.6, 0.0, 0.8],
-        cos_outer: 0.5,
-        whole: 0.25,
-        mean_cosine: 0.75,
-        mesh: 0,
-        flags: 0,
-    }
-}
-
 fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
     assert!(
         (found - expected).abs() <= tolerance * expected.abs().max(1e-9),
@@ -45,28 +30,18 @@ fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
     );
 }
 
-/// Means over the middles of a grid of numbers.
-fn over_grid<const K: usize>(n: usize, mut of: impl FnMut([f32; 2]) -> [f64; K]) -> [f64; K] {
-    let mut sum = [0.0; K];
-    for i in 0..n * n {
-        let value = of([i % n, i / n].map(|k| (k as f32 + 0.5) / n as f32));
-        for k in 0..K {
-            sum[k] += value[k] / (n * n) as f64;
-        }
-    }
-    sum
-}
-
-/// The mean of the irradiance estimated at a receiver, weighted as luminance.
+/// The mean of the irradiance estimated at a receiver, weighted as luminance, over the middles of a grid of numbers.
 fn estimated<L: Light>(light: &L, receiver: &ShadingPoint) -> f64 {
-    let [mean] = over_grid(512, |uv| {
+    let (n, mut sum) = (512, 0.0);
+    for i in 0..n * n {
+        let uv = [i % n, i / n].map(|k| (k as f32 + 0.5) / n as f32);
         let [r, g, b] = light
             .point_for(receiver.position(), uv)
             .irradiance(receiver)
             .map(f64::from);
-        [0.2126 * r + 0.7152 * g + 0.0722 * b]
-    });
-    mean
+        sum += 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    }
+    sum / f64::from(n * n)
 }
 
 fn receivers() -> Vec<ShadingPoint> {
@@ -90,7 +65,7 @@ fn receivers() -> Vec<ShadingPoint> {
     out
 }
 
-/// What places with normals on the light send, by sums over small pieces: place, normal (zero in a volume), size.
+/// What places with normals on the light send, by sums over small pieces: place, normal, size.
 fn integrated(pieces: &[(Wide, Wide, f64)], is_two_sided: bool, receiver: &ShadingPoint) -> f64 {
     let (p, n) = (receiver.p.map(f64::from), receiver.n.map(f64::from));
     let in_volume = dot(n, n) == 0.0;
@@ -100,7 +75,6 @@ fn integrated(pieces: &[(Wide, Wide, f64)], is_two_sided: bool, receiver: &Shadi
         let w = times(d, 1.0 / squared.sqrt());
         let incident = if in_volume { 1.0 } else { dot(n, w).max(0.0) };
         let emitted = match -dot(*normal, w) {
-            _ if dot(*normal, *normal) == 0.0 => 1.0,
             cosine if is_two_sided => cosine.abs(),
             cosine => cosine.max(0.0),
         };
@@ -139,20 +113,6 @@ fn sphere_pieces(light: &SphereLight) -> Vec<(Wide, Wide, f64)> {
         let normal = [ring * angle.cos(), ring * angle.sin(), z];
         let at = [0, 1, 2].map(|k| p[k] + r * normal[k]);
         out.push((at, normal, 4.0 * PI * r * r / f64::from(n * n)));
-    }
-    out
-}
-
-fn box_pieces(light: &BoxLight) -> Vec<(Wide, Wide, f64)> {
-    let (p, [a, b, c]) = (light.p.map(f64::from), light.half.map(|h| h.map(f64::from)));
-    let volume = 8.0 * dot(cross(a, b), c).abs();
-    let n = 48;
-    let mut out = Vec::new();
-    for i in 0..n * n * n {
-        let [x, y, z] =
-            [i % n, i / n % n, i / n / n].map(|k| 2.0 * (f64::from(k) + 0.5) / f64::from(n) - 1.0);
-        let at = [0, 1, 2].map(|k| p[k] + a[k] * x + b[k] * y + c[k] * z);
-        out.push((at, [0.0; 3], volume / f64::from(n * n * n)));
     }
     out
 }

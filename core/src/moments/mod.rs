@@ -58,8 +58,8 @@ impl Summary for LightMoments {
     }
 
     #[inline(always)]
-    fn to_world<L: Light>(&self, instance: &Instance) -> Self {
-        instance.moments_to_world::<L>(self)
+    fn to_world(&self, instance: &Instance) -> Self {
+        instance.moments_to_world(self)
     }
 
     #[inline(always)]

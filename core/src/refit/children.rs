@@ -165,7 +165,7 @@ pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
             }
         }
         if known {
-            child.summary = local.summary.to_world::<N::Light>(instance);
+            child.summary = local.summary.to_world(instance);
             if has_limits::<N, W>() {
                 child.limits = in_world::<N, W>(local.limits, instance, &child.summary);
             }

@@ -42,7 +42,7 @@ impl Summary for LightBounds {
     }
 
     #[inline(always)]
-    fn to_world<L: Light>(&self, instance: &Instance) -> Self {
+    fn to_world(&self, instance: &Instance) -> Self {
         instance.bounds_to_world(self)
     }
 

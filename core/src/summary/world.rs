@@ -7,8 +7,8 @@ use crate::cone::normalized;
 use crate::emission::{MAX_SUM, MIN_PHI};
 use crate::exact::{self, exponent, pow2, significand};
 use crate::instance::{Instance, flushed};
-use crate::light::{Light, MIN_COORDINATE};
-use crate::vector::{abs3, dot, flush3, greatest_exponent, length_squared};
+use crate::light::MIN_COORDINATE;
+use crate::vector::{abs3, dot, flush3, greatest_exponent, length_squared, max3};
 
 /// A constant of its own: rust-gpu does not fold an expression of literals.
 const THIRD: f32 = 1.0 / 3.0;
@@ -17,12 +17,6 @@ const THIRD: f32 = 1.0 / 3.0;
 const LEAST_WORLD_EXPONENT: i32 = -84;
 
 impl Instance {
-    /// Whether [`flux`](Self::flux) of its lights, of type `L`, grows with area.
-    #[inline(always)]
-    fn is_by_area<L: Light>(&self) -> bool {
-        L::FLUX_POWER == 2 && (!L::HAS_FLUX_POWERS || self.mirrored & Self::IS_NOT_BY_AREA == 0)
-    }
-
     /// Half extents of the box around a mapped box of the half extents `half`.
     #[inline(always)]
     fn extent_to_world(&self, half: Vec3) -> Vec3 {
@@ -62,7 +56,7 @@ impl Instance {
     /// Moments in the world of what has the moments `local` in the space of the mesh: exact for the deviations, as far as they
     /// are alike in all directions across the mean normal.
     #[inline(always)]
-    pub(crate) fn moments_to_world<L: Light>(&self, local: &LightMoments) -> LightMoments {
+    pub(crate) fn moments_to_world(&self, local: &LightMoments) -> LightMoments {
         let m_squared = length_squared(local.m);
         let directed = m_squared > pow2(-16);
         let per_length = exact::rsqrt(if directed { m_squared } else { 1.0 });
@@ -78,7 +72,7 @@ impl Instance {
         } else {
             1.0
         };
-        let area = if self.is_by_area::<L>() {
+        let area = if self.mirrored & Self::IS_NOT_BY_AREA == 0 {
             exact::clamp(1.0 + m_squared * (along_axis - 1.0), pow2(-20), 2.0)
         } else {
             1.0

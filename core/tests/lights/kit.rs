@@ -3,9 +3,7 @@
 pub use crate::numbers::{Random, Wide, dot, minus, times};
 use crate::numbers::{cross, narrow, normalize};
 use lightbvh::exact::{hash, unit_f32};
-use lightbvh::light::{
-    AnyLight, BoxLight, DiscLight, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
-};
+use lightbvh::light::{AnyLight, DiscLight, PointLight, RectangleLight, SphereLight, SpotLight};
 use lightbvh::{EmissiveTriangle, Lights, ShadingPoint, Transform};
 
 impl Random {
@@ -96,15 +94,6 @@ impl Random {
         }
     }
 
-    pub fn glow(&mut self) -> BoxLight {
-        BoxLight {
-            p: self.within(1.0),
-            half: [self.within(0.3), self.within(0.3), self.within(0.3)],
-            radiance: self.shine(),
-            mesh: 0,
-        }
-    }
-
     pub fn spot(&mut self) -> SpotLight {
         let outer = self.signed() * 0.95;
         SpotLight {
@@ -118,23 +107,7 @@ impl Random {
         }
     }
 
-    pub fn profile(&mut self) -> ProfileLight {
-        let axis = self.unit_vector();
-        let outer = self.signed() * 0.95;
-        ProfileLight {
-            p: self.within(1.0),
-            intensity: self.shine(),
-            axis,
-            across: self.across(axis),
-            cos_outer: outer,
-            whole: 0.1 + 0.9 * (1.0 - outer) * self.unit(),
-            mean_cosine: outer + (1.0 - outer) * self.unit(),
-            mesh: 0,
-            flags: 2 * u32::from(self.unit() < 0.3),
-        }
-    }
-
-    /// A light of kind `kind`, 0 to 7; spots and profiles are the last two.
+    /// A light of kind `kind`, 0 to 5; spots are the last.
     pub fn light(&mut self, kind: u32) -> AnyLight {
         match kind {
             0 => self.triangle().into(),
@@ -142,9 +115,7 @@ impl Random {
             2 => self.sphere().into(),
             3 => self.rectangle().into(),
             4 => self.disc().into(),
-            5 => self.glow().into(),
-            6 => self.spot().into(),
-            _ => self.profile().into(),
+            _ => self.spot().into(),
         }
     }
 }

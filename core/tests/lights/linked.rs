@@ -39,7 +39,7 @@ impl Random {
 
     /// Emission over six orders of magnitude: what is left may be far dimmer than what is masked out. One in eight has none.
     fn leveled(&mut self) -> AnyLight {
-        let kind = self.below(8);
+        let kind = self.below(6);
         let level = 10.0_f32.powf(3.0 * self.signed());
         let level = if self.below(8) == 0 { 0.0 } else { level };
         let light = self.light(kind);

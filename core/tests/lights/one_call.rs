@@ -14,7 +14,7 @@ type Tree = Bvh<SpotMomentNode<8, AnyLight>, Defensive<Moments, 6>, 8>;
 fn scene(random: &mut Random) -> Tree {
     let mut bvh = Tree::default();
     for _ in 0..4 {
-        let own = (0..16).map(|k| random.light(k % 8)).collect();
+        let own = (0..16).map(|k| random.light(k % 6)).collect();
         let mesh = bvh.add_mesh(own).expect("in the domain");
         for _ in 0..2 {
             let place = random.similarity(5.0, 1.0);
@@ -30,7 +30,7 @@ fn density(on: &LightPoint, normal: Wide, from: [f32; 3], pmf: f32) -> f64 {
     let d = minus(wide(on.p), wide(from));
     let cosine = -dot(d, normal) / length(d);
     let cosine = if on.flags & 1 != 0 { cosine.abs() } else { cosine };
-    let has_area = on.flags & (LightPoint::IS_POINT | LightPoint::IS_VOLUME) == 0;
+    let has_area = on.flags & LightPoint::IS_POINT == 0;
     if has_area && cosine > 1.0e-6 {
         f64::from(pmf) * f64::from(on.density) * dot(d, d) / cosine
     } else {
@@ -100,7 +100,7 @@ fn a_sample_and_a_hit_agree_with_their_light() {
 #[test]
 fn what_is_no_sample_is_none() {
     let random = &mut Random(3);
-    let own: Vec<_> = (0..9).map(|k| random.light(k % 8)).collect();
+    let own: Vec<_> = (0..9).map(|k| random.light(k % 6)).collect();
     let bvh = Tree::single_level(&Lights::new(own).expect("in the domain"), &BuildParams::default());
     let point = ShadingPoint {
         p: [0.0; 3],
@@ -159,7 +159,7 @@ fn lights_by_themselves() {
     let of_mesh = bvh.add_instance(mesh, Transform::IDENTITY).expect("a mesh");
     let mut most = 0;
     for round in 0..400_u32 {
-        let kind = random.below(8);
+        let kind = random.below(6);
         let light = random.light(kind);
         match random.below(4) {
             0 if !own.is_empty() => {

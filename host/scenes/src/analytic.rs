@@ -1,10 +1,6 @@
-//! Lights by formula: points, spots and suns (`KHR_lights_punctual`), spheres, rectangles, discs and boxes.
+//! Lights by formula: points, spots and suns (`KHR_lights_punctual`), spheres, rectangles and discs.
 
-use lightbvh::light::{
-    AnyLight, BoxLight, DiscLight, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
-};
-
-use super::profile::Sent;
+use lightbvh::light::{AnyLight, DiscLight, PointLight, RectangleLight, SphereLight, SpotLight};
 
 /// A light on a node, shining along the node's -Z where it has a direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,9 +13,8 @@ pub struct AnalyticLight {
     pub kind: AnalyticKind,
     /// Linear RGB, not negative.
     pub color: [f32; 3],
-    /// Factor on the colour, not negative. Of points and spots radiant intensity, W/sr (glTF: candela), of profiles a number
-    /// alone, of suns irradiance (glTF: lux), of spheres, rectangles and discs radiance, W/(m² sr), of boxes what a metre adds
-    /// to it, W/(m³ sr).
+    /// Factor on the colour, not negative. Of points and spots radiant intensity, W/sr (glTF: candela), of suns
+    /// irradiance (glTF: lux), of spheres, rectangles and discs radiance, W/(m² sr).
     pub intensity: f32,
     /// Of points and spots: metres from which on nothing arrives, 2^-20 to 2^40; without, light arrives everywhere.
     pub range: Option<f32>,
@@ -54,46 +49,23 @@ pub enum AnalyticKind {
         /// Half its size along x and y, metres.
         half: [f32; 2],
     },
-    /// From one point, in each direction what a photometric profile says there.
-    Profile {
-        /// Index into [`SceneData::profiles`](super::SceneData::profiles).
-        profile: u32,
-        /// What a tree knows of it.
-        sent: Sent,
-    },
-    /// From all of a box, in every direction. Rays pass it and do not see it.
-    Box {
-        /// Half its size, metres.
-        half: [f32; 3],
-    },
 }
 
 impl AnalyticKind {
-    /// Half the size of a light with a size, metres.
+    /// Half the size of a light with a size, metres; empty for lights without, which scales of their nodes do not change.
     pub(super) fn half(&self) -> &[f32] {
         match self {
-            Self::Directional | Self::Point | Self::Spot { .. } | Self::Profile { .. } => &[],
+            Self::Directional | Self::Point | Self::Spot { .. } => &[],
             Self::Sphere { radius } => std::slice::from_ref(radius),
             Self::Rectangle { half } | Self::Disc { half } => half,
-            Self::Box { half } => half,
         }
-    }
-
-    /// How far the light reaches from its middle, metres; none of lights without size, which scales of their nodes do not change.
-    pub(super) fn extent(&self) -> Option<f64> {
-        let squares = self.half().iter().map(|&x| f64::from(x) * f64::from(x));
-        (!self.half().is_empty()).then(|| squares.sum::<f64>().sqrt())
     }
 }
 
 impl AnalyticLight {
     /// Colour times intensity.
     pub(super) fn emission(&self) -> [f32; 3] {
-        let intensity = match self.kind {
-            AnalyticKind::Profile { sent, .. } => self.intensity * sent.peak,
-            _ => self.intensity,
-        };
-        self.color.map(|channel| channel * intensity)
+        self.color.map(|channel| channel * self.intensity)
     }
 
     /// The light in the space of its node, where a tree has one for it: none for suns.
@@ -122,18 +94,6 @@ impl AnalyticLight {
                 mesh,
             }
             .into(),
-            AnalyticKind::Profile { sent, .. } => ProfileLight {
-                p,
-                intensity: emission,
-                axis: [0.0, 0.0, -1.0],
-                across: [1.0, 0.0, 0.0],
-                cos_outer: sent.cos_outer,
-                whole: sent.whole,
-                mean_cosine: sent.mean_cosine,
-                mesh,
-                flags: 0,
-            }
-            .into(),
             AnalyticKind::Sphere { radius } => SphereLight {
                 p,
                 radius,
@@ -155,13 +115,6 @@ impl AnalyticLight {
                 radiance: emission,
                 mesh,
                 flags: 0,
-            }
-            .into(),
-            AnalyticKind::Box { half: [x, y, z] } => BoxLight {
-                p,
-                half: [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]],
-                radiance: emission,
-                mesh,
             }
             .into(),
         })

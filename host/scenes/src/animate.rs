@@ -59,7 +59,7 @@ impl Pose {
 
     /// The place of a light by formula.
     pub fn place_of(&self, light: &AnalyticLight) -> DAffine3 {
-        if light.kind.extent().is_some() {
+        if !light.kind.half().is_empty() {
             self.world[light.node as usize]
         } else {
             self.unscaled(light.node)

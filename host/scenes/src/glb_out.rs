@@ -9,12 +9,14 @@ use serde_json::{Value, json};
 use self::material::{Textures, is_product, strength};
 use super::analytic::{AnalyticKind, AnalyticLight};
 use super::error::{SceneError, malformed};
-use super::gltf_in::{BACKGROUND_EXTRA, IES, RADIANCE_ATTRIBUTE};
+use super::gltf_in::{BACKGROUND_EXTRA, RADIANCE_ATTRIBUTE};
 use super::model::{Animation, Interpolation, Material, Primitive, Property};
 use super::paint::Picture;
-use super::profile::Profile;
 use super::scene::Scene;
 use super::transform::Transform;
+
+/// The extension for lights by formula.
+const PUNCTUAL: &str = "KHR_lights_punctual";
 
 /// glTF's numbers for component types.
 const FLOAT: u32 = 5126;
@@ -79,15 +81,12 @@ impl Writer {
         let images: Vec<Value> = data.pictures.iter().map(|own| self.picture(own)).collect();
         let mut textures = Textures::default();
         let materials: Vec<Value> = data.materials.iter().map(|own| textures.material(own)).collect();
-        let profiles: Vec<Value> = data.profiles.iter().map(|own| self.profile(own)).collect();
         let lights: Vec<Value> = data.analytic.iter().filter_map(light).collect();
         let mut used = vec!["KHR_materials_emissive_strength"];
         let mut extensions = json!({});
-        for (name, lights) in [("KHR_lights_punctual", lights), (IES, profiles)] {
-            if !lights.is_empty() {
-                extensions[name] = json!({ "lights": lights });
-                used.push(name);
-            }
+        if !lights.is_empty() {
+            extensions[PUNCTUAL] = json!({ "lights": lights });
+            used.push(PUNCTUAL);
         }
         if textures.has_transforms {
             used.push("KHR_texture_transform");
@@ -199,12 +198,6 @@ impl Writer {
         json!({ "bufferView": self.view(&bytes), "mimeType": "image/png" })
     }
 
-    /// A photometric file.
-    fn profile(&mut self, profile: &Profile) -> Value {
-        let view = self.view(&profile.file);
-        json!({ "name": profile.name, "bufferView": view, "mimeType": "application/x-ies-lm-63" })
-    }
-
     fn floats(&mut self, values: &[f32], shape: &str) -> usize {
         let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
         let each = match shape {
@@ -263,17 +256,8 @@ fn nodes(scene: &Scene) -> Vec<Value> {
         out.push(value);
     }
     let punctual = data.analytic.iter().filter(|own| light(own).is_some());
-    let punctual = punctual
-        .enumerate()
-        .map(|(index, light)| (light, json!({ "KHR_lights_punctual": { "light": index } })));
-    let measured = data.analytic.iter().filter_map(|own| match own.kind {
-        AnalyticKind::Profile { profile, .. } => {
-            let named = json!({ "light": profile, "multiplier": own.intensity, "color": own.color });
-            Some((own, json!({ IES: named })))
-        }
-        _ => None,
-    });
-    for (light, named) in punctual.chain(measured) {
+    for (index, light) in punctual.enumerate() {
+        let named = json!({ PUNCTUAL: { "light": index } });
         // A node has one light; a further one of the same node stands on a node of its own.
         let on = light.node as usize;
         if out[on].get("extensions").is_none() {

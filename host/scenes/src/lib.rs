@@ -31,7 +31,6 @@ mod frame;
 mod glb_out;
 mod glow;
 mod gltf_in;
-mod ies_in;
 mod instances;
 mod lamps;
 mod lit_by;
@@ -45,7 +44,6 @@ mod pictures;
 mod place;
 #[cfg(feature = "formats")]
 mod ply_in;
-mod profile;
 mod random;
 mod ray_bvh;
 mod scene;
@@ -72,14 +70,12 @@ pub use environment::read_environment;
 pub use error::SceneError;
 pub use files::Limits;
 pub use frame::{FRAMES_PER_SECOND, Frame, MeshRange};
-pub use ies_in::Photometry;
 pub use instances::Instances;
 pub use load::{BUILT_IN, STAGE};
 pub use model::{
     Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, SceneData,
 };
 pub use paint::{IN_PLACE, MAX_SIDE, Paint, Picture, Texture, Wrap};
-pub use profile::{Profile, Sent};
 pub use ray_bvh::{RayBvh, RayBvhError};
 pub use scene::Scene;
 pub use scene_light::SceneLight;

@@ -7,7 +7,6 @@ use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 
 use super::analytic::AnalyticLight;
 use super::paint::{Paint, Picture};
-use super::profile::Profile;
 use super::transform::Transform;
 
 /// Everything a scene is made of, unchecked, open for construction.
@@ -27,8 +26,6 @@ pub struct SceneData {
     pub cameras: Vec<Camera>,
     /// Lights by formula.
     pub analytic: Vec<AnalyticLight>,
-    /// Photometric profiles, named by lights.
-    pub profiles: Vec<Profile>,
     /// Named by textures.
     pub pictures: Vec<Picture>,
     /// Radiance of rays that leave the scene, W/(m² sr), linear RGB, where there is no environment map.

@@ -36,19 +36,8 @@ impl Scene {
         place_meshes(data, &pose, &mut out);
         lamps::place(data, &pose, &mut out);
         if !out.paint.is_empty() {
-            // Lamps are not painted, but for profiles.
+            // Lamps are not painted.
             out.corners[0].resize(out.triangles.len(), UNPAINTED);
-            if !data.profiles.is_empty() {
-                let trees = data.analytic.iter().filter(|own| own.light().is_some());
-                let first = data.materials.len() as u32;
-                out.corners[1].extend(trees.map(|own| match own.kind {
-                    AnalyticKind::Profile { profile, .. } => Corner {
-                        uv: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
-                        material: first + profile,
-                    },
-                    _ => UNPAINTED,
-                }));
-            }
         }
         out
     }

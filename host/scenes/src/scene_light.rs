@@ -27,7 +27,7 @@ pub trait SceneLight: Emitter + From<EmissiveTriangle> {
     /// Vertices of the light where it is a triangle; of another, three times the place it is at.
     fn corners(&self) -> [[f32; 3]; 3];
 
-    /// Luminous part of the flux, W; of boxes, a factor that is the same for all.
+    /// Luminous part of the flux, W.
     fn flux(&self) -> f64;
 }
 

@@ -10,7 +10,6 @@ use lightbvh_kernels::shading::trace::NONE;
 
 use super::model::SceneData;
 use super::paint::{Paint, Picture, Texture};
-use super::profile::OVER_DIRECTIONS;
 use super::shown::{header, picture_words, words_of};
 
 /// Most texels of all pictures: 2^24, so that they fit the smallest storage buffers seen (128 MiB) with room to spare. Larger
@@ -38,19 +37,16 @@ impl SkinArrays {
 
 /// The words of everything that is painted; none where nothing is.
 pub(super) fn words(data: &SceneData) -> Vec<u32> {
-    if !data.is_painted() && data.profiles.is_empty() {
+    if !data.is_painted() {
         return Vec::new();
     }
     let pictures = fitted(&data.pictures);
-    // After the materials, the profiles.
-    let count = (data.materials.len() + data.profiles.len()) as u32;
+    let count = data.materials.len() as u32;
     let mut words = header(count);
     let first = words.len();
     words.resize(first + (PaintWords::COUNT * count) as usize, 0);
-    let shown = pictures
+    let places: Vec<([u32; 2], u32)> = pictures
         .iter()
-        .chain(data.profiles.iter().map(|own| &own.picture));
-    let places: Vec<([u32; 2], u32)> = shown
         .map(|picture| {
             let at = words.len() as u32;
             words.extend(words_of(&picture.texels));
@@ -71,20 +67,12 @@ pub(super) fn words(data: &SceneData) -> Vec<u32> {
             })
         }));
     }
-    for &place in &places[pictures.len()..] {
-        paints.push(PaintWords {
-            flags: PaintWords::BY_LIGHT,
-            emission_picture: put(&OVER_DIRECTIONS, place),
-            ..NOTHING
-        });
-    }
     words[first..first + (PaintWords::COUNT * count) as usize].copy_from_slice(cast_slice(&paints));
     words
 }
 
 /// Of a material without paint.
 const NOTHING: PaintWords = PaintWords {
-    flags: 0,
     cutoff: 0.0,
     base: [1.0; 4],
     emission: [0.0; 3],
@@ -94,7 +82,6 @@ const NOTHING: PaintWords = PaintWords {
 
 fn paint_words(paint: &Paint, mut put: impl FnMut(Option<Texture>) -> u32) -> PaintWords {
     PaintWords {
-        flags: 0,
         cutoff: paint.cutoff,
         base: paint.base,
         emission: paint.radiance,

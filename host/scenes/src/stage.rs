@@ -1,5 +1,5 @@
 //! `stage`: a small theatre with every kind of light, none of which the paper has: spots that swing, softboxes, lanterns,
-//! footlights, bulbs, glowing mist, and a sign of triangles among them.
+//! footlights, bulbs, and a sign of triangles among them.
 //!
 //! The boards are y = 0, the back wall is z = −5.
 
@@ -24,16 +24,6 @@ pub(super) fn stage() -> Result<Scene, SceneError> {
     footlights(&mut b);
     bulbs(&mut b);
     sign(&mut b);
-    light(
-        &mut b,
-        "mist",
-        [0.0, 0.55, -3.6],
-        STILL,
-        AnalyticKind::Box {
-            half: [3.5, 0.35, 0.8],
-        },
-        [0.10, 0.16, 0.30],
-    );
     b.camera([0.0, 2.3, 9.6], [0.0, 2.35, -2.0], 46.0);
     b.finish()
 }

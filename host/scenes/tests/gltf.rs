@@ -204,13 +204,16 @@ fn scenes_without_a_camera_are_seen_whole() {
 #[test]
 fn optional_extensions_that_cannot_be_read_are_left_out() {
     let mut root = triangle();
-    root["nodes"][0]["extensions"] = json!({ "EXT_lights_ies": { "light": "all" } });
+    root["nodes"][0]["extensions"] = json!({ "EXT_mesh_gpu_instancing": { "attributes": "all" } });
     let said = read_json(&root).warnings().join("\n");
     assert!(
-        said.contains("nodes[0]: its extension EXT_lights_ies is ignored"),
+        said.contains("nodes[0]: its extension EXT_mesh_gpu_instancing is ignored"),
         "{said}"
     );
-    root["extensionsRequired"] = json!(["EXT_lights_ies"]);
+    root["extensionsRequired"] = json!(["EXT_mesh_gpu_instancing"]);
     let error = refused(&root);
-    assert!(error.contains("nodes[0].extensions.EXT_lights_ies"), "{error}");
+    assert!(
+        error.contains("nodes[0].extensions.EXT_mesh_gpu_instancing"),
+        "{error}"
+    );
 }

@@ -1,5 +1,4 @@
-//! What glTF files say of surfaces and lights that pictures or tables describe: where they lie, what cannot be had, clear
-//! surfaces, photometric profiles.
+//! What glTF files say of surfaces that pictures describe: where they lie, what cannot be had, clear surfaces.
 
 use std::io::Cursor;
 
@@ -322,52 +321,4 @@ fn textured_flux_is_an_integral() {
             assert!((ratio - 1.0).abs() < 0.01, "{corners:?} channel {k}: {ratio}");
         }
     }
-}
-
-/// `EXT_lights_ies`: profiles by uri, lights by node, what is wrong left out with a note; a file that is written has them all.
-#[test]
-fn files_name_profiles() {
-    let file = "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 40\n0 45 90\n0\n100 70 0\n";
-    let mut root = triangle();
-    root["extensionsRequired"] = json!(["EXT_lights_ies"]);
-    root["extensions"] = json!({ "EXT_lights_ies": { "lights": [
-        { "name": "sound", "uri": embedded(file.as_bytes()) },
-        { "name": "broken", "uri": embedded(&file.as_bytes()[..40]) },
-        { "name": "empty" },
-    ] } });
-    let own = json!({ "light": 0, "multiplier": 2.5, "color": [1.0, 0.5, 0.0] });
-    let wrong = [1, 1, 2, 3].map(|light| json!({ "light": light }));
-    let negative = json!({ "light": 0, "multiplier": -1.0 });
-    for named in [json!({ "light": 0 }), own]
-        .into_iter()
-        .chain(wrong)
-        .chain([negative])
-    {
-        let at = root["nodes"].as_array().expect("nodes").len();
-        push(
-            &mut root["nodes"],
-            json!({ "extensions": { "EXT_lights_ies": named } }),
-        );
-        push(&mut root["scenes"][0]["nodes"], json!(at));
-    }
-    let scene = read_json(&root);
-    let data = scene.data();
-    let lights = data.analytic.iter();
-    let found: Vec<_> = lights.map(|own| (own.intensity, own.color)).collect();
-    assert_eq!(found, [(1.0, [1.0; 3]), (2.5, [1.0, 0.5, 0.0])]);
-    let said = scene.warnings();
-    for part in [
-        "profile 1 (EXT_lights_ies) is left out",
-        "profile 2 (EXT_lights_ies) is left out",
-        "profile 3 (EXT_lights_ies) is left out",
-        "negative or not finite",
-    ] {
-        let lines = said.iter().filter(|own| own.contains(part)).count();
-        assert_eq!(lines, 1, "{said:?}");
-    }
-    let back = read(&scene.to_glb().expect("written")).expect("read back");
-    assert_eq!(data.profiles, back.data().profiles);
-    assert_eq!(scene.frame(3), back.frame(3));
-    // Without textures, profiles stay.
-    assert_eq!(scene.clone().unpainted().frame(0).paint, scene.frame(0).paint);
 }

@@ -34,14 +34,14 @@ pub(super) fn run(args: &Args) -> Result<Outcome, HostError> {
         news!("{}: {warning}", scene.name());
     }
     let is_lost = |kind| {
-        use AnalyticKind::{Directional, Point, Profile, Spot};
-        !matches!(kind, Directional | Point | Spot { .. } | Profile { .. })
+        use AnalyticKind::{Directional, Point, Spot};
+        !matches!(kind, Directional | Point | Spot { .. })
     };
     let lights = scene.data().analytic.iter();
     let lost = lights.filter(|light| is_lost(light.kind)).count();
     if lost > 0 {
         news!(
-            "{}: glTF has no word for spheres, rectangles, discs and boxes that shine: {lost} left out",
+            "{}: glTF has no word for spheres, rectangles and discs that shine: {lost} left out",
             scene.name()
         );
     }

@@ -51,8 +51,8 @@ pub static EQ4: KernelSet = KernelSet {
 };
 
 impl KernelSet {
-    /// The kernels of `Bvh<SpotMomentNode<8, AnyLight>, Defensive<Moments, 6>, 8>`, over lights of any kind. A light is 68
-    /// bytes where a triangle is 56; a scene of triangles alone takes [`MOMENTS`].
+    /// The kernels of `Bvh<SpotMomentNode<8, AnyLight>, Defensive<Moments, 6>, 8>`, over lights of any kind. A node is 256
+    /// bytes where one of [`MOMENTS`] is 192; a scene of triangles alone takes that.
     ///
     /// Its [`light_points`](Self::light_points) reads `queries` besides, for a point on a light of some kinds depends on the
     /// receiver.

@@ -5,9 +5,7 @@
 use std::mem::offset_of;
 use std::ops::Range;
 
-use lightbvh::light::{
-    AnyLight, BoxLight, DiscLight, Light, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
-};
+use lightbvh::light::{AnyLight, DiscLight, Light, PointLight, RectangleLight, SphereLight, SpotLight};
 use lightbvh::node::{LinkedSpotMomentNode, SpotMomentNode};
 use lightbvh::refit::BlasRoot;
 use lightbvh::{
@@ -154,11 +152,9 @@ fn lights_of_other_kinds_have_their_words() {
     }
     light!(PointLight: p, intensity, range, mesh);
     light!(SpotLight: p, intensity, axis, cos_inner, cos_outer, range, mesh);
-    light!(ProfileLight: p, intensity, axis, across, cos_outer, whole, mean_cosine, mesh, flags);
     light!(SphereLight: p, radius, radiance, mesh);
     light!(RectangleLight: p, half, radiance, mesh, flags);
     light!(DiscLight: p, half, radiance, mesh, flags);
-    light!(BoxLight: p, half, radiance, mesh);
     let row = left.next().expect("a row");
     assert_eq!(
         (code(row[0]), range(row[1]).start * 4),

@@ -101,7 +101,7 @@ pub fn reflected<L: Emitter, P: PickLight>(
                         let mut own = Connection::NONE;
                         if picked.pmf > 0.0 {
                             let light = scene.emitters.light(picked.light, picked.instance);
-                            let light = scene.glowing(light, picked.light, seen.point.position(), uv);
+                            let light = scene.glowing(light, picked.light, uv);
                             own = light.connect(seen.point, seen.wo, material, 1.0, uv);
                         }
                         let c = own.contribution;

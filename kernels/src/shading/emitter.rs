@@ -51,12 +51,6 @@ pub trait Emitter: Light {
     fn with_emission(self, _emission: [f32; 3]) -> Self {
         self
     }
-
-    /// Where on what is painted on it the point lies that `uv` chooses, for a receiver at `from`.
-    #[inline]
-    fn painted_at(&self, _from: Vec3, uv: [f32; 2]) -> [f32; 2] {
-        uv
-    }
 }
 
 impl Emitter for EmissiveTriangle {
@@ -102,7 +96,7 @@ fn shown(radiance: [f32; 3], is_seen: bool) -> Vec3 {
 }
 
 /// Triangles and rectangles are met. A sphere and a disc are seen as facets within them, which hold some of their points and not others, so
-/// no ray but the camera's counts; points, spots and boxes are not seen.
+/// no ray but the camera's counts; points and spots are not seen.
 impl Emitter for AnyLight {
     type Sky<'a> = SkyView<'a>;
     type Skin<'a> = SkinView<'a>;
@@ -149,24 +143,6 @@ impl Emitter for AnyLight {
     fn with_emission(self, emission: [f32; 3]) -> Self {
         Self::with_emission(self, emission)
     }
-
-    /// Of a profile the direction; of a triangle the parts of its edges, as `uniform_point` folds them.
-    #[inline]
-    fn painted_at(&self, from: Vec3, uv: [f32; 2]) -> [f32; 2] {
-        let fold = uv[0] + uv[1] > 1.0;
-        let mut at = if fold { [1.0 - uv[0], 1.0 - uv[1]] } else { uv };
-        if self.kind() == Self::PROFILE {
-            at = direction_of(*self, from);
-        }
-        at
-    }
-}
-
-/// Where on its picture a profile has the direction to `from`. A function of its own on devices, as [`Emitter::connect`].
-#[cfg_attr(target_arch = "spirv", inline(never))]
-#[cfg_attr(not(target_arch = "spirv"), inline)]
-fn direction_of(light: AnyLight, from: Vec3) -> [f32; 2] {
-    light.profile().coordinates(from)
 }
 
 #[inline]
@@ -181,7 +157,7 @@ fn facing(d: Vec3, at: &LightPoint) -> (f32, f32) {
     let squared = length_squared(d);
     let own = flush_vector(Vec3::new(at.normal[0], at.normal[1], at.normal[2]), STEP);
     let front = -dot(own, d);
-    let has_surface = at.flags & (LightPoint::IS_POINT | LightPoint::IS_VOLUME) == 0;
+    let has_surface = at.flags & LightPoint::IS_POINT == 0;
     let is_two_sided = at.flags & EmissiveTriangle::TWO_SIDED != 0;
     let emitting = if has_surface {
         if is_two_sided { abs(front) } else { front }

@@ -97,7 +97,7 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
                         found_light = picked.light;
                         let light = scene.emitters.light(picked.light, picked.instance);
                         let uv = [draw(random, RANDOM_LIGHT + 1), draw(random, RANDOM_LIGHT + 2)];
-                        let light = scene.glowing(light, picked.light, seen.point.position(), uv);
+                        let light = scene.glowing(light, picked.light, uv);
                         found = light.connect(seen.point, seen.wo, material, picked.pmf, uv);
                     }
                 } else {

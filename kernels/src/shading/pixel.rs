@@ -57,13 +57,15 @@ impl<'a, L: Emitter> Scene<'a, L> {
             .material(self.materials, seen.material, &seen.spot)
     }
 
-    /// `light`, which is number `number`, as it glows at the point that `uv` chooses, seen from `from`.
+    /// `light`, which is number `number`, as it glows at the point that `uv` chooses.
     #[inline]
     #[must_use]
-    pub fn glowing(&self, light: L, number: u32, from: Vec3, uv: [f32; 2]) -> L {
+    pub fn glowing(&self, light: L, number: u32, uv: [f32; 2]) -> L {
         let mut glowing = light;
         if <L::Skin<'_> as Skin>::IS_PAINTED {
-            let at = light.painted_at(from, uv);
+            // The parts of a triangle's edges, as `uniform_point` folds them.
+            let fold = uv[0] + uv[1] > 1.0;
+            let at = if fold { [1.0 - uv[0], 1.0 - uv[1]] } else { uv };
             let Surfaces { blocks, skin, .. } = self.surfaces;
             glowing = light.with_emission(skin.glow(blocks, number, at, light.emission()));
         }

@@ -76,8 +76,6 @@ pub struct SkinView<'a> {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct PaintWords {
-    /// [`BY_LIGHT`](Self::BY_LIGHT) or 0.
-    pub flags: u32,
     /// Opacity below which the surface is not there; 0 where it is there everywhere.
     pub cutoff: f32,
     /// Factor on the base colour, and on the opacity.
@@ -94,17 +92,15 @@ const _: () = assert!(size_of::<PaintWords>() == 4 * PaintWords::COUNT as usize)
 
 impl PaintWords {
     /// Words of it.
-    pub const COUNT: u32 = 11;
-    /// Flag: the factor on the picture of the emission is what the light says, not [`emission`](Self::emission): a photometric profile.
-    pub const BY_LIGHT: u32 = 1;
+    pub const COUNT: u32 = 10;
 }
 
 /// Words of a [`PaintWords`] by their places.
-const CUTOFF: u32 = 1;
-const BASE: u32 = 2;
-const EMISSION: u32 = 6;
-const BASE_PICTURE: u32 = 9;
-const EMISSION_PICTURE: u32 = 10;
+const CUTOFF: u32 = 0;
+const BASE: u32 = 1;
+const EMISSION: u32 = 5;
+const BASE_PICTURE: u32 = 8;
+const EMISSION_PICTURE: u32 = 9;
 
 /// Where the words of a material begin.
 #[inline]
@@ -219,8 +215,7 @@ impl Skin for SkinView<'_> {
             let uv = between(&corner, at);
             let shown = self.shown(material, EMISSION_PICTURE, uv);
             // Without a picture of it, emission is what the light says: it may differ from triangle to triangle.
-            let is_shown = self.word(material, 0) & PaintWords::BY_LIGHT == 0
-                && self.word(material, EMISSION_PICTURE) != NONE;
+            let is_shown = self.word(material, EMISSION_PICTURE) != NONE;
             let own = |k: u32, mean: f32| {
                 if is_shown {
                     self.number(material, EMISSION + k)

@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 
 use super::header::{FORGOTTEN, Header, SINGLE};
 use super::words::{ReadError, Words, damaged, taken};
+use crate::bvh::area::is_by_area;
 use crate::bvh::check::factor;
-use crate::bvh::powers::common_power;
 use crate::bvh::records::Mesh;
 use crate::bvh::top::{Opened, Shape, Top};
 use crate::bvh::{Bvh, EditReason, InstanceState};
@@ -196,7 +196,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         for mesh in &mut self.meshes {
             let range = mesh.triangles.start as usize..mesh.triangles.end as usize;
             mesh.reach = reach_of(&self.triangles[range.clone()]);
-            mesh.power = common_power(&self.triangles[range]);
+            mesh.is_by_area = is_by_area(&self.triangles[range]);
         }
         for (instance, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
             let checked = placed.transform.check(self.meshes[placed.mesh as usize].reach);

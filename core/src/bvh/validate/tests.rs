@@ -56,7 +56,7 @@ fn broken_trees_are_found() {
     let root = scene().top.root;
     let at = root as usize;
     finds("root", |s| s.roots[0].node += 1);
-    finds("flux power", |s| s.meshes[0].power += 1);
+    finds("flux by area", |s| s.meshes[0].is_by_area = false);
     finds("depth", |s| s.bottom_depth = 0);
     finds("level", |s| s.top.shapes[at].height += 1);
     finds("instance's leaf", |s| s.top.shapes[at].words[0] += 1.0);

@@ -1,4 +1,4 @@
-//! Points, spots and profiles: intensity by direction, flux, mean direction.
+//! Points and spots: intensity by direction, flux, mean direction.
 
 use super::*;
 
@@ -114,86 +114,6 @@ fn spots_have_the_flux_and_the_mean_direction_of_their_falloff() {
         assert_eq!(bounds.cos_theta_o, if outer >= 0.0 { 1.0 } else { -1.0 });
         let length = f64::from(length_squared(found.m)).sqrt();
         close(&what, length, (1.5 * first / whole).clamp(0.0, 1.0), 1e-3);
-    }
-}
-
-#[test]
-fn profiles_have_the_flux_of_their_table_and_are_read_by_direction() {
-    let own = profile();
-    assert_eq!(own.checked(), Ok(own));
-    let flux = 2.0 * PI * 0.25;
-    let found = own.moments();
-    close(
-        "profile",
-        f64::from(found.phi),
-        luminance() * (flux * PI).sqrt(),
-        1e-3,
-    );
-    close("profile", f64::from(length_squared(found.m)).sqrt(), 1.0, 1e-3);
-    assert_eq!(found.phi, own.bounds().phi);
-    // Along the axis the middle of the picture; a quarter turn from across towards across × axis at the horizon.
-    let p = Vec3::new(1.0, 2.0, -1.0);
-    let near = |found: [f32; 2], expected: [f32; 2]| {
-        let off = [0, 1].map(|k| exact::abs(found[k] - expected[k]));
-        assert!(off[0] < 1e-5 && off[1] < 1e-5, "{found:?}, expected {expected:?}");
-    };
-    near(own.coordinates(p + Vec3::new(0.0, -3.0, 0.0)), [0.5, 0.5]);
-    near(own.coordinates(p + Vec3::new(1.2, 0.0, 1.6)), [1.0, 0.5]);
-    let third = crate::vector::cross(Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, -1.0, 0.0));
-    near(own.coordinates(p + third * 2.0), [0.5, 1.0]);
-    near(own.coordinates(p), [0.5, 0.5]);
-    // A map that mirrors mirrors the table: where a point goes it sends what it sent there.
-    let mirror = Transform {
-        columns: [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        translation: [3.0, 0.0, 0.0],
-    };
-    for map in [
-        mirror,
-        Transform {
-            columns: [[0.0, 2.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 0.0, 2.0]],
-            translation: [5.0, -3.0, 1.0],
-        },
-    ] {
-        let instance = map.instance(1.0);
-        let there = own.in_world(&instance, 4);
-        let mut random = Random(8);
-        for _ in 0..50 {
-            let from = p + Vec3::from_array([0; 3].map(|_| 4.0 * random.signed()));
-            let seen = Vec3::from_array(instance.vertex(from.to_array()));
-            near(there.coordinates(seen), own.coordinates(from));
-            assert_eq!(
-                there.point_for(seen, [0.5; 2]).radiance,
-                own.point_for(from, [0.5; 2]).radiance
-            );
-        }
-    }
-    let inside = own.point_for(p + Vec3::new(0.0, -2.0, 1.0), [0.5; 2]);
-    assert_eq!((inside.radiance, inside.density), (SHINE, 1.0));
-    let outside = own.point_for(p + Vec3::new(0.0, -1.0, 2.0), [0.5; 2]);
-    assert_eq!(outside.radiance, [0.0; 3]);
-    assert!(!ProfileLight { whole: 0.0, ..own }.has_flux());
-}
-
-/// Straight behind its axis a profile of all directions sent nothing, where the direction was a little longer than 1.
-#[test]
-fn profiles_of_all_directions_have_no_hole_behind_them() {
-    let random = &mut Random(3);
-    for _ in 0..20_000 {
-        let axis = normalize(wide(random.vector()));
-        let profile = ProfileLight {
-            p: [0.0; 3],
-            intensity: [1.0; 3],
-            axis: axis.map(|x| x as f32),
-            cos_outer: -1.0,
-            ..ProfileLight::DARK
-        };
-        let far = 0.1 + 50.0 * f64::from(random.unit());
-        let from = narrow(times(axis, -far));
-        assert_eq!(
-            profile.point_for(from, [0.5; 2]).radiance,
-            [1.0; 3],
-            "{axis:?} {far}"
-        );
     }
 }
 

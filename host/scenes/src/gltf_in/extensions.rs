@@ -8,8 +8,7 @@ use super::super::error::{SceneError, not_compiled};
 use super::Document;
 
 /// Extensions that are read, and whether the feature `formats` is needed for it.
-const READ: [(&str, bool); 11] = [
-    ("EXT_lights_ies", false),
+const READ: [(&str, bool); 10] = [
     ("EXT_meshopt_compression", true),
     ("EXT_texture_webp", true),
     ("KHR_draco_mesh_compression", true),

@@ -15,7 +15,6 @@
 //!   as white, and where it is what glows as black;
 //! - `KHR_materials_transmission`: surfaces are left out from a factor of a half on, and so are blended ones below an opacity of
 //!   a half, unless they emit;
-//! - `EXT_lights_ies`: photometric files (ANSI/IES LM-63, types A, B and C) become lights of the tree with a profile.
 //! - `KHR_lights_punctual`: points and spots are lights of the tree, suns stand next to it.
 //!
 //! Radiance is taken as W/(m² sr) where glTF says nits; only the exposure differs. The rest is left out with a note in
@@ -53,8 +52,6 @@ use super::scene::Scene;
 /// Attribute of vertices, without the underscore: radiance of the triangle that the vertex belongs to. Written by
 /// [`super::glb_out`] for emission that differs from triangle to triangle; glTF leaves names with `_` to applications.
 pub(super) const RADIANCE_ATTRIBUTE: &str = "RADIANCE";
-
-pub(super) use light::IES;
 
 /// Key in the scene's `extras`: background radiance, three numbers.
 pub(super) const BACKGROUND_EXTRA: &str = "lightbvh_background";
@@ -100,7 +97,6 @@ impl Scene {
         data.materials = looks.into_iter().map(|look| look.material).collect();
         let order = node::read(&document, &mut data)?;
         light::punctual(&document, &order, &mut data);
-        light::measured(&document, &order, &mut data)?;
         data.animations = animation::read(&document, &order)?;
         data.pictures = document.pictures.take().into_kept();
         data.warnings = document.notes.take().into_warnings();

@@ -8,27 +8,25 @@ use serde_json::{Value, json};
 /// Lights by their kind.
 pub(super) struct LightKinds {
     /// How many of each, by [`AnyLight::kind`].
-    counts: [usize; 8],
+    counts: [usize; 6],
     /// How many have a range, or send their light into a cone of less than a right angle around their axis.
     limited: usize,
 }
 
 /// The kinds by their number.
-const NAMES: [&str; 8] = [
+const NAMES: [&str; 6] = [
     "EmissiveTriangle",
     "PointLight",
     "SpotLight",
     "SphereLight",
     "RectangleLight",
     "DiscLight",
-    "BoxLight",
-    "ProfileLight",
 ];
 
 impl LightKinds {
     /// Of lights; those of kinds that are not known are not counted.
     pub fn of(lights: &[AnyLight]) -> Self {
-        let (mut counts, mut limited) = ([0; 8], 0);
+        let (mut counts, mut limited) = ([0; 6], 0);
         for light in lights {
             if let Some(count) = counts.get_mut(light.kind() as usize) {
                 *count += 1;
@@ -41,7 +39,7 @@ impl LightKinds {
 
     /// The type of the lights: the only kind that there is, or [`AnyLight`].
     fn light_type(&self) -> &'static str {
-        let mut there = (0..8).filter(|&kind| self.counts[kind] > 0);
+        let mut there = (0..6).filter(|&kind| self.counts[kind] > 0);
         match (there.next(), there.next()) {
             (Some(kind), None) => NAMES[kind],
             _ => "AnyLight",
