@@ -16,7 +16,6 @@
 //! [`Light::point_for`] gives a [`LightPoint`] on each of them, [`LightPoint::irradiance`] what that sends. Builders, refits, samples, pmfs,
 //! instances, edits, rebuilds and files are the same for all; so are mirrors on devices:
 //! `lightbvh_gpu::KernelSet::ANY` are the kernels over [`AnyLight`], and the reference renderer shows all of them.
-//! Environment maps and suns stand beside the tree: [`infinite`].
 //!
 //! **Instances scale.** The top level knows how flux grows with an instance's scale: with area where lights are surfaces, with volume where
 //! they are boxes, not at all where they are points and spots ([`Light::FLUX_POWER`]). It takes one rule for all lights of a mesh. A mesh of
@@ -25,7 +24,6 @@
 
 mod any;
 mod flat;
-pub mod infinite;
 mod point;
 mod profile;
 mod punctual;
@@ -40,7 +38,7 @@ mod volume;
 pub use any::AnyLight;
 pub use flat::{DiscLight, RectangleLight};
 pub use point::{LightPoint, uniform_point};
-pub use profile::ProfileLight;
+pub use profile::{ProfileLight, direction_at, place_of};
 pub use punctual::{PointLight, SpotLight};
 pub use record::{Light, LightSlots, world_light};
 pub use sphere::SphereLight;

@@ -74,9 +74,7 @@ pub fn arrays_lit_by<L: SceneLight>(
         SkinArrays::default()
     };
     let camera = camera(&data.camera, width, height);
-    Ok(SceneArrays::new(rays, data.materials, lights, camera)
-        .under(data.sky)
-        .painted(skin))
+    Ok(SceneArrays::new(rays, data.materials, lights, camera).painted(skin))
 }
 
 /// The light BVH that `sampler` walks; the other samplers walk none and get the two-level one.
@@ -134,11 +132,8 @@ fn query<L: SceneLight>(
     let pick = |k: u32, n: usize| ((draw(k) * n as f32) as usize).min(n - 1);
     let kind = draw(0);
     let lights = scene.lights.triangles();
-    // A scene may be lit by its sky alone.
-    let is_empty = lights.is_empty() && surfaces.is_empty();
-    let (mut p, mut n) = if !(0.75..0.98).contains(&kind) && !is_empty {
-        let on_surface = (kind < 0.75 && !surfaces.is_empty()) || lights.is_empty();
-        let corners = match on_surface {
+    let (mut p, mut n) = if !(0.75..0.98).contains(&kind) {
+        let corners = match kind < 0.75 && !surfaces.is_empty() {
             true => surfaces[pick(1, surfaces.len())],
             false => lights[pick(1, lights.len())].corners(),
         };

@@ -3,7 +3,6 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::infinite::place_of;
 use super::punctual::{PER_MEAN_DIRECTION, TWO_PI, at, moments, phi, phi_per_intensity, within_cone};
 use super::record::{Each, Light, bounds, checked_axis, of_mesh_at_place, shining, towards};
 use super::{INVALID, LightPoint};
@@ -214,5 +213,53 @@ impl Light for ProfileLight {
         let within = within_cone(vector(&self.axis), self.cos_outer, towards(vector(&self.p), from));
         let [r, g, b] = self.intensity;
         at(&self.p, if within { [r, g, b] } else { [0.0; 3] })
+    }
+}
+
+/// `a` with the sign of `b`, + of zero.
+#[inline(always)]
+fn signed(a: f32, b: f32) -> f32 {
+    if b < 0.0 { -a } else { a }
+}
+
+/// The point of the octahedron at a place, each coordinate from −1 to 1: the sphere projected onto an octahedron and unfolded, its pole y
+/// in the middle (Engelhardt and Dachsbacher, *Octahedron environment maps*, 2008).
+#[inline(always)]
+fn on_octahedron(u: f32, v: f32) -> Vec3 {
+    let (a, b) = (exact::abs(u), exact::abs(v));
+    let y = 1.0 - (a + b);
+    if y < 0.0 {
+        Vec3::new(signed(1.0 - b, u), y, signed(1.0 - a, v))
+    } else {
+        Vec3::new(u, y, v)
+    }
+}
+
+/// The unit direction at a place, each coordinate from −1 to 1.
+#[inline]
+#[must_use]
+pub fn direction_at(place: [f32; 2]) -> [f32; 3] {
+    let p = on_octahedron(place[0], place[1]);
+    // Rounded correctly: the length is 1 as nearly as words tell.
+    let length = exact::sqrt(length_squared(p));
+    [
+        exact::div(p.x, length),
+        exact::div(p.y, length),
+        exact::div(p.z, length),
+    ]
+}
+
+/// The place of a direction, which need not be of length 1: any but zero, of magnitudes from 2^-40 to 2^40. Undoes
+/// [`direction_at`] up to rounding.
+#[inline]
+#[must_use]
+pub fn place_of(direction: [f32; 3]) -> [f32; 2] {
+    let [x, y, z] = direction;
+    let sum = (exact::abs(x) + exact::abs(z)) + exact::abs(y);
+    let (u, v) = (exact::div(x, sum), exact::div(z, sum));
+    if y < 0.0 {
+        [signed(1.0 - exact::abs(v), u), signed(1.0 - exact::abs(u), v)]
+    } else {
+        [u, v]
     }
 }

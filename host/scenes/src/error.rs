@@ -37,7 +37,7 @@ pub enum SceneError {
     /// The scene has nothing that emits light.
     #[error(
         "scene `{0}` has no emissive triangle, and no light of another kind; give a material an emissiveFactor above zero (glTF) or a Ke \
-         (OBJ), give `lightbvh render` an --environment, or use one of the built-in scenes"
+         (OBJ), or use one of the built-in scenes"
     )]
     NoEmissive(String),
     /// The scene has lights, which follow in words, and none of which the command knows.

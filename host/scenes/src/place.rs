@@ -1,6 +1,5 @@
 //! The scene at a time, in the same order every frame.
 
-use lightbvh::light::infinite::DistantLight;
 use lightbvh::light::{EmissiveTriangle, TWO_SIDED};
 use lightbvh_kernels::shading::skin::Corner;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
@@ -15,8 +14,6 @@ use super::framing;
 use super::lamps;
 use super::model::{Material, SceneData, emits};
 use super::scene::Scene;
-use super::sky::Sky;
-use super::transform::unit_or;
 
 impl Scene {
     /// The scene at `frame` / [`FRAMES_PER_SECOND`] seconds.
@@ -28,7 +25,6 @@ impl Scene {
             emissive: Vec::with_capacity(self.counts.emissive),
             mesh_lights: Vec::with_capacity(self.counts.mesh_lights),
             others: Vec::with_capacity(self.counts.analytic),
-            sky: Sky::new(data.environment.clone(), suns(data, &pose)),
             corners: [const { Vec::new() }; 2],
             paint: self.paint_words(),
             materials: data.materials.iter().map(Material::surface).collect(),
@@ -42,9 +38,8 @@ impl Scene {
             // Lamps are not painted, but for profiles.
             out.corners[0].resize(out.triangles.len(), UNPAINTED);
             if !data.profiles.is_empty() {
-                let trees = data.analytic.iter().filter(|own| own.light().is_some());
                 let first = data.materials.len() as u32;
-                out.corners[1].extend(trees.map(|own| match own.kind {
+                out.corners[1].extend(data.analytic.iter().map(|own| match own.kind {
                     AnalyticKind::Profile { profile, .. } => Corner {
                         uv: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
                         material: first + profile,
@@ -64,19 +59,6 @@ impl Scene {
         };
         out
     }
-}
-
-/// The suns of a scene, which shine along their nodes' -Z.
-fn suns(data: &SceneData, pose: &Pose) -> Vec<DistantLight> {
-    let suns = data
-        .analytic
-        .iter()
-        .filter(|light| light.kind == AnalyticKind::Directional);
-    suns.map(|sun| DistantLight {
-        direction: unit_or(pose.place_of(sun).matrix3.z_axis.into(), [0.0, 1.0, 0.0]).map(|x| x as f32),
-        irradiance: sun.emission(),
-    })
-    .collect()
 }
 
 /// Appends the triangles of every node, in the order node, primitive, triangle.

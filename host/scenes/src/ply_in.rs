@@ -1,7 +1,7 @@
 //! PLY in: triangles and polygons, in text or binary of either byte order.
 //!
 //! Only positions and faces are read, other properties and elements are skipped. The format has no material: the scene is a grey
-//! surface that an environment map or suns can light. This is no use of the crate `ply-rs-bw`, which reserves memory for the
+//! surface without light. This is no use of the crate `ply-rs-bw`, which reserves memory for the
 //! length that each list announces: a text of 120 bytes makes it panic.
 
 use super::error::{SceneError, malformed};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lightbvh::light::infinite::{direction_at, place_of};
+use lightbvh::light::{direction_at, place_of};
 
 use super::ies_in::Photometry;
 use super::paint::{IN_PLACE, Picture, Texture, Wrap};

@@ -48,11 +48,7 @@ impl HeldScene {
             self.array(device, "thresholds", thresholds)?,
         ]);
         if L::IS_ANY {
-            let sky = scene.sky.view();
             bindings.extend([
-                self.array(device, "suns", sky.suns)?,
-                self.array(device, "sky_counts", sky.counts)?,
-                self.array(device, "sky_radiance", sky.radiance)?,
                 self.array(device, "corners", &scene.skin.corners)?,
                 self.array(device, "paint", &scene.skin.words)?,
             ]);

@@ -38,10 +38,7 @@ pub(super) fn run(args: &Args) -> Result<Outcome, HostError> {
     let known = |kind| {
         matches!(
             kind,
-            AnalyticKind::Directional
-                | AnalyticKind::Point
-                | AnalyticKind::Spot { .. }
-                | AnalyticKind::Profile { .. }
+            AnalyticKind::Point | AnalyticKind::Spot { .. } | AnalyticKind::Profile { .. }
         )
     };
     let lost = scene
@@ -53,12 +50,6 @@ pub(super) fn run(args: &Args) -> Result<Outcome, HostError> {
     if lost > 0 {
         news!(
             "{}: glTF has no word for spheres, rectangles, discs and boxes that shine: {lost} left out",
-            scene.name()
-        );
-    }
-    if scene.data().environment.is_some() {
-        news!(
-            "{}: glTF has no word for environment maps: the sky is left out",
             scene.name()
         );
     }

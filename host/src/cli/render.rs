@@ -4,8 +4,6 @@ mod options;
 mod sequence;
 mod view;
 
-use std::sync::Arc;
-
 use lightbvh::EmissiveTriangle;
 use lightbvh::light::AnyLight;
 use serde_json::json;
@@ -18,7 +16,6 @@ use super::{Context, Outcome, devices, frames, table, target};
 use crate::cli::table::news;
 use crate::error::HostError;
 use crate::method::MethodLight;
-use crate::scene::{Scene, read_environment};
 use crate::vulkan::VulkanError;
 
 pub(super) use self::options::Args;
@@ -42,17 +39,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     if let (Some(from), Some(at)) = (args.look_from, args.look_at) {
         check_places(from, at)?;
         scene = scene.seen_from(from, at, (args.fov as f32).to_radians())?;
-    }
-    if let Some(path) = &args.environment {
-        let mut data = scene.into_data();
-        let map = read_environment(
-            path,
-            args.environment_scale,
-            &args.reading.limits(),
-            &mut data.warnings,
-        )?;
-        data.environment = Some(Arc::new(map));
-        scene = Scene::new(data)?;
     }
     for warning in scene.warnings() {
         news!("{}: {warning}", scene.name());

@@ -63,11 +63,9 @@ pub struct Connection {
     /// the point: an estimate of the direct light of all lights, W/(m² sr). Zero where the light faces away, or is
     /// behind the surface.
     pub contribution: Vec3,
-    /// Direction of the shadow ray: to just before the light, metres; for light from without end, of unit length.
+    /// Direction of the shadow ray: to just before the light, metres.
     pub direction: Vec3,
-    /// Length of the shadow ray in multiples of its direction.
-    pub reach: f32,
-    /// Density over solid angle of finding the direction this way, 1/sr; 0 of a sun.
+    /// Density over solid angle of finding the direction this way, 1/sr.
     pub density: f32,
     /// Density over solid angle of finding it by [`Material::sample`], 1/sr; 0 of what no such direction finds.
     pub scattering_density: f32,
@@ -78,7 +76,6 @@ impl Connection {
     pub const NONE: Self = Self {
         contribution: Vec3::ZERO,
         direction: Vec3::ZERO,
-        reach: 0.0,
         density: 0.0,
         scattering_density: 0.0,
     };
@@ -176,7 +173,6 @@ pub fn connect(
     Connection {
         contribution,
         direction: (y + shift) - point.position(),
-        reach: 1.0,
         density: density(squared, emitting, pmf),
         scattering_density,
     }

@@ -13,13 +13,9 @@ use super::area::{
 use super::grid::{STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, div, flush_vector, sqrt};
 use super::material::Material;
 use super::skin::{NoSkin, Skin, SkinView};
-use super::sky::{NoSky, Sky, SkyView};
 
 /// A light that points are lit by, and that rays may meet.
 pub trait Emitter: Light {
-    /// What scenes lit by such lights have beyond all surfaces.
-    type Sky<'a>: Sky;
-
     /// What is painted on the surfaces of such scenes.
     type Skin<'a>: Skin;
 
@@ -60,7 +56,6 @@ pub trait Emitter: Light {
 }
 
 impl Emitter for EmissiveTriangle {
-    type Sky<'a> = NoSky;
     type Skin<'a> = NoSkin;
 
     #[cfg_attr(target_arch = "spirv", inline(never))]
@@ -104,7 +99,6 @@ fn shown(radiance: [f32; 3], is_seen: bool) -> Vec3 {
 /// Triangles and rectangles are met. A sphere and a disc are seen as facets within them, which hold some of their points and not others, so
 /// no ray but the camera's counts; points, spots and boxes are not seen.
 impl Emitter for AnyLight {
-    type Sky<'a> = SkyView<'a>;
     type Skin<'a> = SkinView<'a>;
 
     #[cfg_attr(target_arch = "spirv", inline(never))]
@@ -239,7 +233,6 @@ pub fn connect_point(
     Connection {
         contribution,
         direction: (y + own * towards) - point.position(),
-        reach: 1.0,
         density: density(squared, facing, at.density, pmf),
         scattering_density,
     }

@@ -198,12 +198,10 @@ fn without_triangles(
     let lights = lights_of::<AnyLight>(scene, frame)?;
     let count = lights.triangles().len();
     let kinds = LightKinds::of(lights.triangles());
-    let tree = (count > 0).then(|| kinds.tree());
+    let tree = kinds.tree();
     if context.json {
         report["lights"] = count.into();
         report["kinds"] = kinds.json();
-        report["suns"] = scene.sun_count().into();
-        report["environment"] = scene.data().environment.is_some().into();
         report["tree"] = tree.into();
         table::print_json(&report)?;
         return Ok(Outcome::Good);
@@ -213,15 +211,10 @@ fn without_triangles(
         scene.name(),
         scene.other_lights()
     );
-    text += &match count {
-        0 => line("lights of a tree", "none; the sky and suns stand next to trees"),
-        _ => line("lights of a tree", &kinds.cones()),
-    };
+    text += &line("lights of a tree", &kinds.cones());
     text += &line("changes", &yes(!changes(&declared).is_empty()));
     text += about;
-    if let Some(tree) = tree {
-        text += &format!("\na tree over its lights: {tree}, two levels\n");
-    }
+    text += &format!("\na tree over its lights: {tree}, two levels\n");
     table::print_text(&text)?;
     Ok(Outcome::Good)
 }
@@ -289,7 +282,7 @@ impl Motion {
             found.bending += usize::from(bends || morphs[index]);
             found.moving += usize::from(skin.is_none() && moves[index]);
         }
-        let others = data.analytic.iter().filter(|light| light.light().is_some());
+        let others = data.analytic.iter();
         let moving = others.filter(|light| moves[light.node as usize]).count();
         found.moving += if with_others { moving } else { 0 };
         found

@@ -49,12 +49,6 @@ pub struct Args {
     /// Vertical field of view with --look-from, degrees, 1 to 170.
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=170), requires = "look_from")]
     pub(super) fov: u32,
-    /// An environment map that lights the scene: a .hdr or .exr picture by longitude and latitude.
-    #[arg(long, value_name = "FILE.hdr|FILE.exr")]
-    pub(super) environment: Option<PathBuf>,
-    /// Factor on the environment map's radiance.
-    #[arg(long, default_value_t = 1.0, value_parser = positive::<f32>, requires = "environment")]
-    pub(super) environment_scale: f32,
     /// Show the mean of each texture, and no cut-outs.
     #[arg(long)]
     pub(super) no_textures: bool,
