@@ -5,7 +5,8 @@ use lightbvh::light::uniform_point;
 use lightbvh::{EmissiveTriangle, ShadingPoint};
 use lightbvh_host::render::{View, camera, render};
 use lightbvh_kernels::render::RenderParams;
-use lightbvh_kernels::shading::area::{connect, offset_distance};
+use lightbvh_kernels::shading::area::offset_distance;
+use lightbvh_kernels::shading::emitter::Emitter;
 use lightbvh_kernels::shading::pick::Uniform;
 use lightbvh_kernels::shading::pixel::see;
 use lightbvh_kernels::shading::ray::Ray;
@@ -49,7 +50,7 @@ fn no_light_comes_from_behind_below_or_nowhere() {
         (floor(0.0, 0.0), lamp(true, 0), 0.0, [0.3, 0.3]),
         (on_it, lamp(true, 1), 1.0, [0.0, 0.0]),
     ] {
-        let connection = connect(&point, Vec3::Y, &matte(1.0), &light, pmf, uv);
+        let connection = light.connect(point, Vec3::Y, matte(1.0), pmf, uv);
         assert_eq!(connection.contribution.to_array().map(f32::to_bits), [0; 3]);
         assert!(connection.direction.is_finite());
     }
