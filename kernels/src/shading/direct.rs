@@ -6,7 +6,7 @@
 use glam::Vec3;
 use lightbvh::device::vector::length_squared;
 use lightbvh::exact::{flush, hash, min, pow2};
-use lightbvh::reservoir::{LightSample, Resampling, target};
+use lightbvh::reservoir::{Resampling, target};
 
 use super::area::{Connection, luminance};
 use super::emitter::Emitter;
@@ -15,6 +15,7 @@ use super::numbers::{Numbers, Part};
 use super::pick::PickLight;
 use super::picks::Picks;
 use super::pixel::{Scene, Seen, arriving};
+use super::trace::NONE;
 
 /// Most candidates of a sample.
 pub const MAX_CANDIDATES: u32 = 1 << 8;
@@ -87,6 +88,7 @@ pub fn reflected<L: Emitter, P: PickLight>(
             let random = hash(seed.wrapping_add(Numbers::USED).wrapping_add(number));
             let mut stream = Resampling::EMPTY;
             let mut found = Connection::NONE;
+            let mut found_light = NONE;
             for candidate in 0..count {
                 let k = sample.wrapping_mul(count).wrapping_add(candidate);
                 let picked = picks.next(picker, &seen.point, k);
@@ -99,20 +101,15 @@ pub fn reflected<L: Emitter, P: PickLight>(
                 }
                 let c = own.contribution;
                 let target = target(luminance([c.x, c.y, c.z]));
-                let sampled = LightSample {
-                    light: picked.light,
-                    instance: picked.instance,
-                    uv,
-                };
                 let random = hash(random.wrapping_add(candidate));
-                if stream.candidate(sampled, target, picked.pmf, random) {
+                if stream.candidate(target, picked.pmf, random) {
                     found = own;
+                    found_light = picked.light;
                 }
             }
-            let chosen = stream.finish();
-            found.contribution = weighted(found.contribution, chosen.weight);
+            found.contribution = weighted(found.contribution, stream.weight());
             if found.is_lit() {
-                sum += arriving(scene, &seen.point, &found, chosen.sample.light);
+                sum += arriving(scene, &seen.point, &found, found_light);
             }
         }
     }
