@@ -63,7 +63,7 @@ pub(super) fn decode_surface(
 ) -> Result<RgbaImage, SceneError> {
     match decode(load, name, bytes, path)? {
         DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
-            Err(undecoded(name, "it holds light, as environment maps do"))
+            Err(undecoded(name, "it holds light, not colours"))
         }
         picture => Ok(picture.into_rgba8()),
     }

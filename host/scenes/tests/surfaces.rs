@@ -163,13 +163,6 @@ fn the_mean_of_a_base_colour_is_linear() {
         json!({ "baseColorTexture": { "index": 0 }, "baseColorFactor": [1.0, 0.5, 0.25, 1.0] });
     let scene = read_json(&root);
     assert_eq!(scene.data().materials[0].base_color, [0.5, 0.25, 0.125]);
-    root["materials"][0]["pbrMetallicRoughness"] = json!({});
-    root["materials"][0]["extensions"] = json!({ "KHR_materials_pbrSpecularGlossiness": {
-        "diffuseFactor": [0.25, 0.5, 1.0, 1.0], "diffuseTexture": { "index": 0 }, "glossinessFactor": 0.75,
-    } });
-    let material = read_json(&root).data().materials[0].clone();
-    assert_eq!(material.base_color, [0.125, 0.25, 0.5]);
-    assert_eq!((material.roughness, material.metallic), (0.25, 0.0));
 }
 
 /// [`triangle`], and a second one of another material above it.

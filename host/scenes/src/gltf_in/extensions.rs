@@ -8,7 +8,7 @@ use super::super::error::{SceneError, not_compiled};
 use super::Document;
 
 /// Extensions that are read, and whether the feature `formats` is needed for it.
-const READ: [(&str, bool); 13] = [
+const READ: [(&str, bool); 12] = [
     ("EXT_lights_ies", false),
     ("EXT_mesh_gpu_instancing", false),
     ("EXT_meshopt_compression", true),
@@ -16,7 +16,6 @@ const READ: [(&str, bool); 13] = [
     ("KHR_draco_mesh_compression", true),
     ("KHR_lights_punctual", false),
     ("KHR_materials_emissive_strength", false),
-    ("KHR_materials_pbrSpecularGlossiness", false),
     ("KHR_materials_transmission", false),
     ("KHR_mesh_quantization", false),
     ("KHR_meshopt_compression", true),

@@ -48,11 +48,8 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
         roughness: pbr.roughness_factor.0,
         ..Material::default()
     };
-    let (mut factor, mut texture) = (pbr.base_color_factor.0, pbr.base_color_texture.as_ref());
-    if let Some(glossiness) = &extensions.pbr_specular_glossiness {
-        (factor, texture) = (glossiness.diffuse_factor.0, glossiness.diffuse_texture.as_ref());
-        (out.metallic, out.roughness) = (0.0, 1.0 - glossiness.glossiness_factor.0);
-    } else if pbr.metallic_roughness_texture.is_some() {
+    let (mut factor, texture) = (pbr.base_color_factor.0, pbr.base_color_texture.as_ref());
+    if pbr.metallic_roughness_texture.is_some() {
         // A textured metallic factor of 1 (the default) says nothing about the surface; most of such surfaces are not metal.
         out.metallic = 0.0;
     }

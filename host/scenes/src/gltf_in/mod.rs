@@ -9,9 +9,8 @@
 //!   (`EXT_meshopt_compression`, `KHR_meshopt_compression`) and Draco streams (`KHR_draco_mesh_compression`);
 //! - instances (`EXT_mesh_gpu_instancing` too), animation of nodes and of weights in all interpolations, skins and morph
 //!   targets, perspective cameras;
-//! - metallic-roughness factors and base colour textures, or specular-glossiness factors
-//!   (`KHR_materials_pbrSpecularGlossiness`); emission by factor, texture (averaged per triangle where lights are chosen) and
-//!   `KHR_materials_emissive_strength`; `doubleSided`; alpha that cuts out, blended alpha as if cut at a half;
+//! - metallic-roughness factors and base colour textures; emission by factor, texture (averaged per triangle where lights
+//!   are chosen) and `KHR_materials_emissive_strength`; `doubleSided`; alpha that cuts out, blended alpha as if cut at a half;
 //! - pictures in PNG, JPEG, WebP (`EXT_texture_webp`) and KTX 2 by Basis Universal (`KHR_texture_basisu`), placed by
 //!   `KHR_texture_transform`. One that cannot be had is noted and counts
 //!   as white, and where it is what glows as black;
