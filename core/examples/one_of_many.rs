@@ -8,7 +8,7 @@
 
 use lightbvh::exact::hash;
 use lightbvh::importance::Glossy;
-use lightbvh::reservoir::{LightSample, Resampling, target};
+use lightbvh::reservoir::{Resampling, target};
 use lightbvh::{
     Defensive, EmissiveTriangle, GlossyPoint, LightBvh, Moments, SampledLight, ShadingPoint, Transform,
 };
@@ -68,19 +68,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// Eight candidates by one number, and one of them in proportion to what it sends over its probability: its shadow ray carries all.
 fn one_of_eight(bvh: &LightBvh, all: &[EmissiveTriangle], receiver: &GlossyPoint, number: u32) -> f64 {
     let mut stream = Resampling::EMPTY;
+    let mut chosen = 0.0;
     for (k, sampled) in (0..).zip(bvh.sample_many::<_, 8>(&receiver.point, number)) {
-        let sample = LightSample {
-            light: sampled.light,
-            instance: sampled.instance,
-            uv: [0.5; 2],
-        };
-        let sent = contribution(&all[sampled.light as usize], receiver) as f32;
+        let sent = contribution(&all[sampled.light as usize], receiver);
         let random = hash(hash(number).wrapping_add(k));
-        stream.candidate(sample, target(sent), sampled.pmf, random);
+        if stream.candidate(target(sent as f32), sampled.pmf, random) {
+            chosen = sent;
+        }
     }
-    let chosen = stream.finish();
-    // Trace the one shadow ray here, to this point of this light.
-    contribution(&all[chosen.sample.light as usize], receiver) * f64::from(chosen.weight)
+    // A renderer keeps the light and its point too, and traces the one shadow ray here.
+    chosen * f64::from(stream.weight())
 }
 
 /// What the middle of a light sends to the viewer, without shadow, over its density.

@@ -14,7 +14,6 @@
 //! [`Light::point_for`] gives a [`LightPoint`] on each of them, [`LightPoint::irradiance`] what that sends. Builders, refits, samples, pmfs,
 //! instances, edits, rebuilds and files are the same for all; so are mirrors on devices:
 //! `lightbvh_gpu::KernelSet::ANY` are the kernels over [`AnyLight`], and the reference renderer shows all of them.
-//! Environment maps and suns stand beside the tree: [`infinite`].
 //!
 //! **Instances scale.** The top level knows how flux grows with an instance's scale: with area where lights are surfaces, not at all where they are
 //! points and spots ([`Light::is_surface`]). It takes one rule for all lights of a mesh. A mesh of [`AnyLight`]s that differ in it goes by
@@ -22,7 +21,6 @@
 
 mod any;
 mod flat;
-pub mod infinite;
 mod point;
 mod punctual;
 mod record;

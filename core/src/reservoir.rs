@@ -5,14 +5,11 @@
 //! A sample is a light and two random numbers that choose the point on it, so all densities here are over the lights
 //! times the unit square. That square moves with its light.
 //!
-//! Targets, pmfs, sums and contribution weights are brought into ranges. A target may be any
-//! function that is positive where the integrand is (ReSTIR section 2.3), so limiting it costs variance only. The other limits are
-//! met where an estimate is beyond 2^±60 of all others.
-
-use bytemuck::{Pod, Zeroable};
+//! Targets, pmfs, sums and contribution weights are brought into ranges. A target may be any function that is positive where the
+//! integrand is (ReSTIR section 2.3), so limiting it costs variance only. The other limits are met where an estimate is beyond
+//! 2^±60 of all others.
 
 use crate::exact::{clamp, div, flush, max, min, pow2, unit_f32};
-use crate::tree::INVALID;
 
 /// Targets that are not zero count as at least this.
 const MIN_TARGET: f32 = pow2(-40);
@@ -27,37 +24,6 @@ const MIN_WEIGHT: f32 = pow2(-60);
 /// Contribution weights count as at most this.
 const MAX_WEIGHT: f32 = pow2(60);
 
-/// A point on a light; 16 bytes.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct LightSample {
-    /// Number of the light, or [`SampledLight::INVALID`](crate::SampledLight::INVALID).
-    pub light: u32,
-    /// Its instance, as a [`SampledLight`](crate::SampledLight) names it.
-    pub instance: u32,
-    /// The two numbers in [0, 1) that the point on it was chosen by.
-    pub uv: [f32; 2],
-}
-
-impl LightSample {
-    /// No sample.
-    pub const NONE: Self = Self {
-        light: INVALID,
-        instance: INVALID,
-        uv: [0.0; 2],
-    };
-}
-
-/// One of the candidates, and what it stands for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reservoir {
-    /// y, the chosen sample; [`LightSample::NONE`] if every candidate had target zero.
-    pub sample: LightSample,
-    /// W, the contribution weight: the integrand at y times W estimates the integral (an unbiased estimate of 1 / p(y)).
-    /// Zero or from 2^-60 to 2^60.
-    pub weight: f32,
-}
-
 /// The domain of targets: zero, or from 2^-40 to 2^40. `luminance` is that of the unshadowed
 /// contribution, zero or a normal number: over the lights times the unit square, so what a point of a light's area contributes is divided
 /// by [`LightPoint::density`](crate::light::LightPoint::density).
@@ -71,11 +37,9 @@ pub fn target(luminance: f32) -> f32 {
     }
 }
 
-/// A stream of candidates that is being resampled for one receiver (Algorithm 2).
+/// A stream of candidates that is being resampled for one receiver (Algorithm 2). The caller keeps y, the sample chosen so far.
 #[derive(Clone, Copy, Debug)]
 pub struct Resampling {
-    /// y, the sample chosen so far.
-    pub sample: LightSample,
     /// The receiver's target at y.
     pub target: f32,
     /// The sum of all weights.
@@ -87,20 +51,20 @@ pub struct Resampling {
 impl Resampling {
     /// Before the first sample.
     pub const EMPTY: Self = Self {
-        sample: LightSample::NONE,
         target: 0.0,
         weight_sum: 0.0,
         count: 0,
     };
 
     /// Takes a candidate that was drawn with probability `pmf`, which is 0 where none was drawn (Algorithm 3): weight
-    /// p̂ / p. `target` is p̂ as [`target`] gives it. It replaces y with probability weight over the sum so far, and true is returned
-    /// where it does; `random` is 32 random bits.
+    /// p̂ / p. `target` is p̂ as [`target`] gives it. It is to replace y where true is returned: with probability weight over the sum so
+    /// far; `random` is 32 random bits.
     ///
     /// The random number is an odd multiple of 2^-24 in (0, 1): never zero, so a sample of weight zero is never taken,
     /// and centred, so that each probability is right to 2^-24 on either side.
     #[inline]
-    pub fn candidate(&mut self, sample: LightSample, target: f32, pmf: f32, random: u32) -> bool {
+    #[must_use]
+    pub fn candidate(&mut self, target: f32, pmf: f32, random: u32) -> bool {
         let drawn = pmf > 0.0;
         let weight = if drawn {
             div(target, max(pmf, MIN_PMF))
@@ -110,16 +74,16 @@ impl Resampling {
         self.weight_sum = min(self.weight_sum + weight, MAX_WEIGHT_SUM);
         let u = unit_f32(random | 0x100);
         let take = u * self.weight_sum < weight;
-        self.sample = if take { sample } else { self.sample };
         self.target = if take { target } else { self.target };
         self.count = self.count.wrapping_add(1);
         take
     }
 
-    /// W = sum / (p̂ M), zero where any of them is.
+    /// W = sum / (p̂ M), the contribution weight: the integrand at y times W estimates the integral (an unbiased estimate of
+    /// 1 / p(y)). From 2^-60 to 2^60; zero where sum, p̂ or M is.
     #[inline]
     #[must_use]
-    pub fn finish(&self) -> Reservoir {
+    pub fn weight(&self) -> f32 {
         let found = self.target > 0.0 && self.weight_sum > 0.0 && self.count > 0;
         let mut weight = 0.0;
         if found {
@@ -128,24 +92,13 @@ impl Resampling {
             let share = div(1.0, self.count as i32 as f32);
             weight = flush(min(sum * share, MAX_WEIGHT), MIN_WEIGHT);
         }
-        Reservoir {
-            sample: self.sample,
-            weight,
-        }
+        weight
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn sample(light: u32) -> LightSample {
-        LightSample {
-            light,
-            instance: light / 2,
-            uv: [0.25, 0.75],
-        }
-    }
 
     /// Every one of the 2^23 numbers that decide: a weight is taken by its share of them, to one.
     #[test]
@@ -159,14 +112,12 @@ mod tests {
         ] {
             let start = Resampling {
                 weight_sum: before,
-                sample: sample(1),
                 ..Resampling::EMPTY
             };
             let mut taken = 0_u32;
             for number in 0..1_u32 << 23 {
                 let mut stream = start;
-                stream.candidate(sample(2), weight, 1.0, number << 9);
-                taken += u32::from(stream.sample.light == 2);
+                taken += u32::from(stream.candidate(weight, 1.0, number << 9));
             }
             let share = f64::from(weight) / (f64::from(before) + f64::from(weight));
             let expected = share * f64::from(1 << 23);
@@ -194,16 +145,12 @@ mod tests {
                 let mut stream = Resampling::EMPTY;
                 let mut taken = 0;
                 for (light, random) in lights.into_iter().zip([0, random]) {
-                    if stream.candidate(sample(light), targets[light as usize], 0.25, random) {
+                    if stream.candidate(targets[light as usize], 0.25, random) {
                         taken = light;
                     }
                 }
                 assert_eq!(stream.count, 2);
-                let found = stream.finish();
-                if found.weight > 0.0 {
-                    assert_eq!(found.sample.light, taken);
-                    mean += f[found.sample.light as usize] * f64::from(found.weight);
-                }
+                mean += f[taken as usize] * f64::from(stream.weight());
                 combinations += 1.0;
             }
         }
@@ -220,12 +167,13 @@ mod tests {
             for (t0, t1) in targets.iter().flat_map(|&a| targets.map(|b| (a, b))) {
                 for random in [0, u32::MAX] {
                     let mut stream = Resampling::EMPTY;
-                    stream.candidate(sample(1), t0, pmf, random);
-                    stream.candidate(sample(2), t1, pmf, random);
+                    for target in [t0, t1] {
+                        let _ = stream.candidate(target, pmf, random);
+                    }
                     let sum = stream.weight_sum;
                     assert!((sum == 0.0 || sum.is_normal()) && sum <= MAX_WEIGHT_SUM);
                     for count in [0, 1, 2, 1 << 24] {
-                        let weight = Resampling { count, ..stream }.finish().weight;
+                        let weight = Resampling { count, ..stream }.weight();
                         assert!(weight == 0.0 || (MIN_WEIGHT..=MAX_WEIGHT).contains(&weight));
                     }
                 }

@@ -76,9 +76,7 @@ pub fn arrays_lit_by<L: SceneLight>(
         SkinArrays::default()
     };
     let camera = camera(&data.camera, width, height);
-    Ok(SceneArrays::new(rays, data.materials, lights, camera)
-        .under(data.sky)
-        .painted(skin))
+    Ok(SceneArrays::new(rays, data.materials, lights, camera).painted(skin))
 }
 
 /// The light BVH that `sampler` walks; the other samplers walk none and get the two-level one.
@@ -135,11 +133,8 @@ fn query<L: SceneLight>(
     let random = &mut Random::new(random);
     let kind = random.unit();
     let lights = scene.lights.triangles();
-    // A scene may be lit by its sky alone.
-    let is_empty = lights.is_empty() && surfaces.is_empty();
-    let (mut p, mut n) = if !(0.75..0.98).contains(&kind) && !is_empty {
-        let on_surface = (kind < 0.75 && !surfaces.is_empty()) || lights.is_empty();
-        let corners = match on_surface {
+    let (mut p, mut n) = if !(0.75..0.98).contains(&kind) {
+        let corners = match kind < 0.75 && !surfaces.is_empty() {
             true => surfaces[random.below(surfaces.len() as u32) as usize],
             false => lights[random.below(lights.len() as u32) as usize].corners(),
         };

@@ -5,7 +5,6 @@ use bytemuck::{Pod, Zeroable};
 use glam::{UVec3, Vec3};
 use lightbvh::exact::hash;
 use lightbvh::light::AnyLight;
-use lightbvh::light::infinite::DistantLight;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
@@ -22,7 +21,6 @@ use crate::shading::pick::{Chosen, PickLight, Power, Uniform};
 use crate::shading::pixel::{Scene, see};
 use crate::shading::ray::Ray;
 use crate::shading::skin::{Corner, NoSkin, SkinView};
-use crate::shading::sky::{NoSky, SkyView};
 use crate::shading::trace::{RayNode, TriangleBlock};
 use lightbvh::TreeWords;
 
@@ -148,7 +146,7 @@ pub struct RenderPush {
 macro_rules! render_pass {
     (
         $pass:ident = $name:tt, $is_paths:literal, $tree:ident, $light:ty, $node:ty,
-        [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr, $results:tt
+        [$($at:tt $own:ident: $word:ty),*], $skin:expr, $results:tt
     ) => {
         /// Direct lighting, or light along paths.
         #[spirv(compute(threads(64), entry_point_name = $name))]
@@ -169,7 +167,7 @@ macro_rules! render_pass {
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $skin);
                 let tree: $tree<'_> = push.tree.tree(nodes, instances, trails);
                 let picker = Chosen {
                     by: push.by,
@@ -205,7 +203,6 @@ render_passes!(
     EmissiveTriangle,
     Node,
     [],
-    NoSky,
     NoSkin,
     9
 );
@@ -216,7 +213,6 @@ render_passes!(
     EmissiveTriangle,
     PaperNode,
     [],
-    NoSky,
     NoSkin,
     9
 );
@@ -226,8 +222,7 @@ render_passes!(
     AnyTree,
     AnyLight,
     AnyNode,
-    [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3], 12 corners: Corner, 13 paint: u32],
-    SkyView { suns, counts: sky_counts, radiance: sky_radiance },
+    [9 corners: Corner, 10 paint: u32],
     SkinView { corners, words: paint },
-    14
+    11
 );

@@ -11,7 +11,6 @@ use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::{Scene, Seen};
 use lightbvh_kernels::shading::skin::Spot;
-use lightbvh_kernels::shading::sky::NoSky;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
 use crate::statistics::{Mean, normal_quantile};
@@ -101,7 +100,6 @@ impl World {
     #[must_use]
     pub fn scene(&self) -> Scene<'_> {
         Scene {
-            sky: NoSky,
             surfaces: self.bvh.surfaces(),
             materials: &self.material,
             emitters: Emitters {

@@ -1,4 +1,4 @@
-//! Lights by formula: points, spots and suns (`KHR_lights_punctual`), spheres, rectangles and discs.
+//! Lights by formula: points and spots (`KHR_lights_punctual`), spheres, rectangles and discs.
 
 use lightbvh::light::{AnyLight, DiscLight, PointLight, RectangleLight, SphereLight, SpotLight};
 
@@ -13,8 +13,8 @@ pub struct AnalyticLight {
     pub kind: AnalyticKind,
     /// Linear RGB, not negative.
     pub color: [f32; 3],
-    /// Factor on the colour, not negative. Of points and spots radiant intensity, W/sr (glTF: candela), of suns
-    /// irradiance (glTF: lux), of spheres, rectangles and discs radiance, W/(m² sr).
+    /// Factor on the colour, not negative. Of points and spots radiant intensity, W/sr (glTF: candela), of spheres, rectangles and
+    /// discs radiance, W/(m² sr).
     pub intensity: f32,
     /// Of points and spots: metres from which on nothing arrives, 2^-20 to 2^40; without, light arrives everywhere.
     pub range: Option<f32>,
@@ -23,8 +23,6 @@ pub struct AnalyticLight {
 /// Kinds of lights by formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnalyticKind {
-    /// The same light from everywhere, in one direction: a sun. It is in no tree.
-    Directional,
     /// From one point, in all directions.
     Point,
     /// From one point, within a cone.
@@ -55,7 +53,7 @@ impl AnalyticKind {
     /// Half the size of a light with a size, metres; empty for lights without, which scales of their nodes do not change.
     pub(super) fn half(&self) -> &[f32] {
         match self {
-            Self::Directional | Self::Point | Self::Spot { .. } => &[],
+            Self::Point | Self::Spot { .. } => &[],
             Self::Sphere { radius } => std::slice::from_ref(radius),
             Self::Rectangle { half } | Self::Disc { half } => half,
         }
@@ -68,15 +66,14 @@ impl AnalyticLight {
         self.color.map(|channel| channel * self.intensity)
     }
 
-    /// The light in the space of its node, where a tree has one for it: none for suns.
-    pub fn light(&self) -> Option<AnyLight> {
+    /// The light in the space of its node.
+    pub fn light(&self) -> AnyLight {
         let emission = self.emission();
         let (p, mesh) = ([0.0; 3], 0);
         let range = self.range.unwrap_or(0.0);
         // The front of what has one is the node's -Z.
         let flat = |[x, y]: [f32; 2]| [[0.0, y, 0.0], [x, 0.0, 0.0]];
-        Some(match self.kind {
-            AnalyticKind::Directional => return None,
+        match self.kind {
             AnalyticKind::Point => PointLight {
                 p,
                 intensity: emission,
@@ -117,7 +114,7 @@ impl AnalyticLight {
                 flags: 0,
             }
             .into(),
-        })
+        }
     }
 }
 

@@ -4,7 +4,6 @@ use std::ops::RangeInclusive;
 
 use glam::DVec3;
 use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE};
-use lightbvh_kernels::shading::sky::MAX_SUNS;
 
 use super::analytic::{AnalyticKind, AnalyticLight};
 use super::animate::Pose;
@@ -319,9 +318,6 @@ impl Check<'_> {
         for light in &data.analytic {
             triangles = triangles.saturating_add(light.facets());
         }
-        let is_sun = |light: &&AnalyticLight| light.kind == AnalyticKind::Directional;
-        let suns = data.analytic.iter().filter(is_sun).count();
-        self.limit("suns", suns, MAX_SUNS as u64)?;
         self.limit("triangles over all instances", triangles, MAX_TRIANGLES)?;
         if triangles == 0 {
             let mut left_out = data.warnings.join("\n  - ");
@@ -334,8 +330,7 @@ impl Check<'_> {
             triangles,
             emissive,
             mesh_lights,
-            analytic: data.analytic.len() - suns,
-            suns,
+            analytic: data.analytic.len(),
         })
     }
 }

@@ -36,8 +36,8 @@ pub enum SceneError {
     Empty(String, String),
     /// The scene has no light that the command knows; what else lights it follows in words, or nothing.
     #[error(
-        "scene `{0}` has no emissive triangle{1}; give a material an emissiveFactor above zero (glTF) or a Ke (OBJ), give `lightbvh \
-         render` an --environment, or use one of the built-in scenes"
+        "scene `{0}` has no emissive triangle{1}; give a material an emissiveFactor above zero (glTF) or a Ke (OBJ), or use one of \
+         the built-in scenes"
     )]
     NoEmissive(String, String),
 }

@@ -11,7 +11,6 @@ use super::camera::View;
 use super::ray_bvh::RayBvh;
 use super::scene_light::SceneLight;
 use super::skin_words::SkinArrays;
-use super::sky::Sky;
 
 /// The paper animates its scenes at a simulated 25 frames per second (section 4.1).
 pub const FRAMES_PER_SECOND: u32 = 25;
@@ -38,8 +37,6 @@ pub struct Frame {
     pub mesh_lights: Vec<MeshRange>,
     /// Lights by formula, numbered after those, and each a mesh light of its own after [`mesh_lights`](Self::mesh_lights).
     pub others: Vec<AnyLight>,
-    /// What is beyond all surfaces, but for the background.
-    pub sky: Sky,
     /// Where `triangles`, then `emissive` lie on textures; empty where nothing is painted.
     pub corners: [Vec<Corner>; 2],
     /// [`SkinArrays::words`](super::SkinArrays); empty where nothing is painted.

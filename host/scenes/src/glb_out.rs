@@ -297,7 +297,6 @@ fn light(light: &AnalyticLight) -> Option<Value> {
         out["range"] = range.into();
     }
     out["type"] = match light.kind {
-        AnalyticKind::Directional => "directional".into(),
         AnalyticKind::Point => "point".into(),
         AnalyticKind::Spot { inner, outer } => {
             out["spot"] = json!({ "innerConeAngle": inner, "outerConeAngle": outer });

@@ -136,10 +136,7 @@ impl Source {
     /// The lights in the space that [`place`](Self::place) places.
     fn lights<L: SceneLight>(self, data: &SceneData) -> Vec<L> {
         match self {
-            Self::Light(number) => {
-                let light = data.analytic[number].light();
-                light.and_then(L::of_kind).into_iter().collect()
-            }
+            Self::Light(number) => L::of_kind(data.analytic[number].light()).into_iter().collect(),
             Self::Primitive(_, (mesh, primitive)) => {
                 emissive_of(data, &data.meshes[mesh as usize].primitives[primitive])
             }

@@ -37,10 +37,9 @@ impl AnalyticLight {
 /// Appends the lights by formula, each a mesh light of its own after those of triangles, and the surfaces of those that have one.
 pub(super) fn place(data: &SceneData, pose: &Pose, out: &mut Frame) {
     let material = out.materials.len() as u32;
-    let lamps = data.analytic.iter().filter_map(|own| Some((own, own.light()?)));
-    for (k, (own, local)) in (0..).zip(lamps) {
+    for (k, own) in (0..).zip(&data.analytic) {
         let (mesh, light) = (out.mesh_lights.len() as u32 + k, out.emissive.len() as u32 + k);
-        let world = to_light_bvh(&pose.place_of(own)).place(&local, mesh);
+        let world = to_light_bvh(&pose.place_of(own)).place(&own.light(), mesh);
         out.others.push(world);
         let shown = shown(world).into_iter().map(|p| SurfaceTriangle {
             p: p.map(rounded),

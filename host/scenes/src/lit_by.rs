@@ -1,7 +1,7 @@
 //! What lights a scene, and which commands can do with it.
 
 use super::error::SceneError;
-use super::scene::{Counts, Scene};
+use super::scene::Scene;
 
 impl Scene {
     /// What a command that knows emissive triangles alone leaves out.
@@ -18,21 +18,10 @@ impl Scene {
 
     /// What lights the scene beside emissive triangles, in words.
     pub fn other_lights(&self) -> String {
-        let Counts { analytic, suns, .. } = self.counts;
-        let map = usize::from(self.data().environment.is_some());
-        let named = [
-            (
-                analytic,
-                "light of another kind than triangles",
-                "lights of other kinds than triangles",
-            ),
-            (suns, "sun", "suns"),
-            (map, "environment map", "environment maps"),
-        ];
-        let parts = named.into_iter().filter(|&(count, ..)| count > 0);
-        let parts =
-            parts.map(|(count, one, several)| format!("{count} {}", if count == 1 { one } else { several }));
-        parts.collect::<Vec<_>>().join(", ")
+        match self.counts.analytic {
+            1 => String::from("1 light of another kind than triangles"),
+            count => format!("{count} lights of other kinds than triangles"),
+        }
     }
 
     /// Emissive triangles of every frame.
@@ -40,19 +29,14 @@ impl Scene {
         self.counts.emissive
     }
 
-    /// Lights by formula that are sampled, which a tree holds.
+    /// Lights by formula.
     pub fn analytic_count(&self) -> usize {
         self.counts.analytic
     }
 
-    /// Suns, which stand beside trees.
-    pub fn sun_count(&self) -> usize {
-        self.counts.suns
-    }
-
-    /// Whether it has other light than that of emissive triangles: lights by formula, suns, an environment map.
+    /// Whether it has other light than that of emissive triangles: lights by formula.
     pub fn has_other_lights(&self) -> bool {
-        self.counts.analytic + self.counts.suns > 0 || self.data().environment.is_some()
+        self.counts.analytic > 0
     }
 
     /// Whether only passes over all kinds of light show all of it: it has [other lights](Self::has_other_lights), or something

@@ -1,8 +1,5 @@
 //! What a scene is made of.
 
-use std::sync::Arc;
-
-use lightbvh::light::infinite::Environment;
 use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 
 use super::analytic::AnalyticLight;
@@ -28,10 +25,8 @@ pub struct SceneData {
     pub analytic: Vec<AnalyticLight>,
     /// Named by textures.
     pub pictures: Vec<Picture>,
-    /// Radiance of rays that leave the scene, W/(m² sr), linear RGB, where there is no environment map.
+    /// Radiance of rays that leave the scene, W/(m² sr), linear RGB.
     pub background: [f32; 3],
-    /// Radiance from all directions: seen where nothing else is, and points are lit by it.
-    pub environment: Option<Arc<Environment>>,
     /// What the loader left out, one sentence each.
     pub warnings: Vec<String>,
 }

@@ -56,7 +56,7 @@ pub(super) fn decode(
 pub(super) fn decode_surface(load: &Load, name: &str, bytes: &[u8]) -> Result<RgbaImage, SceneError> {
     match decode(load, name, bytes, None)? {
         DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
-            Err(undecoded(name, "it holds light, as environment maps do"))
+            Err(undecoded(name, "it holds light, not colours"))
         }
         picture => Ok(picture.into_rgba8()),
     }

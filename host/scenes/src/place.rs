@@ -1,6 +1,5 @@
 //! The scene at a time, in the same order every frame.
 
-use lightbvh::light::infinite::DistantLight;
 use lightbvh::light::{EmissiveTriangle, TWO_SIDED};
 use lightbvh_kernels::shading::skin::Corner;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
@@ -13,7 +12,6 @@ use super::frame::{FRAMES_PER_SECOND, Frame, MeshRange, UNPAINTED};
 use super::lamps;
 use super::model::{Material, SceneData, emits};
 use super::scene::Scene;
-use super::sky::Sky;
 use super::transform::{mirrors, unit_or};
 
 impl Scene {
@@ -26,7 +24,6 @@ impl Scene {
             emissive: Vec::with_capacity(self.counts.emissive),
             mesh_lights: Vec::with_capacity(self.counts.mesh_lights),
             others: Vec::with_capacity(self.counts.analytic),
-            sky: Sky::new(data.environment.clone(), suns(data, &pose)),
             corners: [const { Vec::new() }; 2],
             paint: self.paint_words(),
             materials: data.materials.iter().map(Material::surface).collect(),
@@ -41,19 +38,6 @@ impl Scene {
         }
         out
     }
-}
-
-/// The suns of a scene, which shine along their nodes' -Z.
-fn suns(data: &SceneData, pose: &Pose) -> Vec<DistantLight> {
-    let suns = data
-        .analytic
-        .iter()
-        .filter(|light| light.kind == AnalyticKind::Directional);
-    suns.map(|sun| DistantLight {
-        direction: unit_or(pose.place_of(sun).matrix3.z_axis.into(), [0.0, 1.0, 0.0]).map(|x| x as f32),
-        irradiance: sun.emission(),
-    })
-    .collect()
 }
 
 /// Appends the triangles of every node, in the order node, primitive, triangle.

@@ -23,7 +23,6 @@ pub(super) struct Counts {
     pub emissive: usize,
     pub mesh_lights: usize,
     pub analytic: usize,
-    pub suns: usize,
 }
 
 impl Scene {

@@ -4,10 +4,8 @@ use lightbvh::EmissiveTriangle;
 use lightbvh::light::{AnyLight, Light};
 use lightbvh_kernels::shading::emitter::Emitter;
 use lightbvh_kernels::shading::skin::{NoSkin, SkinView};
-use lightbvh_kernels::shading::sky::{NoSky, SkyView};
 
 use super::skin_words::SkinArrays;
-use super::sky::Sky;
 use crate::vector::{dot, normal};
 
 /// A type of lights of a scene.
@@ -17,9 +15,6 @@ pub trait SceneLight: Emitter + From<EmissiveTriangle> {
 
     /// A light by formula, where the type holds such.
     fn of_kind(light: AnyLight) -> Option<Self>;
-
-    /// What is beyond all surfaces, where such scenes know of it.
-    fn sky(sky: &Sky) -> Self::Sky<'_>;
 
     /// What is painted on surfaces, where such scenes know of it.
     fn skin(skin: &SkinArrays) -> Self::Skin<'_>;
@@ -36,10 +31,6 @@ impl SceneLight for EmissiveTriangle {
 
     fn of_kind(_: AnyLight) -> Option<Self> {
         None
-    }
-
-    fn sky(_: &Sky) -> NoSky {
-        NoSky
     }
 
     fn skin(_: &SkinArrays) -> NoSkin {
@@ -64,10 +55,6 @@ impl SceneLight for AnyLight {
 
     fn of_kind(light: AnyLight) -> Option<Self> {
         Some(light)
-    }
-
-    fn sky(sky: &Sky) -> SkyView<'_> {
-        sky.view()
     }
 
     fn skin(skin: &SkinArrays) -> SkinView<'_> {

@@ -40,11 +40,7 @@ pub(super) fn bind<N: Node<W, Light = L>, L: SceneLight, const W: usize>(
         device.upload(thresholds)?.bind(),
     ]);
     if L::IS_ANY {
-        let sky = scene.sky.view();
         bindings.extend([
-            device.upload(sky.suns)?.bind(),
-            device.upload(sky.counts)?.bind(),
-            device.upload(sky.radiance)?.bind(),
             device.upload(&scene.skin.corners)?.bind(),
             device.upload(&scene.skin.words)?.bind(),
         ]);

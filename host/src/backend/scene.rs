@@ -8,7 +8,7 @@ use lightbvh_kernels::shading::pixel::Scene as SceneView;
 use lightbvh_kernels::shading::trace::Surfaces;
 
 use crate::render::{RayBvh, power_thresholds};
-use crate::scene::{SceneLight, SkinArrays, Sky};
+use crate::scene::{SceneLight, SkinArrays};
 
 /// How the renderer chooses lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, strum::IntoStaticStr, serde::Serialize)]
@@ -55,8 +55,6 @@ pub struct SceneArrays<L = EmissiveTriangle> {
     pub thresholds: Vec<u32>,
     /// Who looks.
     pub camera: Camera,
-    /// The sky beyond all surfaces.
-    pub sky: Sky,
     /// The surfaces' paint.
     pub skin: SkinArrays,
 }
@@ -73,15 +71,8 @@ impl<L: SceneLight> SceneArrays<L> {
             identity,
             thresholds,
             camera,
-            sky: Sky::default(),
             skin: SkinArrays::default(),
         }
-    }
-
-    /// With what is beyond all surfaces.
-    #[must_use]
-    pub fn under(self, sky: Sky) -> Self {
-        Self { sky, ..self }
     }
 
     /// With what is painted on the surfaces.
@@ -101,7 +92,6 @@ impl<L: SceneLight> SceneArrays<L> {
             surfaces: self.surfaces(),
             materials: &self.materials,
             emitters,
-            sky: L::sky(&self.sky),
         }
     }
 

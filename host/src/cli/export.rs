@@ -33,21 +33,13 @@ pub(super) fn run(args: &Args) -> Result<Outcome, HostError> {
     for warning in scene.warnings() {
         news!("{}: {warning}", scene.name());
     }
-    let is_lost = |kind| {
-        use AnalyticKind::{Directional, Point, Spot};
-        !matches!(kind, Directional | Point | Spot { .. })
+    let is_lost = |kind| !matches!(kind, AnalyticKind::Point | AnalyticKind::Spot { .. });
     };
     let lights = scene.data().analytic.iter();
     let lost = lights.filter(|light| is_lost(light.kind)).count();
     if lost > 0 {
         news!(
             "{}: glTF has no word for spheres, rectangles and discs that shine: {lost} left out",
-            scene.name()
-        );
-    }
-    if scene.data().environment.is_some() {
-        news!(
-            "{}: glTF has no word for environment maps: the sky is left out",
             scene.name()
         );
     }

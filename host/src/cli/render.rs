@@ -2,7 +2,6 @@
 
 use std::ffi::OsString;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use lightbvh::EmissiveTriangle;
 use lightbvh::light::AnyLight;
@@ -15,7 +14,7 @@ use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::method::{Method, MethodLight, Recipe, SampleBudget, Step, Target};
 use crate::render::Film;
-use crate::scene::{Scene, read_environment};
+use crate::scene::Scene;
 use crate::vulkan::VulkanError;
 use crate::workload::{arrays_lit_by, render_params};
 
@@ -160,13 +159,6 @@ fn scene(args: &Args, recipe: &Recipe) -> Result<Scene, HostError> {
             });
         }
         scene = scene.seen_from(from, at, (args.fov as f32).to_radians())?;
-    }
-    if let Some(path) = &args.environment {
-        let mut data = scene.into_data();
-        let (scale, limits) = (args.environment_scale, args.reading.limits());
-        let map = read_environment(path, scale, &limits, &mut data.warnings)?;
-        data.environment = Some(Arc::new(map));
-        scene = Scene::new(data)?;
     }
     for warning in scene.warnings() {
         news!("{}: {warning}", scene.name());

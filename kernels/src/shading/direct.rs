@@ -6,7 +6,7 @@
 use glam::Vec3;
 use lightbvh::device::vector::length_squared;
 use lightbvh::exact::{flush, hash, min, pow2};
-use lightbvh::reservoir::{LightSample, Resampling, target};
+use lightbvh::reservoir::{Resampling, target};
 
 use super::area::{Connection, luminance};
 use super::emitter::Emitter;
@@ -15,7 +15,6 @@ use super::numbers::{Numbers, Part};
 use super::pick::PickLight;
 use super::picks::Picks;
 use super::pixel::{Scene, Seen, arriving};
-use super::sky::{Sky, sky_sample};
 use super::trace::NONE;
 
 /// Most candidates of a sample.
@@ -74,7 +73,6 @@ pub fn reflected<L: Emitter, P: PickLight>(
         MAX_CANDIDATES
     };
     let count = if most == 0 { 1 } else { most };
-    let sources = if <L::Sky<'_> as Sky>::IS_SAMPLED { 2 } else { 1 };
     let mut sum = Vec3::ZERO;
     if length_squared(seen.point.normal()) > 0.0 && seen.material < scene.materials.len() as u32 {
         let material = scene.material(seen);
@@ -88,43 +86,30 @@ pub fn reflected<L: Emitter, P: PickLight>(
         for sample in 0..samples.count {
             let number = samples.part.number(samples.first.wrapping_add(sample));
             let random = hash(seed.wrapping_add(Numbers::USED).wrapping_add(number));
-            // A light, and where there is a sky its sample besides.
-            for source in 0..sources {
-                let mut found = Connection::NONE;
-                let mut found_light = NONE;
-                if source == 0 {
-                    let mut stream = Resampling::EMPTY;
-                    for candidate in 0..count {
-                        let k = sample.wrapping_mul(count).wrapping_add(candidate);
-                        let picked = picks.next(picker, &seen.point, k);
-                        let uv = picks.uv(k);
-                        let mut own = Connection::NONE;
-                        if picked.pmf > 0.0 {
-                            let light = scene.emitters.light(picked.light, picked.instance);
-                            let light = scene.glowing(light, picked.light, uv);
-                            own = light.connect(seen.point, seen.wo, material, 1.0, uv);
-                        }
-                        let c = own.contribution;
-                        let target = target(luminance([c.x, c.y, c.z]));
-                        let sampled = LightSample {
-                            light: picked.light,
-                            instance: picked.instance,
-                            uv,
-                        };
-                        let random = hash(random.wrapping_add(candidate));
-                        if stream.candidate(sampled, target, picked.pmf, random) {
-                            found = own;
-                        }
-                    }
-                    let chosen = stream.finish();
-                    found_light = chosen.sample.light;
-                    found.contribution = weighted(found.contribution, chosen.weight);
-                } else {
-                    found = sky_sample(&scene.sky, &seen.point, seen.wo, &material, seed, number);
+            let mut stream = Resampling::EMPTY;
+            let mut found = Connection::NONE;
+            let mut found_light = NONE;
+            for candidate in 0..count {
+                let k = sample.wrapping_mul(count).wrapping_add(candidate);
+                let picked = picks.next(picker, &seen.point, k);
+                let uv = picks.uv(k);
+                let mut own = Connection::NONE;
+                if picked.pmf > 0.0 {
+                    let light = scene.emitters.light(picked.light, picked.instance);
+                    let light = scene.glowing(light, picked.light, uv);
+                    own = light.connect(seen.point, seen.wo, material, 1.0, uv);
                 }
-                if found.is_lit() {
-                    sum += arriving(scene, &seen.point, &found, found_light);
+                let c = own.contribution;
+                let target = target(luminance([c.x, c.y, c.z]));
+                let random = hash(random.wrapping_add(candidate));
+                if stream.candidate(target, picked.pmf, random) {
+                    found = own;
+                    found_light = picked.light;
                 }
+            }
+            found.contribution = weighted(found.contribution, stream.weight());
+            if found.is_lit() {
+                sum += arriving(scene, &seen.point, &found, found_light);
             }
         }
     }

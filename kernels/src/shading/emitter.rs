@@ -7,102 +7,21 @@ use lightbvh::exact::{abs, flush, max, min, rsqrt};
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::{EmissiveTriangle, LightPoint, ShadingPoint};
 
-use super::area::{
-    Connection, MAX_DENSITY, NEAREST_SQUARED, OFFSET, connect, largest_component, light_density, reflected,
-};
+use super::area::{Connection, MAX_DENSITY, NEAREST_SQUARED, OFFSET, largest_component, reflected};
 use super::grid::{STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, div, flush_vector, sqrt};
 use super::material::Material;
 use super::skin::{NoSkin, Skin, SkinView};
-use super::sky::{NoSky, Sky, SkyView};
 
 /// A light that points are lit by, and that rays may meet.
 pub trait Emitter: Light {
-    /// What scenes lit by such lights have beyond all surfaces.
-    type Sky<'a>: Sky;
-
     /// What is painted on the surfaces of such scenes.
     type Skin<'a>: Skin;
 
     /// Connects `point` with the point of this light that `uv` chooses, where the light was chosen with probability `pmf`.
     // A function of its own on devices, by value: passes connect in several places, and it is long.
-    fn connect(self, point: ShadingPoint, wo: Vec3, material: Material, pmf: f32, uv: [f32; 2])
-    -> Connection;
-
-    /// Whether rays that leave a surface find its light too. What they do not find, [`connect`](Self::connect) alone brings, and where
-    /// they meet it, it counts only if the camera sees it.
-    fn is_met(&self) -> bool;
-
-    /// The density over solid angle with which [`connect`](Self::connect) finds what is seen of it at `d` from a point, when it is chosen
-    /// there with probability `pmf`, 1/sr. Of lights that [are met](Self::is_met).
-    fn density(&self, d: Vec3, pmf: f32) -> f32;
-
-    /// The radiance of its surface, seen from its front or back.
-    fn emitted(&self, front: bool) -> Vec3;
-
-    /// Its radiance, or what it has in place of that; asked for where surfaces are painted.
-    #[inline]
-    fn emission(&self) -> [f32; 3] {
-        [0.0; 3]
-    }
-
-    /// It with another.
-    #[inline]
+    #[cfg_attr(target_arch = "spirv", inline(never))]
+    #[cfg_attr(not(target_arch = "spirv"), inline)]
     #[must_use]
-    fn with_emission(self, _emission: [f32; 3]) -> Self {
-        self
-    }
-}
-
-impl Emitter for EmissiveTriangle {
-    type Sky<'a> = NoSky;
-    type Skin<'a> = NoSkin;
-
-    #[cfg_attr(target_arch = "spirv", inline(never))]
-    #[cfg_attr(not(target_arch = "spirv"), inline)]
-    fn connect(
-        self,
-        point: ShadingPoint,
-        wo: Vec3,
-        material: Material,
-        pmf: f32,
-        uv: [f32; 2],
-    ) -> Connection {
-        connect(&point, wo, &material, &self, pmf, uv)
-    }
-
-    #[inline]
-    fn is_met(&self) -> bool {
-        true
-    }
-
-    #[inline]
-    fn density(&self, d: Vec3, pmf: f32) -> f32 {
-        light_density(d, self, pmf)
-    }
-
-    #[inline]
-    fn emitted(&self, front: bool) -> Vec3 {
-        shown(self.radiance, front || self.is_two_sided())
-    }
-}
-
-#[inline]
-fn shown(radiance: [f32; 3], is_seen: bool) -> Vec3 {
-    let mut seen = Vec3::ZERO;
-    if is_seen {
-        seen = Vec3::new(radiance[0], radiance[1], radiance[2]);
-    }
-    seen
-}
-
-/// Triangles and rectangles are met. A sphere and a disc are seen as facets within them, which hold some of their points and not others, so
-/// no ray but the camera's counts; points and spots are not seen.
-impl Emitter for AnyLight {
-    type Sky<'a> = SkyView<'a>;
-    type Skin<'a> = SkinView<'a>;
-
-    #[cfg_attr(target_arch = "spirv", inline(never))]
-    #[cfg_attr(not(target_arch = "spirv"), inline)]
     fn connect(
         self,
         point: ShadingPoint,
@@ -115,6 +34,69 @@ impl Emitter for AnyLight {
         connect_point(&point, wo, &material, &at, pmf, self.is_met())
     }
 
+    /// Whether rays that leave a surface find its light too. What they do not find, [`connect`](Self::connect) alone brings, and where
+    /// they meet it, it counts only if the camera sees it.
+    fn is_met(&self) -> bool;
+
+    /// The density over solid angle with which [`connect`](Self::connect) finds what is seen of it at `d` from a point, when it is chosen
+    /// there with probability `pmf`, 1/sr. Of lights that [are met](Self::is_met).
+    #[inline]
+    fn density(&self, d: Vec3, pmf: f32) -> f32 {
+        // Lights that are met are flat: all their points have one normal and one density.
+        let at = self.point_for(Vec3::ZERO, [0.0; 2]);
+        let (squared, facing) = facing(flush_vector(d, STEP), &at);
+        density(squared, facing, at.density, pmf)
+    }
+
+    /// Whether its surface emits from both sides.
+    fn has_two_sides(&self) -> bool;
+
+    /// The radiance of its surface, seen from its front or back.
+    #[inline]
+    fn emitted(&self, front: bool) -> Vec3 {
+        let mut seen = Vec3::ZERO;
+        if front || self.has_two_sides() {
+            let [r, g, b] = self.emission();
+            seen = Vec3::new(r, g, b);
+        }
+        seen
+    }
+
+    /// Its radiance, or what it has in place of that.
+    fn emission(&self) -> [f32; 3];
+
+    /// It with another.
+    #[inline]
+    #[must_use]
+    fn with_emission(self, _emission: [f32; 3]) -> Self {
+        self
+    }
+}
+
+impl Emitter for EmissiveTriangle {
+    type Skin<'a> = NoSkin;
+
+    #[inline]
+    fn is_met(&self) -> bool {
+        true
+    }
+
+    #[inline]
+    fn has_two_sides(&self) -> bool {
+        self.is_two_sided()
+    }
+
+    #[inline]
+    fn emission(&self) -> [f32; 3] {
+        self.radiance
+    }
+}
+
+/// Triangles and rectangles are met. A sphere and a disc are seen as facets within them, which hold some of their points and not others, so
+/// no ray but the camera's counts; points and spots are not seen.
+impl Emitter for AnyLight {
+    type Skin<'a> = SkinView<'a>;
+
     #[inline]
     fn is_met(&self) -> bool {
         let kind = self.kind();
@@ -122,16 +104,8 @@ impl Emitter for AnyLight {
     }
 
     #[inline]
-    fn density(&self, d: Vec3, pmf: f32) -> f32 {
-        // Both kinds are flat: all their points have one normal and one density.
-        let at = self.point_for(Vec3::ZERO, [0.0; 2]);
-        let (squared, facing) = facing(flush_vector(d, STEP), &at);
-        density(squared, facing, at.density, pmf)
-    }
-
-    #[inline]
-    fn emitted(&self, front: bool) -> Vec3 {
-        shown(Self::emission(self), front || self.is_two_sided())
+    fn has_two_sides(&self) -> bool {
+        self.is_two_sided()
     }
 
     #[inline]
@@ -215,7 +189,6 @@ pub fn connect_point(
     Connection {
         contribution,
         direction: (y + own * towards) - point.position(),
-        reach: 1.0,
         density: density(squared, facing, at.density, pmf),
         scattering_density,
     }

@@ -9,7 +9,6 @@
 //! | [`emitters`] | the lights, read through their instances |
 //! | [`emitter`] | a light as the renderer shows it, of triangles alone or of any kind |
 //! | [`area`] | a point on the chosen light, and what it contributes |
-//! | [`sky`] | light from without end: an environment map and suns |
 //! | [`skin`], [`picture`] | textures: colours, glow, what is cut out |
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
 //! | [`picks`] | the lights of a pixel's samples |
@@ -41,5 +40,4 @@ pub mod picture;
 pub mod pixel;
 pub mod ray;
 pub mod skin;
-pub mod sky;
 pub mod trace;

@@ -6,14 +6,12 @@ use lightbvh::device::vector::{dot, length_squared};
 use lightbvh::exact::{floor_u32, flush, hash, max, min, unit_f32};
 use lightbvh::{Random64, ShadingPoint};
 
-use super::area::Connection;
 use super::emitter::Emitter;
 use super::grid::{STEP, TINY, bounded_product, div, flush_vector};
 use super::mis::power_heuristic;
 use super::pick::PickLight;
 use super::pixel::{Scene, arriving, encounter};
 use super::ray::{FAR, Ray};
-use super::sky::Sky;
 use super::trace::NONE;
 
 /// Most surfaces that a path may be reflected by.
@@ -23,18 +21,17 @@ pub const MAX_BOUNCES: u32 = 64;
 /// Transport and Image Synthesis", 1990).
 const ROULETTE_FROM: u32 = 3;
 
-/// Random numbers at one surface: three for the light, three for the direction, one for the end, three for the sky.
+/// Random numbers at one surface: three for the light, three for the direction, one for the end.
 const RANDOM_LIGHT: u32 = 0;
 const RANDOM_DIRECTION: u32 = 3;
 const RANDOM_END: u32 = 6;
-const RANDOM_SKY: u32 = 7;
 
 /// Estimates the radiance that arrives along `ray` by one path of up to `bounces` reflections; `seed` chooses its random
 /// numbers. With one bounce that is the light seen, and the light reflected once: what direct lighting estimates, and
 /// the background's reflection besides.
 ///
 /// Light seen by the ray itself counts fully, and so does the background wherever a ray leaves the scene: no light is
-/// sampled towards it. A map in its place is sampled, and shares what both find.
+/// sampled towards it.
 #[inline]
 #[must_use]
 pub fn path_radiance<L: Emitter, P: PickLight>(
@@ -50,7 +47,6 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
     } else {
         MAX_BOUNCES
     };
-    let sources = if <L::Sky<'_> as Sky>::IS_SAMPLED { 2 } else { 1 };
     let mut ray = *ray;
     let mut radiance = Vec3::ZERO;
     let mut throughput = Vec3::ONE;
@@ -77,36 +73,21 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
                 0.0
             };
         }
-        if <L::Sky<'_> as Sky>::IS_SAMPLED && met.is_open && density > 0.0 {
-            weight = power_heuristic(density, scene.sky.density(&from, ray.direction));
-        }
         radiance += bounded(throughput, seen.direct * weight);
 
         let n = flush_vector(seen.point.normal(), STEP);
         alive = bounce < bounces && length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32;
         if alive {
             let material = scene.material(&seen);
-            // A light, and where there is a sky its sample besides.
-            for source in 0..sources {
-                let mut found = Connection::NONE;
-                let mut found_light = NONE;
-                if source == 0 {
-                    let number = Random64::from(hash(random.wrapping_add(RANDOM_LIGHT)));
-                    let picked = picker.pick(&seen.point, number);
-                    if picked.pmf > 0.0 {
-                        found_light = picked.light;
-                        let light = scene.emitters.light(picked.light, picked.instance);
-                        let uv = [draw(random, RANDOM_LIGHT + 1), draw(random, RANDOM_LIGHT + 2)];
-                        let light = scene.glowing(light, picked.light, uv);
-                        found = light.connect(seen.point, seen.wo, material, picked.pmf, uv);
-                    }
-                } else {
-                    let uv = [draw(random, RANDOM_SKY + 1), draw(random, RANDOM_SKY + 2)];
-                    let number = hash(random.wrapping_add(RANDOM_SKY));
-                    found = scene.sky.connect(&seen.point, seen.wo, &material, number, uv);
-                }
+            let number = Random64::from(hash(random.wrapping_add(RANDOM_LIGHT)));
+            let picked = picker.pick(&seen.point, number);
+            if picked.pmf > 0.0 {
+                let light = scene.emitters.light(picked.light, picked.instance);
+                let uv = [draw(random, RANDOM_LIGHT + 1), draw(random, RANDOM_LIGHT + 2)];
+                let light = scene.glowing(light, picked.light, uv);
+                let found = light.connect(seen.point, seen.wo, material, picked.pmf, uv);
                 if found.is_lit() {
-                    let left = arriving(scene, &seen.point, &found, found_light);
+                    let left = arriving(scene, &seen.point, &found, picked.light);
                     let weight = power_heuristic(found.density, found.scattering_density);
                     radiance += bounded(throughput, left * weight);
                 }

@@ -11,7 +11,6 @@ use super::grid::{TINY_AREA, div, flush_vector, sqrt};
 use super::material::Material;
 use super::ray::Ray;
 use super::skin::{Skin, Spot};
-use super::sky::Sky;
 use super::trace::{LANES, NONE, RayNode, Surfaces, TriangleBlock, any_hit, closest_hit, vertex};
 
 /// Everything that light meets.
@@ -23,8 +22,6 @@ pub struct Scene<'a, L: Emitter = EmissiveTriangle> {
     pub materials: &'a [Material],
     /// What of it emits.
     pub emitters: Emitters<'a, L>,
-    /// What is beyond all surfaces.
-    pub sky: L::Sky<'a>,
 }
 
 impl<'a, L: Emitter> Scene<'a, L> {
@@ -37,14 +34,12 @@ impl<'a, L: Emitter> Scene<'a, L> {
         materials: &'a [Material],
         triangles: &'a [L],
         instances: &'a [Instance],
-        sky: L::Sky<'a>,
         skin: L::Skin<'a>,
     ) -> Self {
         Self {
             surfaces: Surfaces { nodes, blocks, skin },
             materials,
             emitters: Emitters { triangles, instances },
-            sky,
         }
     }
 
@@ -82,7 +77,7 @@ pub fn arriving<L: Emitter>(
     connection: &Connection,
     light: u32,
 ) -> Vec3 {
-    let ray = Ray::new(point.position(), connection.direction, connection.reach);
+    let ray = Ray::new(point.position(), connection.direction, 1.0);
     let mut left = connection.contribution;
     if any_hit(&scene.surfaces, &ray, light) {
         left = Vec3::ZERO;
@@ -115,8 +110,6 @@ pub struct Encounter {
     pub light: u32,
     /// The instance of that light.
     pub instance: u32,
-    /// Whether it met nothing at all.
-    pub is_open: bool,
     /// Distance in multiples of the ray's direction; the ray's end if it met nothing.
     pub distance: f32,
 }
@@ -141,7 +134,7 @@ pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) 
         },
         wo: Vec3::ZERO,
         material: 0,
-        direct: scene.sky.seen(ray.direction, background),
+        direct: background,
         spot: Spot {
             triangle: hit.triangle,
             at: [0.0; 2],
@@ -182,7 +175,6 @@ pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) 
         seen,
         light,
         instance,
-        is_open: block >= blocks.len(),
         distance: hit.t,
     }
 }

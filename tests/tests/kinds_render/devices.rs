@@ -6,7 +6,7 @@ use super::*;
 fn every_kind_and_paint_have_the_same_words_on_every_device() {
     // Devices compile the kernels once for both, which takes longer than all the rest.
     on_each_device(Options::default(), |device| {
-        for scene in [open_room(), painted_room()] {
+        for scene in [room(), painted_room()] {
             same_on(device, &scene);
         }
     });

@@ -1,4 +1,4 @@
-//! Irradiance by each kind of light, and by skies.
+//! Irradiance by each kind of light.
 
 use lightbvh::ShadingPoint;
 use lightbvh::light::Light;
@@ -37,48 +37,4 @@ fn each_kind_has_the_irradiance_of_its_points() {
             reflects(scene.into_data(), [irradiance; 3], [0.5; 3], 1e-3);
         }
     }
-}
-
-/// The sky of a uniform map lights an open floor as theory says, and as a background does by paths; a sun does by its cosine.
-#[test]
-fn skies_have_the_known_irradiance() {
-    let sun = AnalyticKind::Directional;
-    for angle in [0.0_f32, 0.9] {
-        // Turned from straight down about x.
-        let (sine, cosine) = (0.5 * (angle - std::f32::consts::FRAC_PI_2)).sin_cos();
-        let transform = Transform::Trs {
-            translation: [0.0; 3],
-            rotation: [sine, 0.0, 0.0, cosine],
-            scale: [1.0; 3],
-        };
-        let mut data = plain_floor([0.0, 1.0]);
-        add(&mut data, transform, sun, 2.0);
-        reflects(data, [2.0 * f64::from(angle).cos(); 3], [0.5; 3], 2e-3);
-    }
-    let mut data = plain_floor([0.0, 1.0]);
-    data.environment = Some(Arc::new(Environment::from_fn(4, |_| [1.5; 3]).expect("a map")));
-    reflects(data, [1.5 * PI; 3], [0.5; 3], 2e-3);
-    // A small bright patch, which both ways find: weights share it.
-    let mut data = plain_floor([0.0, 1.0]);
-    let patch = |[x, y, z]: [f32; 3]| {
-        let is_bright = x > 0.2 && x < 0.4 && y > 0.7 && z.abs() < 0.1;
-        [if is_bright { 200.0 } else { 0.1 }; 3]
-    };
-    let map = Environment::from_fn(64, patch).expect("a map");
-    let mut e = 0.0;
-    let n = 2000;
-    for i in 0..n {
-        for j in 0..4 * n {
-            // Even over the hemisphere's cosine: E = π times the mean radiance.
-            let (u, v) = (
-                (i as f64 + 0.5) / f64::from(n),
-                (j as f64 + 0.5) / f64::from(4 * n),
-            );
-            let (r, angle) = (u.sqrt(), 2.0 * PI * v);
-            let d = [r * angle.cos(), (1.0 - u).sqrt(), r * angle.sin()].map(|x| x as f32);
-            e += f64::from(map.map().radiance(d)[1]) * PI / (f64::from(n) * f64::from(4 * n));
-        }
-    }
-    data.environment = Some(Arc::new(map));
-    reflects(data, [e; 3], [0.5; 3], 2e-3);
 }

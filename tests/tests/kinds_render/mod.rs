@@ -3,13 +3,9 @@
 mod devices;
 mod known;
 
-use std::f64::consts::PI;
-use std::sync::Arc;
-
 use bytemuck::cast_slice;
 use lightbvh::BuildParams;
 use lightbvh::light::AnyLight;
-use lightbvh::light::infinite::Environment;
 use lightbvh_host::backend::{
     Backend, Bvh, CpuBackend, DeviceBackend, Integrator, PIXEL_RECORD, Sampler, SceneArrays,
 };
@@ -78,7 +74,7 @@ pub fn mean(image: &[[f32; 3]]) -> (f64, f64) {
 }
 
 /// A room with every kind of light, a mesh light and things in the way; some of the lamps are turned, scaled and mirrored.
-fn room() -> Scene {
+pub fn room() -> Scene {
     let mut data = SceneData {
         name: String::from("room"),
         meshes: vec![sheet(8.0, 0), sheet(0.8, 1), sheet(1.2, 2)],
@@ -142,33 +138,6 @@ fn room() -> Scene {
             color: [1.0, 0.8, 0.3 + 0.05 * k as f32],
             intensity: 2.0,
             range: (k % 2 == 1).then_some(2.5),
-        });
-    }
-    Scene::new(data).expect("a sound scene")
-}
-
-/// The room under a map and two suns.
-pub fn open_room() -> Scene {
-    let mut data = room().into_data();
-    let colors = |[x, y, z]: [f32; 3]| [0.1 + 0.1 * x * x, 0.1 + 0.2 * y.max(0.0), 0.2 + 0.1 * z * z];
-    data.environment = Some(Arc::new(Environment::from_fn(8, colors).expect("a map")));
-    for (k, lean) in [0.3_f32, -0.6].into_iter().enumerate() {
-        let (sine, cosine) = (0.5 * (lean - std::f32::consts::FRAC_PI_2)).sin_cos();
-        data.nodes.push(node(
-            Transform::Trs {
-                translation: [0.0; 3],
-                rotation: [sine, 0.0, 0.0, cosine],
-                scale: [1.0; 3],
-            },
-            None,
-        ));
-        data.analytic.push(AnalyticLight {
-            name: format!("sun {k}"),
-            node: data.nodes.len() as u32 - 1,
-            kind: AnalyticKind::Directional,
-            color: [1.0, 0.9, 0.7],
-            intensity: 0.8,
-            range: None,
         });
     }
     Scene::new(data).expect("a sound scene")

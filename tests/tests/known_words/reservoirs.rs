@@ -1,6 +1,6 @@
 //! Reservoirs: candidates and their end.
 
-use lightbvh::reservoir::{LightSample, Resampling, target};
+use lightbvh::reservoir::{Resampling, target};
 use lightbvh_tests::generate::{self, Random};
 
 use super::digest::Digest;
@@ -11,12 +11,15 @@ fn reservoirs() {
     let mut digest = Digest::new();
     for _ in 0..2000 {
         let mut stream = Resampling::EMPTY;
+        // A light, an instance, and two numbers.
+        let mut chosen = [u32::MAX, u32::MAX, 0, 0];
         for _ in 0..1 + random.below(6) {
-            let sample = LightSample {
-                light: random.below(1000),
-                instance: random.below(50),
-                uv: [random.unit(), random.unit()],
-            };
+            let sample = [
+                random.below(1000),
+                random.below(50),
+                random.unit().to_bits(),
+                random.unit().to_bits(),
+            ];
             let luminance = if random.below(5) == 0 {
                 0.0
             } else {
@@ -27,11 +30,12 @@ fn reservoirs() {
             } else {
                 generate::log_uniform(&mut random, -50, -1)
             };
-            stream.candidate(sample, target(luminance), pmf, random.bits());
+            if stream.candidate(target(luminance), pmf, random.bits()) {
+                chosen = sample;
+            }
         }
-        let found = stream.finish();
-        digest.words(&[found.sample]);
-        digest.words(&[found.weight]);
+        digest.words(&[chosen]);
+        digest.words(&[stream.weight()]);
     }
     digest.is(0x5f81_6004_9037_7131, "reservoirs");
 }

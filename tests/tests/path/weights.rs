@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use lightbvh::{ShadingPoint, exact};
-use lightbvh_kernels::shading::area::{connect, light_density};
+use lightbvh_kernels::shading::emitter::Emitter;
 use lightbvh_kernels::shading::mis::power_heuristic;
 use lightbvh_kernels::shading::pixel::encounter;
 use lightbvh_kernels::shading::ray::{FAR, Ray};
@@ -58,7 +58,7 @@ fn both_ways_tell_the_same_densities() {
         let wo = Vec3::from(wo);
         let pmf = exact::pow2(-(random.below(20) as i32)) * (0.5 + 0.5 * random.unit());
         let uv = [random.unit(), random.unit()];
-        let connection = connect(&point, wo, &material, &lamp, pmf, uv);
+        let connection = lamp.connect(point, wo, material, pmf, uv);
         if connection.contribution.x > 0.0 {
             let d = connection.direction;
             let ray = Ray::new(point.position(), d.normalize(), FAR);
@@ -69,7 +69,7 @@ fn both_ways_tell_the_same_densities() {
                 let m = Vec3::from(lamp.p[1]) - Vec3::from(lamp.p[0]);
                 let m = m.cross(Vec3::from(lamp.p[2]) - Vec3::from(lamp.p[0])).normalize();
                 let cosine = f64::from(m.dot(ray.direction).abs());
-                let by_light = f64::from(light_density(ray.direction * other.distance, &lamp, pmf));
+                let by_light = f64::from(lamp.density(ray.direction * other.distance, pmf));
                 let scattering = material.scatter(Vec3::Y, ray.direction, wo);
                 // The ends of both rays differ by the offset off the light, 2^-18 of the coordinates, which at a cosine
                 // is that much further along; the rest is rounding of a few 2^-24.

@@ -75,7 +75,7 @@ fn pictures_glow() {
 
 /// The room of all kinds, painted.
 pub fn painted_room() -> Scene {
-    let mut data = open_room().into_data();
+    let mut data = room().into_data();
     let noise = picture(8, 8, |x, y| hash(x + 8 * y).to_le_bytes());
     data.pictures = vec![noise];
     let smooth = |wrap| Texture {

@@ -22,7 +22,7 @@ use lightbvh_host::workload::{build, render_params};
 use lightbvh_kernels::bvh::{Kinds, WIDTH};
 use lightbvh_kernels::shading::picture::{HEADER_WORDS, Picture as Words, PictureWords, SRGB_WORDS};
 
-use crate::kinds_render::{arrays, at, mean, node, open_room};
+use crate::kinds_render::{arrays, at, mean, node, room};
 
 /// What a painted floor reflects of the light that falls on it: its diffuse part, and at most this of gloss.
 const GLOSS: f64 = 0.04 * 7.0 / 8.0;

@@ -109,8 +109,8 @@ fn base_colours_are_those_of_the_texels() {
             ..PLAIN
         };
         let mut data = floor(paint, vec![colors.clone()], [aim, 1.0]);
-        let d = [0.6, -0.8, 0.0];
-        add(&mut data, along(d), AnalyticKind::Directional, 2.0);
+        // 100 m away, with a cosine of 0.8: 2e4 W/sr are 1.6 W/m².
+        add(&mut data, at([aim - 60.0, 80.0, 0.0]), AnalyticKind::Point, 2e4);
         reflects(data, [1.6; 3], albedo, 2e-3);
     }
 }

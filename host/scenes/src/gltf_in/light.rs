@@ -51,7 +51,9 @@ fn light(light: &Light, node: u32) -> Result<AnalyticLight, String> {
         return Err(String::from("its range is not above 0 metres"));
     }
     let kind = match light.type_ {
-        Valid(Type::Directional) => AnalyticKind::Directional,
+        Valid(Type::Directional) => {
+            return Err(String::from("it is directional, and no light BVH holds such"));
+        }
         Valid(Type::Point) => AnalyticKind::Point,
         Valid(Type::Spot) => {
             let cone = light.spot.as_ref();

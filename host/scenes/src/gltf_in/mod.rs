@@ -15,7 +15,7 @@
 //!   as white, and where it is what glows as black;
 //! - `KHR_materials_transmission`: surfaces are left out from a factor of a half on, and so are blended ones below an opacity of
 //!   a half, unless they emit;
-//! - `KHR_lights_punctual`: points and spots are lights of the tree, suns stand next to it.
+//! - `KHR_lights_punctual`: points and spots; directional lights are left out, which no tree holds.
 //!
 //! Radiance is taken as W/(m² sr) where glTF says nits; only the exposure differs. The rest is left out with a note in
 //! [`super::SceneData::warnings`], or refused by name where the file says that it is required; of required extensions that only

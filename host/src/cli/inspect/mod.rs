@@ -176,26 +176,19 @@ fn without_triangles(
     let lights = lights_of::<AnyLight>(scene, frame)?;
     let count = lights.triangles().len();
     let kinds = LightKinds::of(lights.triangles());
-    let tree = (count > 0).then(|| kinds.tree());
+    let tree = kinds.tree();
     if context.json {
         report["lights"] = count.into();
         report["kinds"] = kinds.json();
-        report["suns"] = scene.sun_count().into();
-        report["environment"] = scene.data().environment.is_some().into();
         report["tree"] = tree.into();
         table::print_json(&report)?;
         return Ok(Outcome::Good);
     }
     let (name, lit_by) = (scene.name(), scene.other_lights());
     say!("{name} in frame {frame}, lit by {lit_by}\n\nwhat it requires")?;
-    match &tree {
-        None => line("lights of a tree", "none; the sky and suns stand next to trees")?,
-        Some(_) => line("lights of a tree", &kinds.cones())?,
-    }
+    line("lights of a tree", &kinds.cones())?;
     line("animation", &said(moving))?;
-    if let Some(tree) = tree {
-        say!("\na tree over its lights: {tree}, two levels")?;
-    }
+    say!("\na tree over its lights: {tree}, two levels")?;
     Ok(Outcome::Good)
 }
 
