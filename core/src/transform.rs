@@ -142,8 +142,9 @@ impl Transform {
         let per_inverse = if norm > 0.0 { SQRT_3 / f64::from(norm) } else { 0.0 };
         let area = f64::from(exact::sqrt(squares(&cofactors) as f32)) / SQRT_3 * (entry * entry);
         let luminance = luminance_of(&radiance);
-        let flux = (if is_by_area { area } else { 1.0 } * f64::from(luminance)) as f32;
+        let factor = if is_by_area { area } else { 1.0 };
         let not_by_area = if is_by_area { 0 } else { Instance::IS_NOT_BY_AREA };
+        let flux = (factor * f64::from(luminance)) as f32;
         Instance {
             columns: self
                 .columns

@@ -235,10 +235,9 @@ impl SpotLight {
         [whole, first]
     }
 
-    /// What a tree takes for its flux, W. Most nodes
-    /// know no narrow cone, so whether a point lies in it cannot be told; the choice with the least variance over all points is then by the
-    /// root mean square of what they get. That is the geometric mean of the flux and of that of a diffuse emitter as bright along its axis,
-    /// π times the intensity, where the flux is less. Nodes with beams take it from there.
+    /// What a tree takes for its flux, W. Most nodes know no narrow cone, so whether a point lies in it cannot be told; the choice with the
+    /// least variance over all points is then by the root mean square of what they get. That is the geometric mean of the flux and of that
+    /// of a diffuse emitter as bright along its axis, π times the intensity, where the flux is less. Nodes with beams take it from there.
     #[inline(always)]
     fn phi(&self) -> f32 {
         let flux = TWO_PI * self.integrals()[0];

@@ -228,7 +228,7 @@ fn no_light_that_reaches_a_point_is_told_not_to() {
             let reach = scale * 0.01_f32.powf(random.unit());
             let mut own = spots(random, count, reach);
             if random.below(3) == 0 {
-                let kind = random.below(6);
+                let kind = random.below(5);
                 own.push(random.light(kind));
             }
             let mesh = bvh.add_mesh(own).expect("in the domain");
@@ -321,7 +321,7 @@ fn where_no_beam_counts_samples_are_those_without() {
                 place.columns[1] = place.columns[1].map(|x| x * 1.01);
                 spots(random, 5, 1.0)
             } else {
-                (0..25).map(|k| random.light(k % 6)).collect()
+                (0..25).map(|k| random.light(k % 5)).collect()
             };
             let mesh = without.add_mesh(own.clone()).expect("in the domain");
             without.add_instance(mesh, place).expect("in the domain");
