@@ -20,6 +20,12 @@ use crate::workload::{build, words_in_use};
 /// Camera rays per pixel that make edges smooth; the light samples of a pixel are shared out among them.
 const MAX_CAMERA_RAYS: u32 = 8;
 
+/// Where moving lights stand, and what builds their trees in the background.
+type Moving<C, const W: usize> = (
+    Instances<<C as Choice<W>>::Light>,
+    Rebuilder<<C as Choice<W>>::Node, W>,
+);
+
 /// A method of independent samples.
 pub(super) struct Independent<'d, C: Choice<W, Light: SceneLight>, const W: usize> {
     recipe: Recipe,
@@ -27,8 +33,8 @@ pub(super) struct Independent<'d, C: Choice<W, Light: SceneLight>, const W: usiz
     backend: Box<dyn Follow<C, W> + 'd>,
     /// No table walks it.
     bvh: Bvh<C, W>,
-    /// Of two levels: where lights stand, and what builds trees in the background.
-    moving: Option<(Instances<C::Light>, Rebuilder<C::Node, W>)>,
+    /// Of two levels.
+    moving: Option<Moving<C, W>>,
 }
 
 impl<'d, C: Choice<W, Light: SceneLight>, const W: usize> Independent<'d, C, W> {

@@ -2,10 +2,9 @@
 
 use ash::vk;
 use lightbvh_gpu::spirv::Interface;
-use std::collections::HashMap;
-use std::sync::Arc;
 
-/// A kernel, ready to be dispatched on the device it was made for.
+/// A kernel, ready to be dispatched on the device it was made for, which owns its Vulkan objects: its number keeps the kernel from
+/// being used after they are gone.
 #[derive(Debug)]
 pub struct Kernel {
     pub(crate) name: String,
@@ -14,30 +13,6 @@ pub struct Kernel {
     pub(crate) set_layout: vk::DescriptorSetLayout,
     pub(crate) layout: vk::PipelineLayout,
     pub(crate) pipeline: vk::Pipeline,
-}
-
-/// All kernels of a device. It owns their Vulkan objects; [`Kernel`] only names them, and its device's number keeps
-/// it from being used after they are gone.
-#[derive(Default)]
-pub(crate) struct Kernels {
-    /// By name.
-    pub(super) made: HashMap<String, Arc<Kernel>>,
-    /// Those that others of the same name replaced.
-    pub(super) old: Vec<Arc<Kernel>>,
-}
-
-impl Kernels {
-    /// Destroys the pipelines. Nothing that uses them may be running.
-    pub(crate) fn destroy(&mut self, device: &ash::Device) {
-        for kernel in self
-            .made
-            .drain()
-            .map(|(_, kernel)| kernel)
-            .chain(self.old.drain(..))
-        {
-            kernel.destroy(device);
-        }
-    }
 }
 
 impl Kernel {
@@ -49,7 +24,7 @@ impl Kernel {
     /// Destroys the pipeline. Nothing that uses it may be running.
     pub(super) fn destroy(&self, device: &ash::Device) {
         // SAFETY: the handles belong to this device or are null; they are destroyed once: by `new` (`pipeline`) on failure, or by
-        // `Kernels::destroy`, after which the device is gone and its number in `self.device` matches no other.
+        // the device's end, after which the device is gone and its number in `self.device` matches no other.
         unsafe {
             device.destroy_pipeline(self.pipeline, None);
             device.destroy_pipeline_layout(self.layout, None);

@@ -17,12 +17,12 @@ impl Device {
     /// Some drivers compile only at the first dispatch: leave that one out of any timing.
     pub fn kernel(&self, name: &str) -> Result<Arc<Kernel>, VulkanError> {
         let mut kernels = self.shared.kernels();
-        if let Some(kernel) = kernels.made.get(name) {
+        if let Some(kernel) = kernels.iter().rev().find(|kernel| kernel.name == name) {
             return Ok(Arc::clone(kernel));
         }
         let words = built_in(name)?.words();
         let kernel = Arc::new(Kernel::new(&self.shared, name, &words)?);
-        kernels.made.insert(name.to_owned(), Arc::clone(&kernel));
+        kernels.push(Arc::clone(&kernel));
         drop(kernels);
         self.shared.check_validation()?;
         Ok(kernel)
@@ -35,12 +35,7 @@ impl Device {
     /// any program: Vulkan does not promise to catch an invalid one.
     pub fn kernel_from_words(&self, name: &str, words: &[u32]) -> Result<Arc<Kernel>, VulkanError> {
         let kernel = Arc::new(Kernel::new(&self.shared, name, words)?);
-        let mut guard = self.shared.kernels();
-        let kernels = &mut *guard;
-        // A pass may still name an old one's pipeline; it goes when the device does.
-        let old = kernels.made.insert(name.to_owned(), Arc::clone(&kernel));
-        kernels.old.extend(old);
-        drop(guard);
+        self.shared.kernels().push(Arc::clone(&kernel));
         self.shared.check_validation()?;
         Ok(kernel)
     }

@@ -3,14 +3,14 @@
 use super::error::VulkanError;
 use super::fault::Faults;
 use super::instance::Instance;
-use super::kernel::Kernels;
+use super::kernel::Kernel;
 use super::probe::{Candidate, Probe};
 use super::queue::Queue;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use gpu_allocator::{AllocationSizes, AllocatorDebugSettings};
 use std::mem::ManuallyDrop;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, MutexGuard};
+use std::sync::{Arc, Mutex, MutexGuard};
 
 /// Memory is asked of the driver in blocks of this size; larger buffers get their own.
 const MEMORY_BLOCK: u64 = 32 << 20;
@@ -24,7 +24,8 @@ pub(crate) struct Shared {
     pub(crate) raw: ash::Device,
     pub(super) faults: Faults,
     queue: Mutex<Queue>,
-    kernels: Mutex<Kernels>,
+    /// The last of a name is in use; a pass may still name others' pipelines.
+    kernels: Mutex<Vec<Arc<Kernel>>>,
     allocator: Mutex<ManuallyDrop<Allocator>>,
     /// Dropped after all that was made from it.
     pub(crate) instance: ManuallyDrop<Instance>,
@@ -71,7 +72,7 @@ impl Shared {
                 faults: Faults::default(),
                 raw,
                 queue: Mutex::new(queue),
-                kernels: Mutex::new(Kernels::default()),
+                kernels: Mutex::default(),
                 allocator: Mutex::new(ManuallyDrop::new(allocator)),
                 instance: ManuallyDrop::new(instance),
             }),
@@ -89,7 +90,7 @@ impl Shared {
         self.queue.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    pub(crate) fn kernels(&self) -> MutexGuard<'_, Kernels> {
+    pub(crate) fn kernels(&self) -> MutexGuard<'_, Vec<Arc<Kernel>>> {
         self.kernels
             .lock()
             .unwrap_or_else(|poisoned| poisoned.into_inner())
@@ -113,7 +114,9 @@ impl Drop for Shared {
         // SAFETY: the device is alive, and no other thread can use it: this is its last owner. A lost device is an
         // error here, and is safe to destroy all the same.
         let _ = unsafe { self.raw.device_wait_idle() };
-        self.kernels().destroy(&self.raw);
+        for kernel in self.kernels().drain(..) {
+            kernel.destroy(&self.raw);
+        }
         self.queue().destroy(&self.raw);
         // SAFETY: taken once, here; every buffer held this structure, so all of them are gone.
         drop(unsafe { ManuallyDrop::take(&mut *self.allocator()) });

@@ -10,6 +10,7 @@ use crate::method::Method;
 use crate::metrics::{Estimate, Quality};
 
 type Measure = fn(&Quality) -> f64;
+type Time = fn(&[f64; 4]) -> f64;
 
 /// The measures of an image by their names in JSON; errors after them have names that end in `_ci95`.
 const MEASURES: [(&str, Measure); 6] = [
@@ -23,7 +24,7 @@ const MEASURES: [(&str, Measure); 6] = [
 
 /// Times of a frame, ms, out of refit, rebuild, wait and image. The frame's own thread refits, waits and renders, one after the
 /// other.
-const TIMES: [(&str, fn(&[f64; 4]) -> f64); 5] = [
+const TIMES: [(&str, Time); 5] = [
     ("refit_ms", |t| t[0]),
     ("rebuild_ms", |t| t[1]),
     ("wait_ms", |t| t[2]),
