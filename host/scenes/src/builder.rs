@@ -106,7 +106,6 @@ impl SceneBuilder {
             parent,
             transform,
             mesh,
-            ..Node::default()
         });
         self.data.nodes.len() as u32 - 1
     }

@@ -153,7 +153,6 @@ fn node(parent: Option<u32>, transform: Transform, mesh: Option<u32>) -> Node {
         parent,
         transform,
         mesh,
-        ..Node::default()
     }
 }
 

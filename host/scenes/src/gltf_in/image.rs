@@ -11,11 +11,14 @@ use super::super::paint::Picture;
 use super::super::pictures;
 use super::{Document, container, ktx2};
 
+/// A picture and its [mean](pictures::mean_of).
+pub(super) type Decoded = (Picture, [f32; 4]);
+
 /// What has been decoded.
 #[derive(Default)]
 pub(super) struct Pictures {
-    /// By number in the file, with its mean; `None` where it cannot be had.
-    decoded: HashMap<usize, Option<(Picture, [f32; 4])>>,
+    /// By number in the file; `None` where it cannot be had.
+    decoded: HashMap<usize, Option<Decoded>>,
     /// Those that the scene keeps: their numbers in the file.
     kept: Vec<u32>,
     /// What is known of those that glow.
@@ -42,8 +45,8 @@ impl Pictures {
 }
 
 impl Document<'_> {
-    /// Picture `index`, which must be in the list, and its [mean](pictures::mean_of); `None` where it cannot be had, which is noted.
-    pub(super) fn picture(&self, index: usize) -> Result<Option<(Picture, [f32; 4])>, SceneError> {
+    /// Picture `index`, which must be in the list; `None` where it cannot be had, which is noted.
+    pub(super) fn picture(&self, index: usize) -> Result<Option<Decoded>, SceneError> {
         if let Some(known) = self.pictures.borrow().decoded.get(&index) {
             return Ok(known.clone());
         }

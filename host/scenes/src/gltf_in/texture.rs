@@ -10,6 +10,7 @@ use super::super::error::SceneError;
 use super::super::glow::Glow;
 use super::super::paint::{IN_PLACE, Picture, Texture, Wrap};
 use super::Document;
+use super::image::Decoded;
 
 /// A texture with its picture, and which set of coordinates it lies by.
 pub(super) struct Placed {
@@ -90,12 +91,12 @@ impl Document<'_> {
         Ok(found.map(|(_, (_, mean))| mean))
     }
 
-    /// The first picture of a texture that can be decoded, with its number and its mean.
+    /// The first picture of a texture that can be decoded, with its number.
     fn picture_of(
         &self,
         index: json::Index<json::Texture>,
         element: &str,
-    ) -> Result<Option<(usize, (Picture, [f32; 4]))>, SceneError> {
+    ) -> Result<Option<(usize, Decoded)>, SceneError> {
         let texture = self.get(&self.root.textures, index, "texture", element)?;
         let name = format!("textures[{}]", index.value());
         let mut pictures = Vec::new();
