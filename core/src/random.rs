@@ -65,7 +65,7 @@ impl Random64 {
     /// The integer part of the number times `count`, below `count`, and what remains: again a uniform number.
     #[inline(always)]
     #[must_use]
-    pub(crate) fn pick(self, count: u32) -> (u32, Self) {
+    pub fn pick(self, count: u32) -> (u32, Self) {
         let (carry, low) = wide_product(self.low, count);
         let (index, high) = wide_product(self.high, count);
         let sum = high.wrapping_add(carry);

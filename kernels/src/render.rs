@@ -11,11 +11,10 @@ use spirv_std::spirv;
 use crate::bvh::{AnyNode, AnyTree, Node, PaperNode, PaperTree, StandardTree};
 use crate::invocation;
 use crate::shading::camera::Camera;
-use crate::shading::direct::{Samples, reflected};
+use crate::shading::direct::reflected;
 use crate::shading::emitter::Emitter;
 use crate::shading::grid::{TINY, div, flush_vector};
 use crate::shading::material::Material;
-use crate::shading::numbers::Part;
 use crate::shading::path::path_radiance;
 use crate::shading::pick::{Chosen, PickLight, Power, Uniform};
 use crate::shading::pixel::{Scene, see};
@@ -82,21 +81,7 @@ pub fn render_pixel<L: Emitter, P: PickLight>(
 ) -> [f32; 3] {
     let (ray, background, seed) = pixel_ray(camera, params, index);
     let seen = see(scene, &ray, background);
-    let samples = Samples {
-        count: params.samples,
-        first: params.first,
-        all: if params.all == 0 {
-            params.samples
-        } else {
-            params.all
-        },
-        candidates: params.candidates,
-        part: Part {
-            index: params.part,
-            of: params.parts,
-        },
-    };
-    let radiance = seen.direct + reflected(scene, &seen, picker, samples, seed);
+    let radiance = seen.direct + reflected(scene, &seen, picker, params, seed);
     [radiance.x, radiance.y, radiance.z]
 }
 

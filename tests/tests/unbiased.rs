@@ -2,8 +2,9 @@
 
 use glam::Vec3;
 use lightbvh::{EmissiveTriangle, ShadingPoint, exact};
-use lightbvh_kernels::shading::direct::{Samples, reflected};
-use lightbvh_kernels::shading::numbers::Part;
+use lightbvh_host::workload::render_params;
+use lightbvh_kernels::render::RenderParams;
+use lightbvh_kernels::shading::direct::reflected;
 use lightbvh_tests::direct::brute_force;
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::statistics::Mean;
@@ -92,17 +93,15 @@ fn surfaces_converge(seed: u32, walls: bool) {
                 let all = count + candidates % 4;
                 for sample in 0..SAMPLES / (count * candidates) {
                     let seed = exact::hash(sample ^ i << 20);
-                    let samples = Samples {
-                        count,
+                    let params = RenderParams {
                         first: (all - count) * (sample / of % 2),
                         all,
                         candidates,
-                        part: Part {
-                            index: sample % of,
-                            of,
-                        },
+                        part: sample % of,
+                        parts: of,
+                        ..render_params((1, 1), count, 0, [0.0; 3])
                     };
-                    let value = reflected(&world.scene(), &seen, &pick, samples, seed);
+                    let value = reflected(&world.scene(), &seen, &pick, &params, seed);
                     mean.add(f64::from(value.x) * std::f64::consts::PI);
                 }
                 let what = format!("{name}, {count}, each one of {candidates}, at {point:?}");

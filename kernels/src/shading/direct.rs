@@ -16,6 +16,7 @@ use super::pick::PickLight;
 use super::picks::Picks;
 use super::pixel::{Scene, Seen, arriving};
 use super::trace::NONE;
+use crate::render::RenderParams;
 
 /// Most candidates of a sample.
 pub const MAX_CANDIDATES: u32 = 1 << 8;
@@ -23,37 +24,8 @@ pub const MAX_CANDIDATES: u32 = 1 << 8;
 /// Contributions count as at most this, W/(m² sr), so that their product with any weight is finite.
 const MAX_CONTRIBUTION: f32 = pow2(60);
 
-/// The light samples of a pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Samples {
-    /// How many, each with one point on a light and one shadow ray.
-    pub count: u32,
-    /// Number of the first of them among `all`.
-    pub first: u32,
-    /// How many are spread evenly among each other, of which these are `count`.
-    pub all: u32,
-    /// Lights that each is one of, at most [`MAX_CANDIDATES`]; 0 counts as 1, which is a light as picked.
-    pub candidates: u32,
-    /// Which of the pixel's samples these are.
-    pub part: Part,
-}
-
-impl Samples {
-    /// `count` lights as picked.
-    #[must_use]
-    pub const fn of(count: u32) -> Self {
-        Self {
-            count,
-            first: 0,
-            all: count,
-            candidates: 1,
-            part: Part::WHOLE,
-        }
-    }
-}
-
-/// Estimates the light that `seen` reflects to its viewer: the mean of `samples`, of lights chosen by `picker`. `seed` chooses the random
-/// numbers.
+/// Estimates the light that `seen` reflects to its viewer: the mean of the samples of `params`, of lights chosen by `picker`. `seed`
+/// chooses the random numbers.
 ///
 /// The candidates of a sample follow each other in the order of lights, so its ray goes where its part of the lights is, and together
 /// the rays go everywhere. Each candidate's own distribution is that of a single pick, and the expectation of a sum does not ask how its
@@ -64,11 +36,11 @@ pub fn reflected<L: Emitter, P: PickLight>(
     scene: &Scene<'_, L>,
     seen: &Seen,
     picker: &P,
-    samples: Samples,
+    params: &RenderParams,
     seed: u32,
 ) -> Vec3 {
-    let most = if samples.candidates < MAX_CANDIDATES {
-        samples.candidates
+    let most = if params.candidates < MAX_CANDIDATES {
+        params.candidates
     } else {
         MAX_CANDIDATES
     };
@@ -76,15 +48,24 @@ pub fn reflected<L: Emitter, P: PickLight>(
     let mut sum = Vec3::ZERO;
     if length_squared(seen.point.normal()) > 0.0 && seen.material < scene.materials.len() as u32 {
         let material = scene.material(seen);
+        let all = if params.all == 0 {
+            params.samples
+        } else {
+            params.all
+        };
+        let part = Part {
+            index: params.part,
+            of: params.parts,
+        };
         let of_all = |samples: u32| samples.wrapping_mul(count);
         let mut picks = Picks::new(
-            Numbers::of_part(seed, samples.part, of_all(samples.all)),
-            of_all(samples.first),
-            of_all(samples.count),
-            of_all(samples.all),
+            Numbers::of_part(seed, part, of_all(all)),
+            of_all(params.first),
+            of_all(params.samples),
+            of_all(all),
         );
-        for sample in 0..samples.count {
-            let number = samples.part.number(samples.first.wrapping_add(sample));
+        for sample in 0..params.samples {
+            let number = part.number(params.first.wrapping_add(sample));
             let random = hash(seed.wrapping_add(Numbers::USED).wrapping_add(number));
             let mut stream = Resampling::EMPTY;
             let mut found = Connection::NONE;
@@ -113,7 +94,7 @@ pub fn reflected<L: Emitter, P: PickLight>(
             }
         }
     }
-    let count = if samples.count == 0 { 1 } else { samples.count };
+    let count = if params.samples == 0 { 1 } else { params.samples };
     flush_vector(sum * div(1.0, count as i32 as f32), TINY)
 }
 

@@ -157,8 +157,7 @@ fn density(squared: f32, facing: f32, per_area: f32, pmf: f32) -> f32 {
 /// Connects `point` with `at`, a point of a light that was chosen with probability `pmf`, with `d` from one to the other:
 /// `f L (n . d) (-m . d) / (|d|⁴ density pmf)` for the light's unit normal `m`, and `|d|` in the place of `-m . d` where it has none.
 #[inline]
-#[must_use]
-pub fn connect_point(
+fn connect_point(
     point: &ShadingPoint,
     wo: Vec3,
     material: &Material,

@@ -3,6 +3,7 @@
 use lightbvh::exact::pow2;
 use lightbvh::{INVALID, Random64, SampledLight, ShadingPoint};
 
+use super::grid::div;
 use super::trace::NONE;
 
 /// A way to choose lights.
@@ -32,87 +33,39 @@ pub trait PickLight {
     }
 }
 
-/// Random numbers count in 2^-24 here: the number of those that lead to a light then fits an `f32` exactly, and so does
-/// the probability.
-const RANDOM_BITS: u32 = 24;
-/// Most lights that [`Uniform`] and [`Power`] can tell apart.
-pub const MAX_PICKABLE: u32 = 1 << RANDOM_BITS;
-
-/// Every light as likely as the others, to 2^-24.
+/// Every light as likely as the others, as a light BVH's share of uniform choice has it.
 #[derive(Clone, Copy, Debug)]
 pub struct Uniform {
-    /// Number of lights, at most [`MAX_PICKABLE`]; those beyond it are never chosen.
+    /// Number of lights, below 2^31.
     pub count: u32,
 }
 
-impl Uniform {
-    /// How many lights are told apart.
-    #[inline]
-    fn pickable(&self) -> u32 {
-        if self.count < MAX_PICKABLE {
-            self.count
-        } else {
-            MAX_PICKABLE
-        }
-    }
-}
-
 impl PickLight for Uniform {
-    /// Light `floor(r n / 2^24)` for the random number `r`.
     #[inline]
     fn pick(&self, point: &ShadingPoint, random: Random64) -> SampledLight {
-        let count = self.pickable();
-        let light = multiply_shift(random.high >> (32 - RANDOM_BITS), count);
+        let (light, _) = random.pick(self.count);
         SampledLight {
             instance: INVALID,
-            light: if count == 0 { NONE } else { light },
+            light: if self.count == 0 { NONE } else { light },
             pmf: self.pmf(point, light, INVALID),
         }
     }
 
-    /// Light `i` is chosen by `ceil((i+1) 2^24 / n) - ceil(i 2^24 / n)` of the `2^24` random numbers, which differs
-    /// between lights by one, and the pmf says so.
     #[inline]
     fn pmf(&self, _point: &ShadingPoint, light: u32, _instance: u32) -> f32 {
-        let count = self.pickable();
-        // A light beyond the last is asked about as the first, whose arithmetic is in range.
-        let known = light < count;
-        let i = if known { light } else { 0 };
-        let chances = first_random(i + 1, count).wrapping_sub(first_random(i, count));
-        if known {
-            chances as i32 as f32 * pow2(-24)
+        if light < self.count {
+            div(1.0, self.count as i32 as f32)
         } else {
             0.0
         }
     }
 }
 
-/// `floor(a b / 2^24)` for `a < 2^24`, `b <= 2^24`, in 32 bits: the product by halves of `a`.
-#[inline]
-fn multiply_shift(a: u32, b: u32) -> u32 {
-    // a = high 2^12 + low: a b / 2^24 = (high b + low b / 2^12) / 2^12; high b and low b reach 2^36, so b is halved
-    // too: b = b1 2^12 + b0.
-    let (a1, a0) = (a >> 12, a & 0xfff);
-    let (b1, b0) = (b >> 12, b & 0xfff);
-    let middle = a1 * b0 + a0 * b1 + ((a0 * b0) >> 12);
-    a1 * b1 + (middle >> 12)
-}
-
-/// The first random number that leads to light `light` of `count`: `ceil(light 2^24 / count)`.
-#[inline]
-fn first_random(light: u32, count: u32) -> u32 {
-    // Long division, 8 bits of the quotient at a time: remainders stay below 2^24.
-    let divisor = if count == 0 { 1 } else { count };
-    let mut quotient = light / divisor;
-    let mut remainder = light - quotient * divisor;
-    for _ in 0..3 {
-        let shifted = remainder << 8;
-        let digit = shifted / divisor;
-        remainder = shifted - digit * divisor;
-        quotient = (quotient << 8) | digit;
-    }
-    if remainder > 0 { quotient + 1 } else { quotient }
-}
+/// The random numbers of [`Power`] count in 2^-24: the number of those that lead to a light then fits an `f32` exactly, and so
+/// does the probability.
+const RANDOM_BITS: u32 = 24;
+/// Most lights that [`Power`] can tell apart.
+pub const MAX_PICKABLE: u32 = 1 << RANDOM_BITS;
 
 /// Each light as likely as its part of the whole power, to 2^-24, and no light that emits below 2^-24.
 #[derive(Clone, Copy)]
