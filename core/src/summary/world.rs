@@ -8,7 +8,7 @@ use crate::emission::{MAX_SUM, MIN_PHI};
 use crate::exact::{self, exponent, pow2, significand};
 use crate::instance::{Instance, flushed};
 use crate::light::MIN_COORDINATE;
-use crate::vector::{abs3, dot, flush3, greatest_exponent, length_squared, max3};
+use crate::vector::{abs3, dot, flush3, greatest_exponent, length_squared};
 
 /// A constant of its own: rust-gpu does not fold an expression of literals.
 const THIRD: f32 = 1.0 / 3.0;

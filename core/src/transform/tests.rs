@@ -87,7 +87,7 @@ fn the_flux_factor_is_the_mean_change_of_area() {
             ([0.2, 0.5, 0.9], 0.4651),
             ([0.0, 0.0, 3.0], 0.2166),
         ] {
-            let found = f64::from(random(seed).instance_by(color, 2).flux);
+            let found = f64::from(random(seed).instance_by(color, true).flux);
             assert!(
                 (found / (luminance * expected) - 1.0).abs() < 1e-6,
                 "{seed}: {found}"

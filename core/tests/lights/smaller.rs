@@ -1,9 +1,7 @@
 //! Models with less in them: nodes without mean normals. That those nodes have the bits of others, the tests of
 //! moments in `core/src` show.
 
-use lightbvh::{
-    BuildParams, Bvh, EmissiveTriangle, Moments, TwoSidedMomentNode,
-};
+use lightbvh::{BuildParams, Bvh, EmissiveTriangle, Moments, TwoSidedMomentNode};
 
 use crate::kit::{Random, room};
 

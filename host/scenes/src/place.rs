@@ -4,7 +4,6 @@ use lightbvh::light::{EmissiveTriangle, TWO_SIDED};
 use lightbvh_kernels::shading::skin::Corner;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
-use super::analytic::AnalyticKind;
 use super::animate::Pose;
 use super::camera::view_of_node;
 use super::flush::rounded;
@@ -12,7 +11,7 @@ use super::frame::{FRAMES_PER_SECOND, Frame, MeshRange, UNPAINTED};
 use super::lamps;
 use super::model::{Material, SceneData, emits};
 use super::scene::Scene;
-use super::transform::{mirrors, unit_or};
+use super::transform::mirrors;
 
 impl Scene {
     /// The scene at `frame` / [`FRAMES_PER_SECOND`] seconds.

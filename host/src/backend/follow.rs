@@ -178,10 +178,17 @@ fn write<T: Pod>(
     let mut parts: Vec<(usize, &[T])> = Vec::new();
     for step in frame.steps() {
         match step {
-            Step::Resize { buffer: resized, bytes } if resized == own => {
+            Step::Resize {
+                buffer: resized,
+                bytes,
+            } if resized == own => {
                 *buffer = device.buffer(bytes as usize / size_of::<T>())?;
             }
-            Step::Upload { buffer: written, at, bytes } if written == own => {
+            Step::Upload {
+                buffer: written,
+                at,
+                bytes,
+            } if written == own => {
                 parts.push((at as usize / size_of::<T>(), cast_slice(bytes)));
             }
             _ => {}

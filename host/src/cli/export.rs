@@ -34,7 +34,6 @@ pub(super) fn run(args: &Args) -> Result<Outcome, HostError> {
         news!("{}: {warning}", scene.name());
     }
     let is_lost = |kind| !matches!(kind, AnalyticKind::Point | AnalyticKind::Spot { .. });
-    };
     let lights = scene.data().analytic.iter();
     let lost = lights.filter(|light| is_lost(light.kind)).count();
     if lost > 0 {

@@ -2,7 +2,7 @@
 
 use super::device::Device;
 use super::error::VulkanError;
-use super::memory::{Memory, region};
+use super::memory::Memory;
 use super::shared::Shared;
 use bytemuck::Pod;
 use gpu_allocator::MemoryLocation;

@@ -10,7 +10,6 @@ pub use glow::painted_room;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use glam::DVec3;
 use lightbvh::BuildParams;
 use lightbvh::exact::hash;
 use lightbvh_host::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler};
@@ -102,15 +101,6 @@ pub fn add(data: &mut SceneData, transform: Transform, kind: AnalyticKind, inten
         intensity,
         range: None,
     });
-}
-
-/// Shines along this direction.
-pub fn along(d: [f64; 3]) -> Transform {
-    // -Z of the node points along `d`; the other axes are any.
-    let z = -DVec3::from(d).normalize();
-    let (x, y) = z.any_orthonormal_pair();
-    let column = |v: DVec3| v.as_vec3().to_array();
-    Transform::Matrix([column(x), column(y), column(z), [0.0; 3]])
 }
 
 /// Every way to render the scene: the mean of each channel, and its standard error.

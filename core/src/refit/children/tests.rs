@@ -9,7 +9,6 @@ use crate::kit::Random;
 use crate::kit::scenes::{Lamp, bare, lamps};
 use crate::light::AnyLight;
 use crate::node::{CompactNode, LinkedSpotMomentNode, MomentNode, SpotMomentNode, TwoSidedMomentNode};
-use crate::refit::{bottom, top};
 use crate::{Bvh, Transform};
 
 /// Two meshes, a small and a large one, each twice, one of the instances of the larger turned and scaled.

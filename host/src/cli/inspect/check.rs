@@ -148,7 +148,8 @@ impl Source<'_> {
         let pmfs: Vec<f32> = points.par_iter().flat_map_iter(of).collect();
         let pmf = |k: usize, light: u32| pmfs[k * lights.len() + light as usize];
         let variances = variances(lights, points, pmf).into_iter().flatten().collect();
-        let [bytes_per_light, memory_per_light] = [bvh.bytes(), bvh.memory()].map(|own| own as f64 / lights.len().max(1) as f64);
+        let [bytes_per_light, memory_per_light] =
+            [bvh.bytes(), bvh.memory()].map(|own| own as f64 / lights.len().max(1) as f64);
         Ok(Subject {
             cost: Cost {
                 bytes_per_light,

@@ -237,7 +237,7 @@ fn moving(data: &SceneData, with_others: bool) -> usize {
     let shining = |mesh: u32| data.meshes[mesh as usize].primitives.iter().any(shines);
     let nodes = data.nodes.iter().zip(&moves);
     let lit = nodes.filter(|&(node, &moves)| moves && node.mesh.is_some_and(shining));
-    let others = data.analytic.iter().filter(|light| light.light().is_some());
+    let others = data.analytic.iter();
     let others = others.filter(|light| with_others && moves[light.node as usize]);
     lit.count() + others.count()
 }
