@@ -167,15 +167,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// Number of triangles of a mesh that is there.
     fn known_mesh(&self, batch: &Batch, id: MeshId) -> Result<usize, EditReason> {
-        let known = self
-            .meshes
-            .get(id.index as usize)
-            .is_some_and(|mesh| mesh.live && id.tree == self.id.0 && mesh.generation == id.generation);
-        if known && !batch.removed_meshes.contains(&id) {
-            Ok(self.mesh_len(id))
-        } else {
-            Err(EditReason::UnknownMesh(id))
-        }
+        let known = self.mesh_triangles(id);
+        let known = known.filter(|_| !batch.removed_meshes.contains(&id));
+        known.map(<[_]>::len).ok_or(EditReason::UnknownMesh(id))
     }
 
     /// The mesh of an instance that is there.
@@ -190,10 +184,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     fn instances_of(&self, batch: &Batch, id: MeshId) -> usize {
         let now = self.meshes[id.index as usize].users.len() as i64;
         (now + batch.uses.get(&id).copied().unwrap_or(0)) as usize
-    }
-
-    fn mesh_len(&self, id: MeshId) -> usize {
-        self.meshes[id.index as usize].triangles.len()
     }
 
     /// The farthest that a mesh has reached since it was set as a whole.
@@ -211,7 +201,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     ) -> Result<(), EditReason> {
         checked(triangles)?;
         let (known, mut reach) = (self.reach(batch, mesh), reach_of(triangles));
-        if triangles.len() < self.mesh_len(mesh) {
+        if triangles.len() < self.meshes[mesh.index as usize].triangles.len() {
             reach = exact::max(reach, known);
         }
         if reach > known {
