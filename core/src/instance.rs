@@ -33,7 +33,7 @@ pub struct Instance {
     /// Its first light; its lights are numbered without gaps.
     pub first: u32,
     /// The triangle that its first light is.
-    pub first_triangle: u32,
+    pub first_light: u32,
     /// Number of its lights.
     pub count: u32,
     /// Has nothing to do with this instance: entry k of the list of all instances in use stands in record k.
@@ -66,7 +66,7 @@ impl Instance {
         root: u32::MAX,
         blas: u32::MAX,
         first: 0,
-        first_triangle: 0,
+        first_light: 0,
         count: 0,
         listed: 0,
         columns: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
@@ -95,16 +95,14 @@ impl Instance {
     #[inline(always)]
     #[must_use]
     pub fn light_of(&self, triangle: u32) -> u32 {
-        triangle
-            .wrapping_sub(self.first_triangle)
-            .wrapping_add(self.first)
+        triangle.wrapping_sub(self.first_light).wrapping_add(self.first)
     }
 
     /// The triangle of the bottom level that light `light` is.
     #[inline(always)]
     #[must_use]
     pub fn triangle_of(&self, light: u32) -> u32 {
-        light.wrapping_sub(self.first).wrapping_add(self.first_triangle)
+        light.wrapping_sub(self.first).wrapping_add(self.first_light)
     }
 
     #[inline(always)]

@@ -1,4 +1,4 @@
-//! Validated input: emissive triangles that stand in the world, grouped into mesh lights.
+//! Validated input: emissive lights that stand in the world, grouped into mesh lights.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -7,33 +7,31 @@ use core::ops::Range;
 use crate::domain::DomainError;
 use crate::light::{EmissiveTriangle, Light};
 
-/// Most triangles that one light BVH holds: 2^30, so that every index and word address fits 32 bits.
+/// Most lights that one light BVH holds: 2^30, so that every index and word address fits 32 bits.
 pub const MAX_LIGHTS: usize = 1 << 30;
 
-/// Emissive triangles within the domain of this crate, ordered by mesh light. Everything behind this type may rely on
+/// Emissive lights within the domain of this crate, ordered by mesh light. Everything behind this type may rely on
 /// that.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lights<L = EmissiveTriangle> {
-    triangles: Vec<L>,
-    /// First triangle of each mesh light, then the number of triangles.
+    lights: Vec<L>,
+    /// First triangle of each mesh light, then the number of lights.
     starts: Vec<u32>,
 }
 
 impl<L: Light> Lights<L> {
-    /// Takes triangles ordered by mesh light: `mesh` starts at 0 and grows by at most one from triangle to triangle. There may be
+    /// Takes lights ordered by mesh light: `mesh` starts at 0 and grows by at most one from triangle to triangle. There may be
     /// none.
     ///
     /// # Errors
     /// [`LightsError`], naming the triangle, when one is outside the domain or out of order, and when there are more than
     /// [`MAX_LIGHTS`].
-    pub fn new(mut triangles: Vec<L>) -> Result<Self, LightsError> {
-        if triangles.len() > MAX_LIGHTS {
-            return Err(LightsError::TooMany {
-                count: triangles.len(),
-            });
+    pub fn new(mut lights: Vec<L>) -> Result<Self, LightsError> {
+        if lights.len() > MAX_LIGHTS {
+            return Err(LightsError::TooMany { count: lights.len() });
         }
         let mut starts = Vec::new();
-        for (index, triangle) in triangles.iter_mut().enumerate() {
+        for (index, triangle) in lights.iter_mut().enumerate() {
             *triangle = triangle
                 .checked()
                 .map_err(|error| LightsError::Light { index, error })?;
@@ -48,14 +46,14 @@ impl<L: Light> Lights<L> {
                 });
             }
         }
-        starts.push(triangles.len() as u32);
-        Ok(Self { triangles, starts })
+        starts.push(lights.len() as u32);
+        Ok(Self { lights, starts })
     }
 
-    /// The triangles.
+    /// The lights.
     #[must_use]
-    pub fn triangles(&self) -> &[L] {
-        &self.triangles
+    pub fn all(&self) -> &[L] {
+        &self.lights
     }
 
     /// Number of mesh lights.
@@ -64,18 +62,18 @@ impl<L: Light> Lights<L> {
         self.starts.len() - 1
     }
 
-    /// The triangles of mesh light `mesh`, below [`mesh_count`](Self::mesh_count).
+    /// The lights of mesh light `mesh`, below [`mesh_count`](Self::mesh_count).
     #[must_use]
     pub fn mesh(&self, mesh: usize) -> Range<usize> {
         self.starts[mesh] as usize..self.starts[mesh + 1] as usize
     }
 }
 
-/// Why triangles are refused as lights.
+/// Why lights are refused as lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum LightsError {
-    /// More than [`MAX_LIGHTS`] triangles.
+    /// More than [`MAX_LIGHTS`] lights.
     TooMany {
         /// How many there are.
         count: usize,
@@ -104,7 +102,7 @@ impl fmt::Display for LightsError {
             Self::TooMany { count } => {
                 write!(
                     f,
-                    "{count} emissive triangles, expected at most 2^30; split the scene"
+                    "{count} emissive lights, expected at most 2^30; split the scene"
                 )
             }
             Self::Light { index, error } => write!(f, "emissive triangle {index}: {error}"),
@@ -115,7 +113,7 @@ impl fmt::Display for LightsError {
             } => write!(
                 f,
                 "emissive triangle {index} belongs to mesh light {found}, expected {expected} or the one before it; \
-                 order the triangles by mesh light"
+                 order the lights by mesh light"
             ),
         }
     }

@@ -28,15 +28,15 @@ pub(crate) use children::leaf_child;
 pub(crate) use limits::has_limits;
 pub(crate) use limits::limits_below;
 
-/// Node `index` of a bottom level with the summaries of its triangles and of the nodes below it.
+/// Node `index` of a bottom level with the summaries of its lights and of the nodes below it.
 #[inline]
 #[must_use]
-pub fn bottom<N: Node<W>, const W: usize>(nodes: &[N], triangles: &[N::Light], index: u32) -> N {
+pub fn bottom<N: Node<W>, const W: usize>(nodes: &[N], lights: &[N::Light], index: u32) -> N {
     let mut node = nodes[index as usize];
     let mut room = Room::<N::Light, W>::new();
-    below(nodes, 0, triangles, &node, &mut room);
+    below(nodes, 0, lights, &node, &mut room);
     node.set_lanes(&room.children);
-    let limits = limits_below(nodes, 0, triangles, &node, &room.children);
+    let limits = limits_below(nodes, 0, lights, &node, &room.children);
     node.set_limits(&limits, &room.children);
     node
 }
@@ -64,22 +64,22 @@ impl<L: Light, const W: usize> Room<L, W> {
 pub(crate) fn below<N: Node<W>, const W: usize>(
     nodes: &[N],
     first: u32,
-    triangles: &[N::Light],
+    lights: &[N::Light],
     node: &N,
     room: &mut Room<N::Light, W>,
 ) {
-    // Steps over all slots, for processors compute several triangles and several codes at a time.
-    let (mut lights, mut inner) = (0, 0);
+    // Steps over all slots, for processors compute several lights and several codes at a time.
+    let (mut has_lights, mut inner) = (0, 0);
     for slot in 0..W {
         let (to, link) = (node.kind(slot), node.link(slot));
         room.lights.remove(slot);
-        if to == kind::LIGHT && link < triangles.len() as u32 {
-            room.lights.set(slot, &triangles[link as usize]);
-            lights = 1;
+        if to == kind::LIGHT && link < lights.len() as u32 {
+            room.lights.set(slot, &lights[link as usize]);
+            has_lights = 1;
         }
         inner |= u32::from(to == kind::INNER);
     }
-    if lights != 0 {
+    if has_lights != 0 {
         N::Summary::of_lights::<N::Light, W>(&room.lights, &mut room.children);
     } else {
         room.children.fill(&N::Summary::EMPTY);
@@ -111,7 +111,7 @@ pub fn root<N: Node<W>, const W: usize>(nodes: &[N], root: u32) -> BlasRoot {
 pub fn top<N: Node<W>, const W: usize>(
     nodes: &[N],
     first: u32,
-    triangles: &[N::Light],
+    lights: &[N::Light],
     instances: &[Instance],
     roots: &[BlasRoot],
     index: u32,
@@ -120,7 +120,7 @@ pub fn top<N: Node<W>, const W: usize>(
     let mut children = Lanes::<W>([[0.0; W]; SUMMARY_WORDS]);
     let mut limits = [Limits::NONE; W];
     for slot in 0..W {
-        let child = top_child(nodes, first, triangles, instances, roots, index, slot);
+        let child = top_child(nodes, first, lights, instances, roots, index, slot);
         children.set(slot, &child.summary);
         limits[slot] = child.limits;
     }

@@ -17,41 +17,41 @@ const PARALLEL: usize = 2048;
 
 /// [`refit::bottom`] over all `nodes`, a tree in depth-first order whose root is node `first`. Children come before parents, from
 /// the last node to the first, so that memory is read in one direction; subtrees go to several threads.
-pub fn bottom_sweep<N: Node<W>, const W: usize>(nodes: &mut [N], first: u32, triangles: &[N::Light]) {
+pub fn bottom_sweep<N: Node<W>, const W: usize>(nodes: &mut [N], first: u32, lights: &[N::Light]) {
     #[cfg(feature = "rayon")]
     if nodes.len() >= PARALLEL && rayon::current_num_threads() > 1 {
-        return subtrees(nodes, first, triangles, alloc::vec![first]);
+        return subtrees(nodes, first, lights, alloc::vec![first]);
     }
-    one_by_one(nodes, nodes.len(), first, triangles);
+    one_by_one(nodes, nodes.len(), first, lights);
 }
 
-/// Nodes between the one computed and the one whose triangles are asked for.
+/// Nodes between the one computed and the one whose lights are asked for.
 const AHEAD: usize = 4;
 
-/// Asks for the triangles that a node's refit will read.
+/// Asks for the lights that a node's refit will read.
 #[inline(always)]
-fn fetch_triangles<N: Node<W>, const W: usize>(node: &N, triangles: &[N::Light]) {
+fn fetch_triangles<N: Node<W>, const W: usize>(node: &N, lights: &[N::Light]) {
     if cfg!(feature = "prefetch") {
         for slot in 0..W {
             if node.kind(slot) == kind::LIGHT {
-                fetch(triangles, node.link(slot));
+                fetch(lights, node.link(slot));
             }
         }
     }
 }
 
 /// The first `count` nodes, from the last to the first; node `first` stands first.
-fn one_by_one<N: Node<W>, const W: usize>(nodes: &mut [N], count: usize, first: u32, triangles: &[N::Light]) {
+fn one_by_one<N: Node<W>, const W: usize>(nodes: &mut [N], count: usize, first: u32, lights: &[N::Light]) {
     widest(
         #[inline(always)]
         || {
             let mut room = Room::<N::Light, W>::new();
             for index in (0..count).rev() {
                 if let Some(soon) = index.checked_sub(AHEAD) {
-                    fetch_triangles(&nodes[soon], triangles);
+                    fetch_triangles(&nodes[soon], lights);
                 }
-                refit::below(nodes, first, triangles, &nodes[index], &mut room);
-                let limits = refit::limits_below(nodes, first, triangles, &nodes[index], &room.children);
+                refit::below(nodes, first, lights, &nodes[index], &mut room);
+                let limits = refit::limits_below(nodes, first, lights, &nodes[index], &room.children);
                 nodes[index].set_lanes(&room.children);
                 nodes[index].set_limits(&limits, &room.children);
             }
@@ -64,7 +64,7 @@ fn one_by_one<N: Node<W>, const W: usize>(nodes: &mut [N], count: usize, first: 
 fn subtrees<N: Node<W>, const W: usize>(
     nodes: &mut [N],
     first: u32,
-    triangles: &[N::Light],
+    lights: &[N::Light],
     mut starts: Vec<u32>,
 ) {
     use rayon::prelude::*;
@@ -86,14 +86,14 @@ fn subtrees<N: Node<W>, const W: usize>(
     }
     pieces.into_par_iter().for_each(|(start, piece)| {
         if piece.len() < PARALLEL {
-            return one_by_one(piece, piece.len(), start, triangles);
+            return one_by_one(piece, piece.len(), start, lights);
         }
         let root = piece[0];
         let links = (0..W).filter(|&slot| root.kind(slot) == kind::INNER);
         let links = links.map(|slot| root.link(slot)).filter(|&link| link > start);
-        subtrees(piece, start, triangles, links.collect());
+        subtrees(piece, start, lights, links.collect());
     });
-    one_by_one(nodes, own, first, triangles);
+    one_by_one(nodes, own, first, lights);
 }
 
 #[cfg(all(test, feature = "rayon"))]
@@ -126,7 +126,7 @@ mod tests {
                 .build()
                 .expect("threads");
             let mut swept = bare.clone();
-            pool.install(|| bottom_sweep(&mut swept, 0, bvh.triangles()));
+            pool.install(|| bottom_sweep(&mut swept, 0, bvh.lights()));
             let words: [&[u32]; 2] = [bytemuck::cast_slice(&swept), bytemuck::cast_slice(nodes)];
             assert!(words[0] == words[1], "{threads} threads");
         }

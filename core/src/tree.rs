@@ -13,7 +13,7 @@ use crate::trail::{BitTrail, Path, max_levels, place_parts};
 /// A light BVH of one or two levels: borrowed arrays with nodes of layout `N` and width `W`, and what children are chosen by, `I`.
 ///
 /// Both shapes share every function: in a two-level tree the leaves of the starting tree are instances, in a single-level
-/// tree they are triangles and `live` is 0.
+/// tree they are lights and `live` is 0.
 pub struct LightTree<'a, N, I, const W: usize> {
     /// The nodes of all bottom levels.
     pub nodes: &'a [N],
@@ -26,15 +26,15 @@ pub struct LightTree<'a, N, I, const W: usize> {
     pub root: u32,
     /// The instances; those not in use are in no leaf.
     pub instances: &'a [Instance],
-    /// Bit trails of the triangles within the tree that holds them, `trail_words` words each.
+    /// Bit trails of the lights within the tree that holds them, `trail_words` words each.
     pub trails: &'a [u32],
     /// Links of the top level upward.
     pub links: Links<'a>,
-    /// 1 when every tree of triangles fits one word, else 2.
+    /// 1 when every tree of lights fits one word, else 2.
     pub trail_words: u32,
     /// Number of instances in use, listed by [`Instance::listed`]; 0 in a single-level tree.
     pub live: u32,
-    /// Number of triangles of a single-level tree.
+    /// Number of lights of a single-level tree.
     pub lights: u32,
     /// Greatest number of nodes on a path from the root to a light: no walk takes more steps.
     pub depth: u32,
@@ -255,7 +255,7 @@ pub struct TreeWords {
     pub trail_words: u32,
     /// Number of instances in use; 0 in a single-level tree.
     pub live: u32,
-    /// Number of triangles of a single-level tree.
+    /// Number of lights of a single-level tree.
     pub lights: u32,
     /// Greatest number of nodes on a path.
     pub depth: u32,

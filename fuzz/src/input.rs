@@ -124,7 +124,7 @@ pub fn lights(u: &mut Unstructured<'_>) -> Result<Lights> {
 /// The same mesh lights with some triangles elsewhere, or of other radiance.
 pub fn moved(u: &mut Unstructured<'_>, lights: &Lights) -> Result<Lights> {
     let coordinates = Coordinates::choose(u)?;
-    let mut triangles = lights.triangles().to_vec();
+    let mut triangles = lights.all().to_vec();
     for triangle in &mut triangles {
         match u.arbitrary::<u8>()? % 4 {
             0 => {
@@ -229,7 +229,7 @@ pub fn pmf_of<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     point: &ShadingPoint,
     light: u32,
 ) -> f32 {
-    let instance = match lights.triangles().get(light as usize) {
+    let instance = match lights.all().get(light as usize) {
         Some(triangle) if !bvh.is_single_level() => triangle.mesh,
         _ => INVALID,
     };

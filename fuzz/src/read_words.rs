@@ -53,7 +53,7 @@ fn run<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(u: &mut Unstru
     if let Some(own) = words.get_mut(2) {
         *own = length;
     }
-    let point = input::point(u, lights.triangles())?;
+    let point = input::point(u, lights.all())?;
     let Ok(mut bvh) = Bvh::<N, I, W>::from_words(&words) else {
         return Ok(());
     };

@@ -47,7 +47,7 @@ pub fn trees(data: &[u8], forms: Forms) {
 }
 
 fn points(u: &mut Unstructured<'_>, lights: &Lights) -> Result<([ShadingPoint; 2], u32)> {
-    let lights = lights.triangles();
+    let lights = lights.all();
     Ok((
         [input::point(u, lights)?, input::point(u, lights)?],
         u.arbitrary()?,
@@ -107,9 +107,9 @@ fn distributions<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     points: &[ShadingPoint],
     random: u32,
 ) {
-    let shines: Vec<bool> = lights.triangles().iter().map(input::shines::<N, W>).collect();
+    let shines: Vec<bool> = lights.all().iter().map(input::shines::<N, W>).collect();
     for point in points {
-        let count = lights.triangles().len() as u32;
+        let count = lights.all().len() as u32;
         let pmfs: Vec<f32> = (0..count)
             .map(|light| input::pmf_of::<_, I, _>(bvh, lights, point, light))
             .collect();

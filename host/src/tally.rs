@@ -242,7 +242,7 @@ mod tests {
                 Ok(backend.nodes()?)
             })
             .expect("nodes");
-            let lights = (arrays.lights.triangles(), true);
+            let lights = (arrays.lights.all(), true);
             side.compare_queries(&mut tallies, &what, queries(&arrays, 1, 0, 64), lights)
                 .expect("answers");
             let params = render_params((16, 9), 1, 1, [0.0; 3]);

@@ -10,7 +10,7 @@ use lightbvh_kernels::render::RenderParams;
 use crate::backend::{Sampler, SceneArrays, nodes_in_use};
 use crate::error::HostError;
 use crate::render::{RayBvh, camera};
-use crate::scene::{Scene, SceneLight, SkinArrays};
+use crate::scene::{Scene, SceneLight, TextureArrays};
 use crate::stability::random::Random;
 use crate::vector::{dot, normal};
 
@@ -70,13 +70,13 @@ pub fn arrays_lit_by<L: SceneLight>(
     let lights = listed(scene, frame, data.lights())?;
     let rays =
         RayBvh::build(&data.triangles).map_err(|error| HostError::in_frame(scene.name(), frame, error))?;
-    let skin = if L::IS_ANY {
-        data.skin(&rays)
+    let textures = if L::IS_ANY {
+        data.textures(&rays)
     } else {
-        SkinArrays::default()
+        TextureArrays::default()
     };
     let camera = camera(&data.camera, width, height);
-    Ok(SceneArrays::new(rays, data.materials, lights, camera).painted(skin))
+    Ok(SceneArrays::new(rays, data.materials, lights, camera).painted(textures))
 }
 
 /// The light BVH that `sampler` walks; the other samplers walk none and get the two-level one.
@@ -97,7 +97,7 @@ pub fn instance_of<N: Node<W>, I, const W: usize>(
     lights: &Lights<<N as Holds>::Light>,
     light: u32,
 ) -> u32 {
-    match lights.triangles().get(light as usize) {
+    match lights.all().get(light as usize) {
         Some(light) if !bvh.is_single_level() => light.mesh(),
         _ => INVALID,
     }
@@ -132,7 +132,7 @@ fn query<L: SceneLight>(
 ) -> Query {
     let random = &mut Random::new(random);
     let kind = random.unit();
-    let lights = scene.lights.triangles();
+    let lights = scene.lights.all();
     let (mut p, mut n) = if !(0.75..0.98).contains(&kind) {
         let corners = match kind < 0.75 && !surfaces.is_empty() {
             true => surfaces[random.below(surfaces.len() as u32) as usize],

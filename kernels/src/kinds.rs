@@ -52,7 +52,7 @@ macro_rules! points_for_pass {
         pub fn $pass(
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &PointsPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] triangles: &[AnyLight],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] lights: &[AnyLight],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] queries: &[$query],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] samples: &[SampledLight],
@@ -64,7 +64,7 @@ macro_rules! points_for_pass {
             if i < push.count && known {
                 let (point, sample) = (queries[i as usize].point, samples[i as usize]);
                 results[i as usize] =
-                    light_point_for(triangles, instances, &point, &sample, numbers[i as usize]);
+                    light_point_for(lights, instances, &point, &sample, numbers[i as usize]);
             }
         }
     };

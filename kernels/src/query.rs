@@ -128,12 +128,12 @@ pub struct PointsPush {
 #[inline]
 #[must_use]
 pub fn light_point<L: Light>(
-    triangles: &[L],
+    lights: &[L],
     instances: &[Instance],
     sample: &SampledLight,
     uv: [f32; 2],
 ) -> LightPoint {
-    world_light(triangles, instances, sample.light, sample.instance).point_for(Vec3::ZERO, uv)
+    world_light(lights, instances, sample.light, sample.instance).point_for(Vec3::ZERO, uv)
 }
 
 /// Turns each of `samples`, as pass `sample` writes them, into a point on its light in the world, by the two numbers of `numbers`
@@ -142,7 +142,7 @@ pub fn light_point<L: Light>(
 pub fn light_points(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &PointsPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] lights: &[EmissiveTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] samples: &[SampledLight],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] numbers: &[[f32; 2]],
@@ -151,7 +151,7 @@ pub fn light_points(
     let i = invocation(id);
     if i < push.count && i < samples.len() as u32 && i < numbers.len() as u32 {
         let sample = samples[i as usize];
-        results[i as usize] = light_point(triangles, instances, &sample, numbers[i as usize]);
+        results[i as usize] = light_point(lights, instances, &sample, numbers[i as usize]);
     }
 }
 

@@ -67,7 +67,7 @@ macro_rules! refit_passes {
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &RefitPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] lights: &[$light],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] nodes: &[$node],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] children: &mut [Children<
                 { $width },
@@ -80,7 +80,7 @@ macro_rules! refit_passes {
             if i < push.count && entry < list.len() as u32 {
                 let node = list[entry as usize];
                 if node < nodes.len() as u32 {
-                    let child = refit::bottom_child(nodes, triangles, node, slot);
+                    let child = refit::bottom_child(nodes, lights, node, slot);
                     child.put(children, place, slot);
                 }
             }
@@ -93,7 +93,7 @@ macro_rules! refit_passes {
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &RefitPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] lights: &[$light],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] roots: &[BlasRoot],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] nodes: &[$node],
@@ -108,7 +108,7 @@ macro_rules! refit_passes {
             if i < push.count && entry < list.len() as u32 {
                 let node = list[entry as usize];
                 if node < nodes.len() as u32 {
-                    let child = refit::top_child(nodes, push.top, triangles, instances, roots, node, slot);
+                    let child = refit::top_child(nodes, push.top, lights, instances, roots, node, slot);
                     child.put(children, place, slot);
                 }
             }
@@ -174,7 +174,7 @@ mod tests {
 
     /// Two leaves and their parent, then a top level of two instances and a node without children.
     fn arrays() -> (Vec<Node>, Vec<EmissiveTriangle>, Vec<Instance>) {
-        let triangles = (0..9_u8).map(|i| EmissiveTriangle {
+        let lights = (0..9_u8).map(|i| EmissiveTriangle {
             p: [
                 [f32::from(i), 0.0, 0.0],
                 [f32::from(i), 1.0, 0.0],
@@ -202,21 +202,21 @@ mod tests {
         (instance.root, instance.blas) = (0, 0);
         // Of one light.
         let mut alone = Instance::IDENTITY;
-        alone.first_triangle = 4;
-        (nodes, triangles.collect(), vec![instance, alone])
+        alone.first_light = 4;
+        (nodes, lights.collect(), vec![instance, alone])
     }
 
     /// Dispatches over a list of which some entries are no nodes, with more invocations than it has entries.
     #[test]
     fn passes_over_children_and_nodes_are_the_refit() {
-        let (mut nodes, triangles, instances) = arrays();
+        let (mut nodes, lights, instances) = arrays();
         let mut expected = nodes.clone();
         for i in [1, 2, 0] {
-            expected[i as usize] = refit::bottom(&expected, &triangles, i);
+            expected[i as usize] = refit::bottom(&expected, &lights, i);
         }
         let roots = [refit::root(&expected, 0)];
         for i in [4, 3] {
-            expected[i as usize] = refit::top(&expected, TOP, &triangles, &instances, &roots, i);
+            expected[i as usize] = refit::top(&expected, TOP, &lights, &instances, &roots, i);
         }
 
         let list = [77, 1, 5, 2, 0, u32::MAX, 4, 3];
@@ -245,14 +245,14 @@ mod tests {
                         id(i),
                         &push,
                         &list,
-                        &triangles,
+                        &lights,
                         &instances,
                         &found,
                         &nodes,
                         &mut children,
                     );
                 } else {
-                    refit_bottom(id(i), &push, &list, &triangles, &nodes, &mut children);
+                    refit_bottom(id(i), &push, &list, &lights, &nodes, &mut children);
                 }
             }
             let push = RefitPush {
@@ -268,7 +268,7 @@ mod tests {
     /// A buffer of children with one place too few, a count beyond the list: nothing else is written.
     #[test]
     fn what_has_no_room_is_left_out() {
-        let (mut nodes, triangles, _) = arrays();
+        let (mut nodes, lights, _) = arrays();
         let before = nodes.clone();
         let mut children = vec![[[7; WIDTH]; PLAIN_ROWS]; 1];
         let push = RefitPush {
@@ -278,12 +278,12 @@ mod tests {
         };
         for i in 0..64 {
             let id = UVec3::new(i, 0, 0);
-            refit_bottom(id, &push, &[2, 1], &triangles, &nodes, &mut children);
+            refit_bottom(id, &push, &[2, 1], &lights, &nodes, &mut children);
         }
         for i in 0..64 {
             refit_nodes(UVec3::new(i, 0, 0), &push, &[2, 1], &children, &mut nodes);
         }
-        assert_eq!(nodes[2], refit::bottom(&before, &triangles, 2));
+        assert_eq!(nodes[2], refit::bottom(&before, &lights, 2));
         assert_ne!(nodes[2], before[2]);
         assert_eq!((nodes[0], nodes[1]), (before[0], before[1]));
     }

@@ -19,7 +19,7 @@ use crate::shading::path::path_radiance;
 use crate::shading::pick::{Chosen, PickLight, Power, Uniform};
 use crate::shading::pixel::{Scene, see};
 use crate::shading::ray::Ray;
-use crate::shading::skin::{Corner, NoSkin, SkinView};
+use crate::shading::textures::{Corner, NoTextures, TextureView};
 use crate::shading::trace::{RayNode, TriangleBlock};
 use lightbvh::TreeWords;
 
@@ -131,7 +131,7 @@ pub struct RenderPush {
 macro_rules! render_pass {
     (
         $pass:ident = $name:tt, $is_paths:literal, $tree:ident, $light:ty, $node:ty,
-        [$($at:tt $own:ident: $word:ty),*], $skin:expr, $results:tt
+        [$($at:tt $own:ident: $word:ty),*], $textures:expr, $results:tt
     ) => {
         /// Direct lighting, or light along paths.
         #[spirv(compute(threads(64), entry_point_name = $name))]
@@ -141,7 +141,7 @@ macro_rules! render_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[$light],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] nodes: &[$node],
@@ -152,14 +152,14 @@ macro_rules! render_pass {
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $skin);
+                let scene = Scene::new(ray_nodes, surfaces, materials, lights, instances, $textures);
                 let tree: $tree<'_> = push.tree.tree(nodes, instances, trails);
                 let picker = Chosen {
                     by: push.by,
                     tree,
                     power: Power { thresholds },
                     uniform: Uniform {
-                        count: triangles.len() as u32,
+                        count: lights.len() as u32,
                     },
                 };
                 let pixel = push.first.wrapping_add(i);
@@ -188,7 +188,7 @@ render_passes!(
     EmissiveTriangle,
     Node,
     [],
-    NoSkin,
+    NoTextures,
     9
 );
 render_passes!(
@@ -198,7 +198,7 @@ render_passes!(
     EmissiveTriangle,
     PaperNode,
     [],
-    NoSkin,
+    NoTextures,
     9
 );
 render_passes!(
@@ -208,6 +208,6 @@ render_passes!(
     AnyLight,
     AnyNode,
     [9 corners: Corner, 10 paint: u32],
-    SkinView { corners, words: paint },
+    TextureView { corners, words: paint },
     11
 );

@@ -160,7 +160,7 @@ pub fn any_cone(random: &mut Random) -> Cone {
 #[must_use]
 pub fn moved(lights: &Lights, seed: u32) -> Lights {
     let mut random = Random::new(seed);
-    let triangles = lights.triangles().iter().map(|t| {
+    let triangles = lights.all().iter().map(|t| {
         let by = [0; 3].map(|_| random.between(1.0, 5.0));
         let fade = exact::pow2(random.below(4) as i32);
         EmissiveTriangle {

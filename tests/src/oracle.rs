@@ -89,7 +89,7 @@ pub fn all_pmfs<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     lights: &Lights,
     point: &ShadingPoint,
 ) -> Vec<f32> {
-    (0..lights.triangles().len() as u32)
+    (0..lights.all().len() as u32)
         .map(|i| pmf_of::<_, I, _>(bvh, lights, point, i))
         .collect()
 }

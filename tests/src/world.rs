@@ -10,7 +10,7 @@ use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::{Scene, Seen};
-use lightbvh_kernels::shading::skin::Spot;
+use lightbvh_kernels::shading::textures::Spot;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
 use crate::statistics::{Mean, normal_quantile};
@@ -103,7 +103,7 @@ impl World {
             surfaces: self.bvh.surfaces(),
             materials: &self.material,
             emitters: Emitters {
-                triangles: &self.lights,
+                lights: &self.lights,
                 instances: &self.instances,
             },
         }

@@ -108,7 +108,7 @@ where
     let mut instances = Vec::new();
     for (count, words) in [(5, 1), (60, 2), (7, 2)] {
         let triangles = match count {
-            60 => shrinking(count, count, true).triangles().to_vec(),
+            60 => shrinking(count, count, true).all().to_vec(),
             _ => generate::small_triangles(count, 100, 1.0, 0.1, false, 3),
         };
         let mesh = scene.add_mesh(triangles).expect("a mesh");
@@ -117,10 +117,7 @@ where
         scene.refit();
         scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
         assert_eq!(scene.tree().trail_words, words, "{count} lights");
-        assert_eq!(
-            scene.tree().trails.len(),
-            scene.triangles().len() * words as usize
-        );
+        assert_eq!(scene.tree().trails.len(), scene.lights().len() * words as usize);
         for _ in 0..20 {
             let d = exact::pow2(38 - random.below(100) as i32);
             let point = ShadingPoint {

@@ -163,7 +163,7 @@ impl<'d, N: Node<W>, const W: usize> Held<'d, N, W> {
         let expected: Vec<_> = (0..picked.len())
             .map(|k| {
                 let SampledLight { light, instance, .. } = picked[k];
-                let light = world_light(bvh.triangles(), tree.instances, light, instance);
+                let light = world_light(bvh.lights(), tree.instances, light, instance);
                 light.point_for(points[k].position(), uv[k])
             })
             .collect();
@@ -240,9 +240,9 @@ where
                     transform: place(random, k),
                 })
                 .collect();
-            edits.push(Edit::SetTriangles {
+            edits.push(Edit::SetLights {
                 mesh: meshes[frame % 4],
-                triangles: mesh(random, counts[frame % 4]),
+                lights: mesh(random, counts[frame % 4]),
             });
             let at = (7 * frame + 20) % 60;
             edits.push(Edit::RemoveInstance(ids[at]));

@@ -44,7 +44,7 @@ fn words<T: Pod>(values: &[T]) -> Vec<u32> {
 /// All nodes and roots, computed anew in the order of the passes, child by child.
 #[inline(never)]
 fn refitted<N: Node<W>, const W: usize, const ROWS: usize>(bvh: &Bvh<N, (), W>) -> (Vec<u32>, Vec<u32>) {
-    let (plan, triangles, instances) = (bvh.plan_of_everything(), bvh.triangles(), bvh.tree().instances);
+    let (plan, triangles, instances) = (bvh.plan_of_everything(), bvh.lights(), bvh.tree().instances);
     let (mut nodes, mut roots) = ([bvh.nodes(), bvh.top_nodes()].concat(), bvh.roots().to_vec());
     let first = bvh.nodes().len() as u32;
     let mut children = [[[0; W]; ROWS]];

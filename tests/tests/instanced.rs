@@ -71,10 +71,10 @@ fn images_by_instances_are_those_by_lights_in_the_world() {
         ..render_params(SIZE, 4, 11, BACKGROUND)
     };
     let own = Emitters {
-        triangles: bvh.triangles(),
+        lights: bvh.lights(),
         instances: bvh.tree().instances,
     };
-    assert!(own.triangles.len() * 4 < world.lights.len(), "meshes are shared");
+    assert!(own.lights.len() * 4 < world.lights.len(), "meshes are shared");
     let (listed, through) = (
         world.scene(),
         Scene {
@@ -108,7 +108,7 @@ fn one_instance_is_meant_by_any_name() {
     let light_of = |k: usize| bvh.lights_of(ids[k]).expect("there").start;
     for count in [1, 2, 3] {
         let emitters = Emitters {
-            triangles: bvh.triangles(),
+            lights: bvh.lights(),
             instances: &all[..count],
         };
         for instance in (0..4).chain((count == 1).then_some(INVALID)) {

@@ -93,22 +93,20 @@ fn edits() {
         says(&error, words);
     };
     let triangles = |count| vec![LAMP; count];
-    let none = Edit::AddMesh {
-        triangles: triangles(0),
-    };
+    let none = Edit::AddMesh { lights: triangles(0) };
     refused(none, &["without lights"]);
     let mut lamps = triangles(3);
     lamps[1].radiance[2] = f32::NAN;
-    refused(Edit::AddMesh { triangles: lamps }, &["light 1", "blue", "NaN"]);
-    let fewer = Edit::SetTriangles {
+    refused(Edit::AddMesh { lights: lamps }, &["light 1", "blue", "NaN"]);
+    let fewer = Edit::SetLights {
         mesh,
-        triangles: triangles(2),
+        lights: triangles(2),
     };
     refused(fewer, &["2 lights for a mesh of 3"]);
-    let beyond = Edit::SetTriangleRange {
+    let beyond = Edit::SetLightRange {
         mesh,
         first: 2,
-        triangles: triangles(2),
+        lights: triangles(2),
     };
     refused(beyond, &["lights 2 to 4 of a mesh of 3", "within it"]);
     let bright = ["factor on radiance", "2^-60 to 2^60"];

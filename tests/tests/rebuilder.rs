@@ -170,9 +170,9 @@ fn a_panic_is_reported_once_and_the_next_build_is_sound() {
         let mut rebuilder = rebuilder(swap);
         // Builds of the top level and of the mesh, in turn.
         for _ in 0..4 {
-            let mut triangles = scene.mesh_triangles(mesh).expect("there").to_vec();
+            let mut triangles = scene.mesh_lights(mesh).expect("there").to_vec();
             triangles.rotate_left(7);
-            scene.set_triangles(mesh, triangles).expect("as many");
+            scene.set_lights(mesh, triangles).expect("as many");
             scene.refit();
             let before = scene.to_words();
             *lock(&GATE) = true;

@@ -12,7 +12,7 @@ use lightbvh_kernels::shading::emitters::listed;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::Scene;
-use lightbvh_kernels::shading::skin::SkinView;
+use lightbvh_kernels::shading::textures::TextureView;
 use lightbvh_kernels::shading::trace::Surfaces;
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::scenes::{self, Any};
@@ -101,7 +101,7 @@ proptest! {
             lights.push(light.checked().expect("a light in the domain"));
         }
         let bvh = RayBvh::build(&surfaces).unwrap();
-        let skin = SkinView { corners: &[], words: &[] };
+        let textures = TextureView { corners: &[], words: &[] };
         let Surfaces { nodes, blocks, .. } = bvh.surfaces();
         let materials = [Material {
             albedo: [0.8, exact::pow2(-110), 1e-3],
@@ -109,7 +109,7 @@ proptest! {
             exponent_log2: seed % 17,
         }];
         let instances = listed(lights.len() as u32);
-        let scene = Scene::new(nodes, blocks, &materials, &lights, &instances, skin);
+        let scene = Scene::new(nodes, blocks, &materials, &lights, &instances, textures);
         let (camera, params) = looking(random, size);
         let thresholds = power_thresholds(&lights).unwrap();
         for [plain, flushed] in [

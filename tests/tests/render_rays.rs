@@ -4,7 +4,7 @@ use glam::Vec3;
 use lightbvh_host::render::{RayBvh, RayBvhError};
 use lightbvh_kernels::shading::grid::{MAX_COORDINATE, snap};
 use lightbvh_kernels::shading::ray::{FAR, MISS, Ray};
-use lightbvh_kernels::shading::skin::NoSkin;
+use lightbvh_kernels::shading::textures::NoTextures;
 use lightbvh_kernels::shading::trace::{Hit, LANES, NONE, RayNode, Surfaces, WIDTH, any_hit, closest_hit};
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::soup::{in_cube, soup};
@@ -98,7 +98,7 @@ fn hostile_words_end_in_bounded_steps() {
         let surfaces = Surfaces {
             nodes: &nodes,
             blocks: &blocks,
-            skin: NoSkin,
+            textures: NoTextures,
         };
         for _ in 0..20 {
             let hit = closest_hit(&surfaces, &random_ray(random, 1.0));

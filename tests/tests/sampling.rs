@@ -42,7 +42,7 @@ fn a_defensive_mixture_keeps_the_uniform_share() {
         let mut random = Random::new(H);
         for _ in 0..20 {
             let point = generate::point(&mut random, 10.0);
-            for (light, triangle) in (0..).zip(lights.triangles()) {
+            for (light, triangle) in (0..).zip(lights.all()) {
                 let uniform = if two {
                     1.0 / lights.mesh_count() as f64 / lights.mesh(triangle.mesh as usize).len() as f64
                 } else {
@@ -65,7 +65,7 @@ fn a_defensive_mixture_keeps_the_uniform_share() {
             assert_eq!(light(end - 1), 99);
             let first = leaves(&bvh.tree())
                 .into_iter()
-                .find(|&(i, _)| flux::<CompactNode<4>, 4>(&lights.triangles()[i as usize]) > 0.0);
+                .find(|&(i, _)| flux::<CompactNode<4>, 4>(&lights.all()[i as usize]) > 0.0);
             assert_eq!(Some(light(end)), first.map(|(triangle, _)| triangle));
         }
     }
@@ -78,7 +78,7 @@ fn a_defensive_mixture_keeps_the_uniform_share() {
 
 /// Lights by their place in the order of the slots; the order of numbers is that of the lights.
 fn places<N: LightNode<W>, const W: usize>(bvh: &Bvh<N, (), W>, lights: &Lights) -> Vec<usize> {
-    let mut places = vec![usize::MAX; lights.triangles().len()];
+    let mut places = vec![usize::MAX; lights.all().len()];
     for (place, (triangle, _)) in leaves(&bvh.tree()).into_iter().enumerate() {
         places[triangle as usize] = place;
     }
@@ -126,7 +126,7 @@ fn numbers_are_ordered<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize
             .collect();
         assert!(halves.is_sorted(), "{} {W} at {point:?}", N::NAME);
 
-        let mut order: Vec<u32> = (0..lights.triangles().len() as u32).collect();
+        let mut order: Vec<u32> = (0..lights.all().len() as u32).collect();
         order.sort_unstable_by_key(|&light| places[light as usize]);
         // The first number of a light from `place` on; 2^64 behind the last.
         let first = |wanted: usize| -> u128 {

@@ -146,17 +146,12 @@ pub unsafe extern "C" fn lightbvh_set_triangle_range(
         Handle::change(bvh, |bvh| {
             let mesh = mesh.id()?;
             // Before they are read: a wrong count is one of memory that the caller has not.
-            let own = bvh.mesh_triangles(mesh).map(<[_]>::len);
-            if let Some(triangles) = own.filter(|&own| own.saturating_sub(first as usize) < count) {
-                return Err(refused(EditReason::Range {
-                    first,
-                    count,
-                    triangles,
-                }));
+            let own = bvh.mesh_lights(mesh).map(<[_]>::len);
+            if let Some(lights) = own.filter(|&own| own.saturating_sub(first as usize) < count) {
+                return Err(refused(EditReason::Range { first, count, lights }));
             }
-            let triangles = raw::at_most_lights(triangles, count, "triangles")?;
-            bvh.set_triangle_range(mesh, first, triangles.to_vec())
-                .map_err(refused)
+            let lights = raw::at_most_lights(triangles, count, "triangles")?;
+            bvh.set_light_range(mesh, first, lights.to_vec()).map_err(refused)
         })
     }
 }

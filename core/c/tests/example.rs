@@ -59,7 +59,7 @@ fn expected() -> String {
     bvh.set_radiance(lamps[41], [0.5, 0.25, 0.125]).unwrap();
     bvh.remove_instance(lamps[42]).unwrap();
     lamp.p[1][0] = 0.0625;
-    bvh.set_triangles(mesh, vec![lamp]).unwrap();
+    bvh.set_lights(mesh, vec![lamp]).unwrap();
     bvh.refit();
     let mut text = String::new();
     for range in bvh.take_removed_lights() {
@@ -94,7 +94,7 @@ fn expected() -> String {
         let start = rebuilder.begin_frame(&mut bvh).unwrap();
         trees += u32::from(start.swapped) + start.meshes;
         meshes += start.meshes;
-        bvh.set_triangles(mesh, arrange(frame)).unwrap();
+        bvh.set_lights(mesh, arrange(frame)).unwrap();
         bvh.refit();
         rebuilder.end_frame(&bvh);
     }

@@ -26,17 +26,17 @@ pub(crate) fn build_each<N: Node<W>, const W: usize>(
     meshes.iter().map(|mesh| build_over(mesh, params)).collect()
 }
 
-/// Builds a tree over `triangles`, at least one, numbered from 0.
+/// Builds a tree over `lights`, at least one, numbered from 0.
 pub(crate) fn build_over<N: Node<W>, const W: usize>(
-    triangles: &[N::Light],
+    lights: &[N::Light],
     params: &BuildParams,
 ) -> Topology<N> {
     if params.heuristic != Heuristic::Ward {
         let bounds = |(i, light): (u32, &N::Light)| Primitive::new(i, &light.bounds());
-        let mut primitives: Vec<Primitive> = (0..).zip(triangles).map(bounds).collect();
+        let mut primitives: Vec<Primitive> = (0..).zip(lights).map(bounds).collect();
         return build_binary::<N, W>(&mut primitives, kind::LIGHT, params);
     }
-    let primitives = (0..).zip(triangles);
+    let primitives = (0..).zip(lights);
     let mut primitives: Vec<_> = primitives
         .map(|(index, light)| WardPrimitive::of_light(index, light))
         .collect();

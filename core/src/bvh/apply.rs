@@ -26,7 +26,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Until then probabilities are exact and no removed light is returned, but a sample may be none if a light was removed,
     /// and added lights have the uniform share alone.
     ///
-    /// Time is in proportion to the edits, to the triangles in them, and to the instances of each mesh that is deformed as a
+    /// Time is in proportion to the edits, to the lights in them, and to the instances of each mesh that is deformed as a
     /// whole, reaches farther than before, or gets its first [surface](crate::light::Light::is_surface) or loses its
     /// last, as often as it is. A mesh is built within the call that adds it: 0.2 to 0.4 µs for each triangle. The top level
     /// is edited by the next refit (measured: `docs/dynamics.md`).
@@ -38,17 +38,17 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             self.meshes[mesh.index as usize].reach = reach;
         }
         let new_meshes = edits.iter().filter_map(|edit| match edit {
-            Edit::AddMesh { triangles } => Some(&**triangles),
+            Edit::AddMesh { lights } => Some(&**lights),
             _ => None,
         });
         let mut topologies = build_each(&new_meshes.collect::<Vec<_>>(), &self.params).into_iter();
         let mut updated = Added::default();
         for edit in edits {
             match edit {
-                Edit::AddMesh { triangles } => {
+                Edit::AddMesh { lights } => {
                     let mesh = topologies
                         .next()
-                        .map(|topology| self.insert_mesh(&triangles, &topology));
+                        .map(|topology| self.insert_mesh(&lights, &topology));
                     updated.meshes.extend(mesh);
                 }
                 Edit::AddInstance {
@@ -89,12 +89,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                         self.place(instance.index);
                     }
                 }
-                Edit::SetTriangles { mesh, triangles } => self.write_triangles(mesh.index, 0, &triangles),
-                Edit::SetTriangleRange {
-                    mesh,
-                    first,
-                    triangles,
-                } => self.write_triangles(mesh.index, first, &triangles),
+                Edit::SetLights { mesh, lights } => self.write_triangles(mesh.index, 0, &lights),
+                Edit::SetLightRange { mesh, first, lights } => {
+                    self.write_triangles(mesh.index, first, &lights)
+                }
                 Edit::RemoveInstance(id) => self.take_instance(id.index),
                 Edit::RemoveMesh(id) => self.take_mesh(id.index),
             }
@@ -130,7 +128,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let old = self.placed.get(index as usize);
         let (generation, is_stale) = old.map_or((0, false), |old| (old.generation + 1, old.is_stale));
         let own = &mut self.meshes[mesh.index as usize];
-        let (user, count) = (own.users.len() as u32, own.triangles.len());
+        let (user, count) = (own.users.len() as u32, own.lights.len());
         own.users.push(index);
         self.light_count += count;
         let placed = InstanceState {
@@ -142,7 +140,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             radiance,
             mask,
             listed: self.live.len() as u32,
-            lights: self.lights.take(count as u32),
+            numbers: self.numbers.take(count as u32),
             is_stale,
         };
         put(&mut self.placed, index, placed);
@@ -162,7 +160,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         let placed = &mut self.placed[index as usize];
         placed.live = false;
-        let (mesh, user, listed, lights) = (placed.mesh, placed.user, placed.listed, placed.lights.clone());
+        let (mesh, user, listed, lights) = (placed.mesh, placed.user, placed.listed, placed.numbers.clone());
         let own = &mut self.meshes[mesh as usize];
         own.users.swap_remove(user as usize);
         if let Some(&moved) = own.users.get(user as usize) {
@@ -203,9 +201,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         Instance {
             root: mesh.root(),
             blas: placed.mesh,
-            first: placed.lights.start,
-            first_triangle: mesh.triangles.start,
-            count: placed.lights.len() as u32,
+            first: placed.numbers.start,
+            first_light: mesh.lights.start,
+            count: placed.numbers.len() as u32,
             listed: self.instances[index as usize].listed,
             mask: placed.mask,
             ..placed.transform.instance_by(placed.radiance, mesh.is_by_area)

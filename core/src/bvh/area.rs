@@ -13,8 +13,8 @@ pub(super) fn is_by_area<L: Light>(lights: &[L]) -> bool {
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Whether the flux of a mesh goes by area.
     pub(super) fn goes_by_area(&self, mesh: u32) -> bool {
-        let own = &self.meshes[mesh as usize].triangles;
-        is_by_area(&self.triangles[own.start as usize..own.end as usize])
+        let own = &self.meshes[mesh as usize].lights;
+        is_by_area(&self.lights[own.start as usize..own.end as usize])
     }
 }
 

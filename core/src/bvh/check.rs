@@ -28,26 +28,26 @@ struct Batch {
     added: BTreeMap<MeshId, Vec<Transform>>,
     /// Whether a later edit may ask for those.
     deforms: bool,
-    /// Ends of the numbers of instances, of lights and of triangles.
+    /// Ends of the numbers of instances, of lights and of lights.
     instances: usize,
+    numbers: usize,
     lights: usize,
-    triangles: usize,
 }
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
-    /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns how far meshes
+    /// Brings all lights of the batch into the domain, or says which edit cannot be done. Returns how far meshes
     /// reach that are deformed.
     pub(super) fn check(&self, edits: &mut [Edit<N::Light>]) -> Result<Reaches, EditError> {
         let deforms = |edit: &Edit<N::Light>| {
             matches!(
                 edit,
-                Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. } | Edit::SetLight { .. }
+                Edit::SetLights { .. } | Edit::SetLightRange { .. } | Edit::SetLight { .. }
             )
         };
         let mut batch = Batch {
             instances: self.placed_ranges.end() as usize,
-            lights: self.lights.end() as usize,
-            triangles: self.triangle_ranges.end() as usize,
+            numbers: self.numbers.end() as usize,
+            lights: self.light_ranges.end() as usize,
             deforms: edits.iter().any(deforms),
             ..Batch::default()
         };
@@ -59,16 +59,16 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     fn check_one(&self, batch: &mut Batch, edit: &mut Edit<N::Light>) -> Result<(), EditReason> {
-        if self.single && !matches!(edit, Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. }) {
+        if self.single && !matches!(edit, Edit::SetLights { .. } | Edit::SetLightRange { .. }) {
             return Err(EditReason::SingleLevel);
         }
         match edit {
-            Edit::AddMesh { triangles } => {
-                if triangles.is_empty() {
+            Edit::AddMesh { lights } => {
+                if lights.is_empty() {
                     return Err(EditReason::EmptyMesh);
                 }
-                checked(triangles)?;
-                batch.triangles += triangles.len();
+                checked(lights)?;
+                batch.lights += lights.len();
             }
             &mut Edit::AddInstance {
                 mesh,
@@ -86,13 +86,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                     batch.added.entry(mesh).or_default().push(transform);
                 }
                 batch.instances += 1;
-                batch.lights += count;
+                batch.numbers += count;
             }
             Edit::AddLight { light, mask: _ } => {
                 checked(core::slice::from_mut(light))?;
                 batch.instances += 1;
+                batch.numbers += 1;
                 batch.lights += 1;
-                batch.triangles += 1;
             }
             Edit::SetLight { instance, light } => {
                 let mesh = self.known_instance(batch, *instance)?;
@@ -117,29 +117,25 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             &mut Edit::SetMask { instance, mask: _ } => {
                 self.known_instance(batch, instance)?;
             }
-            Edit::SetTriangles { mesh, triangles } => {
+            Edit::SetLights { mesh, lights } => {
                 let expected = self.known_mesh(batch, *mesh)?;
-                if triangles.len() != expected {
-                    let found = triangles.len();
+                if lights.len() != expected {
+                    let found = lights.len();
                     return Err(EditReason::Count { expected, found });
                 }
-                self.check_triangles(batch, *mesh, triangles)?;
+                self.check_triangles(batch, *mesh, lights)?;
             }
-            Edit::SetTriangleRange {
-                mesh,
-                first,
-                triangles,
-            } => {
+            Edit::SetLightRange { mesh, first, lights } => {
                 let all = self.known_mesh(batch, *mesh)?;
-                let end = (*first as usize).checked_add(triangles.len());
+                let end = (*first as usize).checked_add(lights.len());
                 if end.is_none_or(|end| end > all) {
                     return Err(EditReason::Range {
                         first: *first,
-                        count: triangles.len(),
-                        triangles: all,
+                        count: lights.len(),
+                        lights: all,
                     });
                 }
-                self.check_triangles(batch, *mesh, triangles)?;
+                self.check_triangles(batch, *mesh, lights)?;
             }
             &mut Edit::RemoveInstance(id) => {
                 let mesh = self.known_instance(batch, id)?;
@@ -159,15 +155,15 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             }
         }
         let is_full = batch.instances > MAX_PLACES as usize;
-        if is_full || batch.lights > MAX_LIGHTS || batch.triangles > MAX_LIGHTS {
+        if is_full || batch.numbers > MAX_LIGHTS || batch.lights > MAX_LIGHTS {
             return Err(EditReason::TooMany);
         }
         Ok(())
     }
 
-    /// Number of triangles of a mesh that is there.
+    /// Number of lights of a mesh that is there.
     fn known_mesh(&self, batch: &Batch, id: MeshId) -> Result<usize, EditReason> {
-        let known = self.mesh_triangles(id);
+        let known = self.mesh_lights(id);
         let known = known.filter(|_| !batch.removed_meshes.contains(&id));
         known.map(<[_]>::len).ok_or(EditReason::UnknownMesh(id))
     }
@@ -192,16 +188,16 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         known.unwrap_or(self.meshes[id.index as usize].reach)
     }
 
-    /// Whether triangles of a mesh may become these: all its instances, those of the batch included, stay within the domain.
+    /// Whether lights of a mesh may become these: all its instances, those of the batch included, stay within the domain.
     fn check_triangles(
         &self,
         batch: &mut Batch,
         mesh: MeshId,
-        triangles: &mut [N::Light],
+        lights: &mut [N::Light],
     ) -> Result<(), EditReason> {
-        checked(triangles)?;
-        let (known, mut reach) = (self.reach(batch, mesh), reach_of(triangles));
-        if triangles.len() < self.meshes[mesh.index as usize].triangles.len() {
+        checked(lights)?;
+        let (known, mut reach) = (self.reach(batch, mesh), reach_of(lights));
+        if lights.len() < self.meshes[mesh.index as usize].lights.len() {
             reach = exact::max(reach, known);
         }
         if reach > known {
@@ -222,9 +218,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 }
 
-/// Brings triangles into the domain up to the first that cannot be.
-fn checked<L: Light>(triangles: &mut [L]) -> Result<(), EditReason> {
-    for (index, triangle) in triangles.iter_mut().enumerate() {
+/// Brings lights into the domain up to the first that cannot be.
+fn checked<L: Light>(lights: &mut [L]) -> Result<(), EditReason> {
+    for (index, triangle) in lights.iter_mut().enumerate() {
         let checked = triangle.checked();
         *triangle = checked.map_err(|error| EditReason::Light { index, error })?;
     }

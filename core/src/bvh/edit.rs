@@ -44,14 +44,14 @@ macro_rules! id {
 }
 
 id!(
-    /// A mesh of emissive triangles; stays the same as long as the mesh is in the scene, and never means another one.
+    /// A mesh of emissive lights; stays the same as long as the mesh is in the scene, and never means another one.
     MeshId,
     /// Index of the mesh; free for another one after the mesh is removed.
 );
 id!(
     /// A mesh's place in the world; stays the same as long as the instance is in the scene, and never means another one.
     InstanceId,
-    /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its triangles belong
+    /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its lights belong
     /// to. The index is reused as soon as the instance is removed. Identify lights over frames by ids, or by their numbers
     /// (see [`Bvh::removed_lights`](super::Bvh::removed_lights)).
 );
@@ -60,11 +60,11 @@ id!(
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Edit<L = EmissiveTriangle> {
-    /// A new mesh, not in the world yet. Triangles are in the mesh's own space; their `mesh` is ignored. Its bottom level is
+    /// A new mesh, not in the world yet. Lights are in the mesh's own space; their `mesh` is ignored. Its bottom level is
     /// built within the call, 0.2 to 0.4 µs for each triangle.
     AddMesh {
         /// At least one.
-        triangles: Vec<L>,
+        lights: Vec<L>,
     },
     /// A mesh put into the world.
     AddInstance {
@@ -114,21 +114,21 @@ pub enum Edit<L = EmissiveTriangle> {
         mask: u32,
     },
     /// New vertices or new emission of a mesh, in all its instances.
-    SetTriangles {
+    SetLights {
         /// Which mesh.
         mesh: MeshId,
-        /// As many triangles as before.
-        triangles: Vec<L>,
+        /// As many lights as before.
+        lights: Vec<L>,
     },
-    /// New vertices or new emission of some triangles of a mesh, in all its instances. The others are not looked at: see
-    /// [`set_triangle_range`](crate::Bvh::set_triangle_range).
-    SetTriangleRange {
+    /// New vertices or new emission of some lights of a mesh, in all its instances. The others are not looked at: see
+    /// [`set_light_range`](crate::Bvh::set_light_range).
+    SetLightRange {
         /// Which mesh.
         mesh: MeshId,
         /// Index in the mesh of the first of them, counting from 0.
         first: u32,
-        /// What the triangles from there on become; may be none.
-        triangles: Vec<L>,
+        /// What the lights from there on become; may be none.
+        lights: Vec<L>,
     },
     /// An instance, or a light by itself, taken out of the world.
     RemoveInstance(InstanceId),
@@ -174,28 +174,28 @@ pub enum EditReason {
         /// What was found.
         value: f32,
     },
-    /// A mesh is to be deformed into another number of triangles.
+    /// A mesh is to be deformed into another number of lights.
     Count {
         /// What the mesh has.
         expected: usize,
         /// What the edit has.
         found: usize,
     },
-    /// Triangles to be changed are not all in the mesh.
+    /// Lights to be changed are not all in the mesh.
     Range {
         /// Index of the first of them.
         first: u32,
         /// Their number.
         count: usize,
         /// What the mesh has.
-        triangles: usize,
+        lights: usize,
     },
     /// A mesh to be removed still has instances.
     InUse {
         /// Their number.
         instances: usize,
     },
-    /// More than 2^30 numbers of lights or triangles, free ones below the greatest included, or 2^27 instances.
+    /// More than 2^30 numbers of lights or lights, free ones below the greatest included, or 2^27 instances.
     TooMany,
     /// A single-level BVH has one mesh and one instance, which stay.
     SingleLevel,
@@ -223,7 +223,7 @@ impl fmt::Display for EditReason {
             ),
             Self::NoLight(id) => write!(
                 f,
-                "instance {} is of a mesh; change the mesh's lights by `set_triangles`",
+                "instance {} is of a mesh; change the mesh's lights by `set_lights`",
                 id.index
             ),
             Self::EmptyMesh => write!(f, "a mesh without lights; leave it out"),
@@ -247,13 +247,9 @@ impl fmt::Display for EditReason {
                 "{found} light{} for a mesh of {expected}; add a mesh of its own instead",
                 if *found == 1 { "" } else { "s" }
             ),
-            Self::Range {
-                first,
-                count,
-                triangles,
-            } => write!(
+            Self::Range { first, count, lights } => write!(
                 f,
-                "lights {first} to {} of a mesh of {triangles}; name a range within it",
+                "lights {first} to {} of a mesh of {lights}; name a range within it",
                 u64::from(*first) + *count as u64
             ),
             Self::InUse { instances } => {
@@ -266,11 +262,11 @@ impl fmt::Display for EditReason {
             }
             Self::TooMany => write!(
                 f,
-                "more than 2^30 triangles or lights, or 2^27 instances; numbers of removed lights count until `take_removed_lights`; or split the scene"
+                "more than 2^30 lights or lights, or 2^27 instances; numbers of removed lights count until `take_removed_lights`; or split the scene"
             ),
             Self::SingleLevel => write!(
                 f,
-                "a single-level light BVH takes new triangles of its mesh and nothing else; build one of two levels"
+                "a single-level light BVH takes new lights of its mesh and nothing else; build one of two levels"
             ),
         }
     }

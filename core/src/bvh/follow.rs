@@ -10,15 +10,15 @@ use crate::node::Node;
 use crate::transform::reach_of;
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
-    /// Moves or changes all triangles of a BVH built over [`Lights`], and refits it: the triangles of mesh `k` are those of
+    /// Moves or changes all lights of a BVH built over [`Lights`], and refits it: the lights of mesh `k` are those of
     /// mesh light `k`, or all of them in a single-level BVH.
     ///
     /// # Errors
-    /// [`FollowError`] naming the mesh light whose number of triangles is another (0 where there is no such), or that would be
+    /// [`FollowError`] naming the mesh light whose number of lights is another (0 where there is no such), or that would be
     /// out of range where an instance has moved it meanwhile; the BVH is as before then.
     pub fn follow(&mut self, lights: &Lights<N::Light>) -> Result<(), FollowError> {
         let given = match self.single {
-            true => alloc::vec![0..lights.triangles().len()],
+            true => alloc::vec![0..lights.all().len()],
             false => (0..lights.mesh_count()).map(|mesh| lights.mesh(mesh)).collect(),
         };
         let mut changes = Vec::new();
@@ -26,25 +26,25 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             let wrong = |reason| FollowError { mesh: index, reason };
             let range = given.get(index).cloned().unwrap_or(0..0);
             // A removed mesh has none.
-            let expected = self.meshes.get(index).map_or(0, |mesh| mesh.triangles.len());
+            let expected = self.meshes.get(index).map_or(0, |mesh| mesh.lights.len());
             let found = range.len();
             if expected != found {
                 return Err(wrong(EditReason::Count { expected, found }));
             }
-            let triangles = &lights.triangles()[range];
-            let reach = reach_of(triangles);
+            let lights = &lights.all()[range];
+            let reach = reach_of(lights);
             for &user in self.meshes.get(index).map_or(&[][..], |mesh| &mesh.users) {
                 let transform = &self.placed[user as usize].transform;
                 let checked = transform.check(reach);
                 checked.map_err(|reason| wrong(EditReason::Transform(reason)))?;
             }
             if found > 0 {
-                changes.push((index as u32, triangles, reach));
+                changes.push((index as u32, lights, reach));
             }
         }
-        for (mesh, triangles, reach) in changes {
+        for (mesh, lights, reach) in changes {
             self.meshes[mesh as usize].reach = reach;
-            self.write_triangles(mesh, 0, triangles);
+            self.write_triangles(mesh, 0, lights);
         }
         self.refit();
         Ok(())
@@ -65,7 +65,7 @@ impl fmt::Display for FollowError {
         match self.reason {
             EditReason::Count { expected, found } => write!(
                 f,
-                "mesh light {}: {found} triangles, expected {expected}; these are not the lights that the light BVH was built over: \
+                "mesh light {}: {found} lights, expected {expected}; these are not the lights that the light BVH was built over: \
                  build it anew",
                 self.mesh
             ),

@@ -17,14 +17,14 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// `k`, as the mesh was given, is `start + k`.
     #[must_use]
     pub fn lights_of(&self, instance: InstanceId) -> Option<Range<u32>> {
-        self.live(instance).map(|placed| placed.lights.clone())
+        self.live(instance).map(|placed| placed.numbers.clone())
     }
 
     /// One more than the greatest number of a light that is in use, or among the [removed](Self::removed_lights).
     #[must_use]
     pub fn light_end(&self) -> u32 {
         let forgotten = self.removed_lights.first().filter(|_| self.forgotten);
-        self.lights.used_end().max(forgotten.map_or(0, |all| all.end))
+        self.numbers.used_end().max(forgotten.map_or(0, |all| all.end))
     }
 
     /// Light `light` of the instance of index `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them;
@@ -35,10 +35,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let placed = self
             .placed
             .get(index as usize)
-            .filter(|placed| placed.live && placed.lights.contains(&light))?;
+            .filter(|placed| placed.live && placed.numbers.contains(&light))?;
         let own = &self.instances[index as usize];
-        let triangle = self.meshes[placed.mesh as usize].triangles.start + (light - placed.lights.start);
-        Some(self.triangles[triangle as usize].in_world(own, index))
+        let triangle = self.meshes[placed.mesh as usize].lights.start + (light - placed.numbers.start);
+        Some(self.lights[triangle as usize].in_world(own, index))
     }
 
     /// The id of the instance of index `instance`, as a [`SampledLight`](crate::SampledLight) names it; `None` where there is
@@ -55,12 +55,12 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         self.live(instance).and_then(|placed| self.mesh_id(placed.mesh))
     }
 
-    /// The triangles of a mesh, in its own space and in the order in which it was given; `None` where there is no such mesh.
+    /// The lights of a mesh, in its own space and in the order in which it was given; `None` where there is no such mesh.
     #[must_use]
-    pub fn mesh_triangles(&self, mesh: MeshId) -> Option<&[N::Light]> {
+    pub fn mesh_lights(&self, mesh: MeshId) -> Option<&[N::Light]> {
         let own = self.mesh_id(mesh.index).filter(|&own| own == mesh)?;
-        let range = &self.meshes[own.index as usize].triangles;
-        Some(&self.triangles[range.start as usize..range.end as usize])
+        let range = &self.meshes[own.index as usize].lights;
+        Some(&self.lights[range.start as usize..range.end as usize])
     }
 
     /// The id of the mesh of index `mesh`, which is that of [`MeshId::index`]; `None` where there is no such.
@@ -88,16 +88,16 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     /// All lights in the world by number, up to the greatest in use. Their `mesh` is the index of the instance; numbers not in
-    /// use get triangles without radiance of mesh `u32::MAX`.
+    /// use get lights without radiance of mesh `u32::MAX`.
     #[must_use]
     pub fn world_lights(&self) -> Vec<N::Light> {
         let dark = N::Light::DARK;
-        let mut out = alloc::vec![dark; self.lights.used_end() as usize];
+        let mut out = alloc::vec![dark; self.numbers.used_end() as usize];
         for (index, placed) in self.placed.iter().enumerate().filter(|(_, placed)| placed.live) {
             let own = &self.instances[index];
-            let range = self.meshes[placed.mesh as usize].triangles.clone();
-            let local = &self.triangles[range.start as usize..range.end as usize];
-            let lights = placed.lights.start as usize..placed.lights.end as usize;
+            let range = self.meshes[placed.mesh as usize].lights.clone();
+            let local = &self.lights[range.start as usize..range.end as usize];
+            let lights = placed.numbers.start as usize..placed.numbers.end as usize;
             for (light, triangle) in out[lights].iter_mut().zip(local) {
                 *light = triangle.in_world(own, index as u32);
             }
@@ -117,7 +117,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// that it stands for still count; an empty reservoir in its place is biased where the balance heuristic merges them. Its sample
     /// still names the light: a weight of 0 says not to look it up. In a frame: [`apply`](Self::apply), take the removed lights, replace all that is
     /// kept of them, then resample; old surfaces are asked for old lights, so copies of the last frame's
-    /// [`triangles`](Self::triangles) and [`instances`](Self::instances) are kept for
+    /// [`lights`](Self::lights) and [`instances`](Self::instances) are kept for
     /// [`world_light`](crate::refit::world_light).
     ///
     /// What keeps an [`InstanceId`] and a triangle's place in its mesh needs none of this: an id is never another's.
@@ -139,7 +139,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let removed = core::mem::take(&mut self.removed_lights);
         let given_back = usize::from(core::mem::take(&mut self.forgotten));
         for range in &removed[given_back..] {
-            self.lights.give(range.clone());
+            self.numbers.give(range.clone());
         }
         self.waiting_lights = 0;
         removed

@@ -26,9 +26,9 @@ pub(super) enum Entry {
     Top,
     /// Most nodes of the top level were computed.
     TopComputed,
-    /// Triangles' words.
-    Triangles(Range<u32>),
-    /// The nodes on the paths to triangles of a mesh are to be computed.
+    /// Lights' words.
+    Lights(Range<u32>),
+    /// The nodes on the paths to lights of a mesh are to be computed.
     Paths(u32, Range<u32>),
     /// All nodes of a mesh are to be computed.
     Mesh(u32),
@@ -89,9 +89,9 @@ pub struct RefitPlan {
     pub whole_top: bool,
     /// Nodes of bottom levels whose links or kinds changed.
     pub written_nodes: Vec<Range<u32>>,
-    /// Triangles that changed.
-    pub written_triangles: Vec<Range<u32>>,
-    /// Triangles whose trails changed: `LightTree::trail_words` words each.
+    /// Lights that changed.
+    pub written_lights: Vec<Range<u32>>,
+    /// Lights whose trails changed: `LightTree::trail_words` words each.
     pub written_trails: Vec<Range<u32>>,
     /// Instances that changed.
     pub written_instances: Vec<Range<u32>>,
@@ -174,13 +174,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 Entry::Computed(node) => computed.push(*node),
                 Entry::Top => plan.whole_top = true,
                 Entry::TopComputed => is_computed = true,
-                Entry::Triangles(range) => plan.written_triangles.push(range.clone()),
+                Entry::Lights(range) => plan.written_lights.push(range.clone()),
                 Entry::Paths(mesh, range) => paths.push((*mesh, range.clone())),
                 Entry::Mesh(mesh) => _ = meshes.insert(*mesh),
                 Entry::Tree(mesh) => _ = trees.insert(*mesh),
             }
         }
-        plan.written_triangles = joined(plan.written_triangles);
+        plan.written_lights = joined(plan.written_lights);
         plan.written_instances = indices(instances);
         // A mesh may have been removed since.
         let is_live = |mesh: &u32| self.meshes[*mesh as usize].live;
@@ -188,12 +188,12 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         meshes.retain(is_live);
         let with_trees = trees.iter().map(|&mesh| &self.meshes[mesh as usize]);
         plan.written_nodes = joined(with_trees.clone().map(|own| own.nodes.clone()).collect());
-        plan.written_trails = joined(with_trees.map(|own| own.triangles.clone()).collect());
+        plan.written_trails = joined(with_trees.map(|own| own.lights.clone()).collect());
         meshes.extend(trees);
         let mut pairs = Vec::new();
         let mut roots = meshes.clone();
         for (mesh, range) in paths.into_iter().filter(|(mesh, _)| is_live(mesh)) {
-            let own = &self.meshes[mesh as usize].triangles;
+            let own = &self.meshes[mesh as usize].lights;
             let range = range.start.max(own.start)..range.end.min(own.end);
             if !meshes.contains(&mesh) && !range.is_empty() {
                 roots.insert(mesh);
@@ -290,11 +290,11 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         heights.into_iter().zip(range).collect()
     }
 
-    /// The nodes on the paths to some triangles of a mesh, each with a number that is greater for parents than for children.
-    pub(super) fn path_nodes(&self, mesh: u32, triangles: Range<u32>) -> Vec<(u32, u32)> {
+    /// The nodes on the paths to some lights of a mesh, each with a number that is greater for parents than for children.
+    pub(super) fn path_nodes(&self, mesh: u32, lights: Range<u32>) -> Vec<(u32, u32)> {
         let own = &self.meshes[mesh as usize];
         let mut pairs = Vec::new();
-        for triangle in triangles {
+        for triangle in lights {
             let trail = self.trail_of(triangle);
             let mut node = own.nodes.start;
             for level in 0..own.depth {

@@ -1,4 +1,4 @@
-//! Meshes: their triangles, and trees over them, each in its own range of nodes.
+//! Meshes: their lights, and trees over them, each in its own range of nodes.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -21,7 +21,7 @@ use crate::trail::{BitTrail, trail_words};
 use crate::transform::reach_of;
 use crate::tree::INVALID;
 
-/// A new tree over the triangles of a mesh, which replaces its tree.
+/// A new tree over the lights of a mesh, which replaces its tree.
 #[cfg(feature = "std")]
 #[derive(Debug)]
 pub(crate) struct MeshTree<N: Holds> {
@@ -29,7 +29,7 @@ pub(crate) struct MeshTree<N: Holds> {
     generation: u32,
     /// The mesh's [version](Mesh::version) that it was built for.
     version: u64,
-    triangles: Vec<N::Light>,
+    lights: Vec<N::Light>,
     topology: Option<Topology<N>>,
 }
 
@@ -40,17 +40,17 @@ impl<N: Holds> MeshTree<N> {
     where
         N: Node<W>,
     {
-        let mut topology = build_over::<N, W>(&self.triangles, params);
-        sweep::bottom_sweep(&mut topology.nodes, 0, &self.triangles);
+        let mut topology = build_over::<N, W>(&self.lights, params);
+        sweep::bottom_sweep(&mut topology.nodes, 0, &self.lights);
         self.topology = Some(topology);
     }
 }
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Adds a mesh with the tree of `topology`, whose primitives are numbered from 0.
-    pub(super) fn insert_mesh(&mut self, triangles: &[N::Light], topology: &Topology<N>) -> MeshId {
+    pub(super) fn insert_mesh(&mut self, lights: &[N::Light], topology: &Topology<N>) -> MeshId {
         let index = self.mesh_ranges.take(1).start;
-        let range = self.triangle_ranges.take(triangles.len() as u32);
+        let range = self.light_ranges.take(lights.len() as u32);
         let generation = self
             .meshes
             .get(index as usize)
@@ -58,15 +58,15 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let mesh = Mesh {
             live: true,
             generation,
-            triangles: range,
-            reach: reach_of(triangles),
-            is_by_area: is_by_area(triangles),
+            lights: range,
+            reach: reach_of(lights),
+            is_by_area: is_by_area(lights),
             ..Mesh::default()
         };
         put(&mut self.meshes, index, mesh);
         put(&mut self.roots, index, BlasRoot::new(INVALID, &N::Summary::EMPTY));
-        self.put_triangles(index, 0, triangles);
-        if self.is_alone(triangles.len()) {
+        self.put_triangles(index, 0, lights);
+        if self.is_alone(lights.len()) {
             // An old trail may stay: none is followed.
             self.log.push(Entry::Tree(index));
         } else {
@@ -80,23 +80,23 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     pub(super) fn take_mesh(&mut self, index: u32) {
         let mesh = &mut self.meshes[index as usize];
         mesh.live = false;
-        let (nodes, triangles) = (mesh.nodes.start..mesh.room, mesh.triangles.clone());
-        (mesh.nodes, mesh.room, mesh.triangles) = (0..0, 0, 0..0);
+        let (nodes, lights) = (mesh.nodes.start..mesh.room, mesh.lights.clone());
+        (mesh.nodes, mesh.room, mesh.lights) = (0..0, 0, 0..0);
         self.node_ranges.give(nodes);
-        self.triangle_ranges.give(triangles);
+        self.light_ranges.give(lights);
         self.mesh_ranges.give(index..index + 1);
         self.dirty.remove(&index);
         self.reshaped.remove(&index);
     }
 
-    /// Writes triangles of a mesh from its `first`-th on, and marks them for refit.
-    pub(super) fn write_triangles(&mut self, index: u32, first: u32, triangles: &[N::Light]) {
-        if triangles.is_empty() {
+    /// Writes lights of a mesh from its `first`-th on, and marks them for refit.
+    pub(super) fn write_triangles(&mut self, index: u32, first: u32, lights: &[N::Light]) {
+        if lights.is_empty() {
             return;
         }
-        let range = self.put_triangles(index, first, triangles);
+        let range = self.put_triangles(index, first, lights);
         let mesh = &mut self.meshes[index as usize];
-        let count = mesh.triangles.len();
+        let count = mesh.lights.len();
         mesh.version += 1;
         if mesh.nodes.len() > 1 {
             self.reshaped.insert(index);
@@ -116,19 +116,19 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
     }
 
-    fn put_triangles(&mut self, index: u32, first: u32, triangles: &[N::Light]) -> Range<u32> {
-        let start = self.meshes[index as usize].triangles.start + first;
-        let range = start..start + triangles.len() as u32;
-        if self.triangles.len() < range.end as usize {
-            self.triangles.resize(range.end as usize, N::Light::DARK);
+    fn put_triangles(&mut self, index: u32, first: u32, lights: &[N::Light]) -> Range<u32> {
+        let start = self.meshes[index as usize].lights.start + first;
+        let range = start..start + lights.len() as u32;
+        if self.lights.len() < range.end as usize {
+            self.lights.resize(range.end as usize, N::Light::DARK);
             self.trails
                 .resize(range.end as usize * self.trail_words as usize, 0);
         }
-        let own = &mut self.triangles[range.start as usize..range.end as usize];
-        for (to, from) in own.iter_mut().zip(triangles) {
+        let own = &mut self.lights[range.start as usize..range.end as usize];
+        for (to, from) in own.iter_mut().zip(lights) {
             *to = from.of_mesh(index);
         }
-        self.log.push(Entry::Triangles(range.clone()));
+        self.log.push(Entry::Lights(range.clone()));
         let by_area = self.goes_by_area(index);
         if core::mem::replace(&mut self.meshes[index as usize].is_by_area, by_area) != by_area {
             for user in self.meshes[index as usize].users.clone() {
@@ -143,10 +143,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     fn place_tree(&mut self, index: u32, topology: &Topology<N>) {
         let count = topology.nodes.len() as u32;
         let mesh = &self.meshes[index as usize];
-        let (mut start, first) = (mesh.nodes.start, mesh.triangles.start);
+        let (mut start, first) = (mesh.nodes.start, mesh.lights.start);
         if mesh.room - start < count {
             self.node_ranges.give(start..mesh.room);
-            // A later tree over as many triangles may have a few nodes more.
+            // A later tree over as many lights may have a few nodes more.
             let room = self.node_ranges.take(count + count / 8);
             start = room.start;
             self.meshes[index as usize].room = room.end;
@@ -181,7 +181,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     pub(super) fn sweep_mesh(&mut self, index: u32) {
         let nodes = self.meshes[index as usize].nodes.clone();
         let own = &mut self.nodes[nodes.start as usize..nodes.end as usize];
-        sweep::bottom_sweep(own, nodes.start, &self.triangles);
+        sweep::bottom_sweep(own, nodes.start, &self.lights);
         self.compute_root(index);
     }
 
@@ -195,7 +195,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let mesh = &self.meshes[index as usize];
         match mesh.root() {
             INVALID => {
-                let light = &self.triangles[mesh.triangles.start as usize];
+                let light = &self.lights[mesh.lights.start as usize];
                 BlasRoot::new(INVALID, &N::Summary::of_light(light))
             }
             root => refit::root(&self.nodes, root),
@@ -211,7 +211,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     fn place_trails(&mut self, index: u32, topology: &Topology<N>) {
-        let mesh = self.meshes[index as usize].triangles.clone();
+        let mesh = self.meshes[index as usize].lights.clone();
         if self.trail_words == 1 && trail_words(W, topology.depth) == 2 {
             self.trail_words = 2;
             let narrow = core::mem::take(&mut self.trails);
@@ -248,8 +248,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     pub fn rebuild(&mut self) {
         self.refit();
         for index in core::mem::take(&mut self.reshaped) {
-            let mesh = &self.meshes[index as usize].triangles;
-            let own = &self.triangles[mesh.start as usize..mesh.end as usize];
+            let mesh = &self.meshes[index as usize].lights;
+            let own = &self.lights[mesh.start as usize..mesh.end as usize];
             let topology = build_over::<N, W>(own, &self.params);
             self.place_tree(index, &topology);
             self.sweep_mesh(index);
@@ -261,28 +261,28 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
     }
 
-    /// Each mesh that changed since its tree was built, with the bytes of its triangles: those from `first` on, then those
+    /// Each mesh that changed since its tree was built, with the bytes of its lights: those from `first` on, then those
     /// before.
     #[cfg(feature = "std")]
     pub(crate) fn reshaped_from(&self, first: u32) -> impl Iterator<Item = (u32, usize)> + '_ {
         let after = self.reshaped.range(first..);
         let all = after.chain(self.reshaped.range(..first));
         all.map(|&mesh| {
-            let count = self.meshes[mesh as usize].triangles.len();
+            let count = self.meshes[mesh as usize].lights.len();
             (mesh, count * size_of::<N::Light>())
         })
     }
 
-    /// A copy of the triangles of a mesh, to build its tree from.
+    /// A copy of the lights of a mesh, to build its tree from.
     #[cfg(feature = "std")]
     pub(crate) fn copy_mesh(&self, mesh: u32) -> MeshTree<N> {
         let own = &self.meshes[mesh as usize];
-        let range = own.triangles.start as usize..own.triangles.end as usize;
+        let range = own.lights.start as usize..own.lights.end as usize;
         MeshTree {
             mesh,
             generation: own.generation,
             version: own.version,
-            triangles: self.triangles[range].to_vec(),
+            lights: self.lights[range].to_vec(),
             topology: None,
         }
     }

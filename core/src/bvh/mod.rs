@@ -14,7 +14,7 @@
 //! |---|---|
 //! | any affine motion, brightness | the instance's leaf and the nodes above it; if far from its siblings, it is inserted again |
 //! | vertices or emission of a mesh | its bottom level, and the leaves of its instances |
-//! | those of some of its triangles | the paths to them in the bottom level, and the leaves of its instances |
+//! | those of some of its lights | the paths to them in the bottom level, and the leaves of its instances |
 //! | removed instance | its leaf and the nodes above it |
 //! | added instance | one node of each level on the path to where it costs least |
 //! | more than a quarter of the instances are added, removed or move far | the whole top level |
@@ -88,8 +88,8 @@ pub struct Bvh<N: Holds, I, const W: usize> {
     nodes: Vec<N>,
     node_ranges: Ranges,
     /// In the space of their meshes, grouped by mesh.
-    triangles: Vec<N::Light>,
-    triangle_ranges: Ranges,
+    lights: Vec<N::Light>,
+    light_ranges: Ranges,
     trails: Vec<u32>,
     trail_words: u32,
     /// By mesh.
@@ -101,11 +101,11 @@ pub struct Bvh<N: Holds, I, const W: usize> {
     instances: Vec<Instance>,
     /// Indices of the instances in use.
     live: Vec<u32>,
-    lights: Ranges,
+    numbers: Ranges,
     top: Top<N>,
     /// Instances whose leaves are to be computed, each once.
     stale: Vec<u32>,
-    /// Meshes whose triangles changed since the last refit, and which; none for all.
+    /// Meshes whose lights changed since the last refit, and which; none for all.
     dirty: BTreeMap<u32, Vec<Range<u32>>>,
     /// Meshes that changed since their trees were built.
     reshaped: BTreeSet<u32>,
@@ -178,8 +178,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             params,
             nodes: Vec::new(),
             node_ranges: Ranges::default(),
-            triangles: Vec::new(),
-            triangle_ranges: Ranges::default(),
+            lights: Vec::new(),
+            light_ranges: Ranges::default(),
             trails: Vec::new(),
             trail_words: 1,
             roots: Vec::new(),
@@ -189,7 +189,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             placed_ranges: Ranges::default(),
             instances: Vec::new(),
             live: Vec::new(),
-            lights: Ranges::default(),
+            numbers: Ranges::default(),
             top: Top::default(),
             stale: Vec::new(),
             dirty: BTreeMap::new(),
@@ -249,7 +249,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             tree.top = &self.nodes;
             tree.root = self.roots[0].node;
             tree.live = 0;
-            tree.lights = self.lights.end();
+            tree.lights = self.numbers.end();
         }
         tree
     }
@@ -278,10 +278,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         &self.instances
     }
 
-    /// The triangles of all meshes, in their own spaces; the instances of a mesh say where its own begin.
+    /// The lights of all meshes, in their own spaces; the instances of a mesh say where its own begin.
     #[must_use]
-    pub fn triangles(&self) -> &[N::Light] {
-        &self.triangles
+    pub fn lights(&self) -> &[N::Light] {
+        &self.lights
     }
 
     /// The instance of an id, if it is there.
@@ -304,7 +304,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             + size_of_val(&*top.parts)
     }
 
-    /// Bytes of all its arrays: what sampling reads, the triangles, and what edits and refits need. Lists of changes are not
+    /// Bytes of all its arrays: what sampling reads, the lights, and what edits and refits need. Lists of changes are not
     /// counted, nor the copy that a rebuilder has: as much as the top level again.
     #[must_use]
     pub fn memory(&self) -> usize {
@@ -312,7 +312,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         size_of_val(&*self.nodes)
             + size_of_val(&*self.instances)
             + size_of_val(&*self.trails)
-            + size_of_val(&*self.triangles)
+            + size_of_val(&*self.lights)
             + size_of_val(&*self.roots)
             + size_of_val(&*self.meshes)
             + users.sum::<usize>()

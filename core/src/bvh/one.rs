@@ -12,8 +12,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.
-    pub fn add_mesh(&mut self, triangles: Vec<N::Light>) -> Result<MeshId, EditReason> {
-        Ok(self.one(Edit::AddMesh { triangles })?.meshes[0])
+    pub fn add_mesh(&mut self, lights: Vec<N::Light>) -> Result<MeshId, EditReason> {
+        Ok(self.one(Edit::AddMesh { lights })?.meshes[0])
     }
 
     /// Puts a mesh into the world.
@@ -78,15 +78,15 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         self.one(Edit::SetMask { instance, mask }).map(|_| ())
     }
 
-    /// Gives a mesh as many other triangles.
+    /// Gives a mesh as many other lights.
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.
-    pub fn set_triangles(&mut self, mesh: MeshId, triangles: Vec<N::Light>) -> Result<(), EditReason> {
-        self.one(Edit::SetTriangles { mesh, triangles }).map(|_| ())
+    pub fn set_lights(&mut self, mesh: MeshId, lights: Vec<N::Light>) -> Result<(), EditReason> {
+        self.one(Edit::SetLights { mesh, lights }).map(|_| ())
     }
 
-    /// Changes the triangles of a mesh from index `first` on, as many as are given. Takes time in proportion to them and to the
+    /// Changes the lights of a mesh from index `first` on, as many as are given. Takes time in proportion to them and to the
     /// depth of the mesh's tree, of which a [`refit`](Self::refit) then computes the paths to them; all of it where they are
     /// more than a sixteenth of the mesh. If they reach farther from
     /// the mesh's origin than any triangle did since the mesh was set as a whole, each instance of the mesh is looked at.
@@ -94,17 +94,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     ///
     /// # Errors
     /// [`EditReason`], [`EditReason::Range`] where they are not all in the mesh; nothing is changed then.
-    pub fn set_triangle_range(
+    pub fn set_light_range(
         &mut self,
         mesh: MeshId,
         first: u32,
-        triangles: Vec<N::Light>,
+        lights: Vec<N::Light>,
     ) -> Result<(), EditReason> {
-        let edit = Edit::SetTriangleRange {
-            mesh,
-            first,
-            triangles,
-        };
+        let edit = Edit::SetLightRange { mesh, first, lights };
         self.one(edit).map(|_| ())
     }
 

@@ -8,7 +8,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use crate::transform::Transform;
 use crate::tree::INVALID;
 
-/// A mesh: triangles and a tree over them in a space of their own, which its instances share.
+/// A mesh: lights and a tree over them in a space of their own, which its instances share.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Mesh {
     pub live: bool,
@@ -21,13 +21,13 @@ pub(super) struct Mesh {
     pub nodes: Range<u32>,
     /// End of the capacity reserved for its nodes: a new tree overwrites the old one.
     pub room: u32,
-    pub triangles: Range<u32>,
+    pub lights: Range<u32>,
     pub depth: u32,
     /// Greatest magnitude of a coordinate that its lights reached since all of them were set.
     pub reach: f32,
     /// Whether the flux of its lights grows with area where an instance scales.
     pub is_by_area: bool,
-    /// Counts edits of its triangles.
+    /// Counts edits of its lights.
     pub version: u64,
 }
 
@@ -54,7 +54,7 @@ pub(super) struct InstanceState {
     pub mask: u32,
     /// Its place in the list of instances in use.
     pub listed: u32,
-    pub lights: Range<u32>,
+    pub numbers: Range<u32>,
     /// Whether its leaf is to be computed.
     pub is_stale: bool,
 }
@@ -70,7 +70,7 @@ impl InstanceState {
         radiance: [0.0; 3],
         mask: 0,
         listed: 0,
-        lights: 0..0,
+        numbers: 0..0,
         is_stale: false,
     };
 }

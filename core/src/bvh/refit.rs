@@ -13,8 +13,8 @@ use crate::trail::leaf;
 use crate::tree::INVALID;
 use crate::widest::widest;
 
-/// If more than 1/`SWEPT` of a mesh's triangles changed, all of it is swept. Paths to a sixteenth take 0.65 to 0.76 of a
-/// sweep's time if the triangles lie anywhere in the mesh, to an eighth 0.9 to 1.15 (10^5 and 10^6 triangles).
+/// If more than 1/`SWEPT` of a mesh's lights changed, all of it is swept. Paths to a sixteenth take 0.65 to 0.76 of a
+/// sweep's time if the lights lie anywhere in the mesh, to an eighth 0.9 to 1.15 (10^5 and 10^6 lights).
 pub(super) const SWEPT: usize = 16;
 /// Changes by which a rebuilder may be behind, for each instance. If all move in each frame, a build takes about as long as three
 /// frames' edits.
@@ -27,7 +27,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     pub fn refit(&mut self) {
         for (mesh, ranges) in core::mem::take(&mut self.dirty) {
             let changed: usize = ranges.iter().map(ExactSizeIterator::len).sum();
-            let all = self.meshes[mesh as usize].triangles.len();
+            let all = self.meshes[mesh as usize].lights.len();
             if changed == 0 || changed * SWEPT > all {
                 self.sweep_mesh(mesh);
             } else {
@@ -62,13 +62,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         self.log_top();
     }
 
-    fn refit_paths(&mut self, mesh: u32, triangles: &Range<u32>) {
-        let pairs = self.path_nodes(mesh, triangles.clone());
+    fn refit_paths(&mut self, mesh: u32, lights: &Range<u32>) {
+        let pairs = self.path_nodes(mesh, lights.clone());
         widest(
             #[inline(always)]
             || {
                 for &(_, node) in &pairs {
-                    self.nodes[node as usize] = refit::bottom(&self.nodes, &self.triangles, node);
+                    self.nodes[node as usize] = refit::bottom(&self.nodes, &self.lights, node);
                 }
             },
         );
@@ -156,6 +156,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// Summary and limits of a leaf of the top level.
     pub(super) fn leaf_of(&self, link: u32) -> Child<N::Summary> {
-        leaf_child(&self.nodes, &self.triangles, &self.instances, &self.roots, link)
+        leaf_child(&self.nodes, &self.lights, &self.instances, &self.roots, link)
     }
 }

@@ -93,7 +93,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         Some(Sampled {
             light,
             instance,
-            part: found.light - self.placed[index as usize].lights.start,
+            part: found.light - self.placed[index as usize].numbers.start,
             pmf: found.pmf,
             point: on,
             direction: [direction.x, direction.y, direction.z],

@@ -26,10 +26,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     ///   tree exactly once, and their trails lead there;
     /// - the nodes of a mesh are in depth-first order; heights are those of what is below;
     /// - every node of the top level but its root has two children or more;
-    /// - ranges of nodes, triangles and lights in use do not overlap;
+    /// - ranges of nodes, lights and lights in use do not overlap;
     /// - no path is longer than [`depth`](Self::depth), and [`light_count`](Self::light_count) counts the lights;
     /// - an instance's words are those of its transform and mesh, and its leaf in the top level is that of a refit;
-    /// - every word of every node is what refit makes of triangles and instances from scratch.
+    /// - every word of every node is what refit makes of lights and instances from scratch.
     ///
     /// It trusts no word, runs on the CPU alone, takes time linear in the number of nodes, and needs as much memory again as the
     /// tree.
@@ -48,8 +48,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         disjoint(used_nodes)?;
         for (index, placed) in (0u32..).zip(&self.placed) {
             if placed.live {
-                lights += placed.lights.end - placed.lights.start;
-                used_lights.push(placed.lights.clone());
+                lights += placed.numbers.end - placed.numbers.start;
+                used_lights.push(placed.numbers.clone());
                 self.check_instance(index)?;
             } else {
                 let record = &self.instances[index as usize];
@@ -72,7 +72,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         equal(INVALID, INVALID, "depth", depth.max(self.depth()), self.depth())
     }
 
-    /// The tree of a mesh, its trails, and every word of its nodes. Each of its triangles is in one leaf, and of this mesh: no two meshes
+    /// The tree of a mesh, its trails, and every word of its nodes. Each of its lights is in one leaf, and of this mesh: no two meshes
     /// have one.
     fn check_mesh(&self, index: u32, seen: &mut [bool], again: &mut [N]) -> Result<Found, Violation> {
         let mesh = &self.meshes[index as usize];
@@ -87,7 +87,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         )?;
         let expected = self.root_of(index);
         same_words(INVALID, index, &expected, &self.roots[index as usize])?;
-        let is_alone = self.is_alone(mesh.triangles.len());
+        let is_alone = self.is_alone(mesh.lights.len());
         equal(
             INVALID,
             index,
@@ -96,38 +96,38 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             u32::from(root != INVALID),
         )?;
         if is_alone {
-            let owner = self.triangles[mesh.triangles.start as usize].mesh();
+            let owner = self.lights[mesh.lights.start as usize].mesh();
             equal(INVALID, index, "light's mesh", index, owner)?;
             return Ok(Found::default());
         }
         let found = Found::of(&self.nodes, root, kind::LIGHT, seen)?;
         found.check_depth_first(&mesh.nodes)?;
         equal(root, INVALID, "level", found.depth, mesh.depth)?;
-        let mut times = alloc::vec![0u32; mesh.triangles.len()];
+        let mut times = alloc::vec![0u32; mesh.lights.len()];
         for own in &found.leaves {
             let (node, slot) = (own.node, own.slot);
-            if !mesh.triangles.contains(&own.link) {
+            if !mesh.lights.contains(&own.link) {
                 return Err(Violation::new(
                     node,
                     slot,
                     "light's mesh",
-                    mesh.triangles.start,
+                    mesh.lights.start,
                     own.link,
                 ));
             }
-            times[(own.link - mesh.triangles.start) as usize] += 1;
+            times[(own.link - mesh.lights.start) as usize] += 1;
             let trail = self.trail_of(own.link);
             equal(node, slot, "low trail word", own.trail.low, trail.low)?;
             equal(node, slot, "high trail word", own.trail.high, trail.high)?;
-            let light = &self.triangles[own.link as usize];
+            let light = &self.lights[own.link as usize];
             equal(node, slot, "light's mesh", index, light.mesh())?;
         }
-        for (triangle, &count) in mesh.triangles.clone().zip(&times) {
+        for (triangle, &count) in mesh.lights.clone().zip(&times) {
             equal(INVALID, triangle, "triangle's leaves", 1, count)?;
         }
         bare(again, &self.nodes, &found);
         for node in found.upward() {
-            again[node as usize] = refit::bottom(again, &self.triangles, node);
+            again[node as usize] = refit::bottom(again, &self.lights, node);
             same_words(node, INVALID, &again[node as usize], &self.nodes[node as usize])?;
         }
         Ok(found)
@@ -138,8 +138,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let placed = &self.placed[index as usize];
         let found = &self.instances[index as usize];
         let mesh = &self.meshes[placed.mesh as usize];
-        let count = mesh.triangles.len() as u32;
-        let lights = placed.lights.end - placed.lights.start;
+        let count = mesh.lights.len() as u32;
+        let lights = placed.numbers.end - placed.numbers.start;
         equal(INVALID, index, "range of lights", count, lights)?;
         same_words(INVALID, index, &self.record_of(index), found)?;
         let user = mesh.users.get(placed.user as usize).copied();
@@ -199,7 +199,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             again[at] = refit::top(
                 &again,
                 first,
-                &self.triangles,
+                &self.lights,
                 &self.instances,
                 &self.roots,
                 at as u32,

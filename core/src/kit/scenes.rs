@@ -53,7 +53,7 @@ pub fn lamps<L: Lamp>(random: &mut Random, count: u32) -> Vec<L> {
     (0..count).map(|_| L::any(random)).collect()
 }
 
-/// `count` triangles, one so far from the others that it is a child of their tree's root.
+/// `count` lights, one so far from the others that it is a child of their tree's root.
 pub fn with_one_far(random: &mut Random, count: u32) -> Vec<EmissiveTriangle> {
     let mut all: Vec<EmissiveTriangle> = lamps(random, count);
     all[0].p = all[0].p.map(|v| v.map(|x| x + 9000.0));
@@ -159,18 +159,18 @@ where
                 mask: 1 << random.below(20),
             },
             (6, Some(mesh), _) => {
-                let end = bvh.mesh_triangles(mesh).map_or(1, <[_]>::len) as u32;
+                let end = bvh.mesh_lights(mesh).map_or(1, <[_]>::len) as u32;
                 let first = random.below(end);
                 let count = 1 + random.below((end - first).min(3));
-                Edit::SetTriangleRange {
+                Edit::SetLightRange {
                     mesh,
                     first,
-                    triangles: lamps(random, count),
+                    lights: lamps(random, count),
                 }
             }
-            (7, Some(mesh), _) => Edit::SetTriangles {
+            (7, Some(mesh), _) => Edit::SetLights {
                 mesh,
-                triangles: lamps(random, bvh.mesh_triangles(mesh).map_or(1, <[_]>::len) as u32),
+                lights: lamps(random, bvh.mesh_lights(mesh).map_or(1, <[_]>::len) as u32),
             },
             (8 | 9, _, Some(_)) => Edit::RemoveInstance(all.swap_remove(on)),
             (10, Some(mesh), _)
@@ -181,7 +181,7 @@ where
             _ => {
                 let count = 1 + random.below(most);
                 Edit::AddMesh {
-                    triangles: lamps(random, count),
+                    lights: lamps(random, count),
                 }
             }
         });

@@ -131,20 +131,20 @@ impl<L: Light, const W: usize> LightSlots<L, W> for Each<L, W> {
     }
 }
 
-/// Light `light` of instance `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them: `triangles` are those
+/// Light `light` of instance `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them: `lights` are those
 /// of all bottom levels, in the spaces of their meshes. Without radiance where there is no such light. In a single-level tree
 /// `instance` is `u32::MAX`, and its one instance is meant.
 #[inline]
 #[must_use]
-pub fn world_light<L: Light>(triangles: &[L], instances: &[Instance], light: u32, instance: u32) -> L {
+pub fn world_light<L: Light>(lights: &[L], instances: &[Instance], light: u32, instance: u32) -> L {
     let index = if instance == INVALID { 0 } else { instance };
     let mut out = L::DARK;
     if index < instances.len() as u32 {
         let own = instances[index as usize];
         let triangle = own.triangle_of(light);
         let is_own = light.wrapping_sub(own.first) < own.count;
-        if is_own && triangle < triangles.len() as u32 {
-            let local = triangles[triangle as usize];
+        if is_own && triangle < lights.len() as u32 {
+            let local = lights[triangle as usize];
             out = local.in_world(&own, index);
         }
     }

@@ -95,14 +95,14 @@ impl<S: Summary> Child<S> {
 #[must_use]
 pub fn bottom_child<N: Node<W>, const W: usize>(
     nodes: &[N],
-    triangles: &[N::Light],
+    lights: &[N::Light],
     index: u32,
     slot: usize,
 ) -> Child<N::Summary> {
     let (to, link) = (nodes[index as usize].kind(slot), nodes[index as usize].link(slot));
     let mut child = Child::EMPTY;
-    if to == kind::LIGHT && link < triangles.len() as u32 {
-        child = light_child::<N, W>(&triangles[link as usize]);
+    if to == kind::LIGHT && link < lights.len() as u32 {
+        child = light_child::<N, W>(&lights[link as usize]);
     } else if to == kind::INNER && link < nodes.len() as u32 {
         child = inner_child(nodes, link);
     }
@@ -115,7 +115,7 @@ pub fn bottom_child<N: Node<W>, const W: usize>(
 pub fn top_child<N: Node<W>, const W: usize>(
     nodes: &[N],
     first: u32,
-    triangles: &[N::Light],
+    lights: &[N::Light],
     instances: &[Instance],
     roots: &[BlasRoot],
     index: u32,
@@ -125,7 +125,7 @@ pub fn top_child<N: Node<W>, const W: usize>(
     let below = link.wrapping_add(first);
     let mut child = Child::EMPTY;
     if to == kind::MESH {
-        child = leaf_child(nodes, triangles, instances, roots, link);
+        child = leaf_child(nodes, lights, instances, roots, link);
     } else if to == kind::INNER && below < nodes.len() as u32 {
         child = inner_child(nodes, below);
     }
@@ -136,7 +136,7 @@ pub fn top_child<N: Node<W>, const W: usize>(
 #[inline(always)]
 pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
     nodes: &[N],
-    triangles: &[N::Light],
+    lights: &[N::Light],
     instances: &[Instance],
     roots: &[BlasRoot],
     link: u32,
@@ -145,13 +145,13 @@ pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
     let mut child = Child::EMPTY;
     if index < instances.len() as u32 {
         let instance = &instances[index as usize];
-        let (blas, light) = (instance.blas, instance.first_triangle);
+        let (blas, light) = (instance.blas, instance.first_light);
         let mut local = Child::EMPTY;
         let mut known = false;
         if instance.root == INVALID {
-            known = light < triangles.len() as u32;
+            known = light < lights.len() as u32;
             if known {
-                local = light_child::<N, W>(&triangles[light as usize]);
+                local = light_child::<N, W>(&lights[light as usize]);
             }
         } else if blas < roots.len() as u32 {
             known = true;

@@ -22,7 +22,7 @@ pub(crate) const fn has_limits<N: Node<W>, const W: usize>() -> bool {
 pub(crate) fn limits_below<N: Node<W>, const W: usize>(
     nodes: &[N],
     first: u32,
-    triangles: &[N::Light],
+    lights: &[N::Light],
     node: &N,
     children: &Lanes<W>,
 ) -> [Limits; W] {
@@ -31,8 +31,8 @@ pub(crate) fn limits_below<N: Node<W>, const W: usize>(
         for slot in 0..W {
             let (to, link) = (node.kind(slot), node.link(slot));
             let below = link.wrapping_sub(first);
-            if to == kind::LIGHT && link < triangles.len() as u32 {
-                limits[slot] = limits_of_light::<N, W>(&triangles[link as usize]);
+            if to == kind::LIGHT && link < lights.len() as u32 {
+                limits[slot] = limits_of_light::<N, W>(&lights[link as usize]);
             } else if to == kind::INNER && below < nodes.len() as u32 {
                 limits[slot] = nodes[below as usize].merged_limits(&children.get(slot));
             }

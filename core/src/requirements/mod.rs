@@ -27,7 +27,7 @@ pub struct Declared {
     pub transforms: bool,
     /// Instances become brighter or dimmer, as a whole ([`Edit::SetRadiance`](crate::Edit::SetRadiance)).
     pub radiance: bool,
-    /// Meshes deform, or the emission of their triangles varies ([`Edit::SetTriangles`](crate::Edit::SetTriangles)); none turns
+    /// Meshes deform, or the emission of their triangles varies ([`Edit::SetLights`](crate::Edit::SetLights)); none turns
     /// from one that shines from both sides into one that shines from one.
     pub triangles: bool,
     /// Instances of the same meshes are inserted and removed.
@@ -63,7 +63,7 @@ impl Requirements {
     #[must_use]
     pub fn of<N: LightNode<W>, I, const W: usize>(bvh: &Bvh<N, I, W>, declared: Declared) -> Self {
         let meshes = (0..bvh.roots().len() as u32).filter_map(|mesh| bvh.mesh_id(mesh));
-        let meshes = meshes.filter_map(|mesh| bvh.mesh_triangles(mesh));
+        let meshes = meshes.filter_map(|mesh| bvh.mesh_lights(mesh));
         let one_sided = meshes.clone().flatten().filter(|own| !own.is_two_sided());
         let mut found = Self {
             declared,

@@ -159,11 +159,7 @@ impl<P: Receiver> Walk<P> {
             self.index = instance.root;
             // Its mesh is one light.
             let is_alone = instance.root == INVALID;
-            self.triangle = if is_alone {
-                instance.first_triangle
-            } else {
-                INVALID
-            };
+            self.triangle = if is_alone { instance.first_light } else { INVALID };
             self.done |= is_alone;
             self.position = levels;
             if part > 0 {

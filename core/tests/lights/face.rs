@@ -111,9 +111,9 @@ fn lights_are_followed_after_edits() {
     bvh.remove_instance(gone).expect("there");
     let second = bvh.mesh_id(1).expect("a mesh");
     bvh.remove_mesh(second).expect("not in use");
-    assert_eq!(bvh.mesh_triangles(second), None);
-    assert!(bvh.mesh_triangles(mesh).is_some());
-    assert_eq!(bvh.clone().mesh_triangles(mesh), None, "an id of another");
+    assert_eq!(bvh.mesh_lights(second), None);
+    assert!(bvh.mesh_lights(mesh).is_some());
+    assert_eq!(bvh.clone().mesh_lights(mesh), None, "an id of another");
     let reason = EditReason::Count {
         expected: 0,
         found: 1,

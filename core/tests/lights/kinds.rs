@@ -105,8 +105,8 @@ fn each_kind_alone_and_all_in_one_tree() {
             bvh.set_transform(id, place(random)).expect("in the domain");
             let mesh = bvh.mesh_of(id).expect("a mesh");
             let new = (0..PER_MESH).map(|_| light(random)).collect();
-            bvh.set_triangles(mesh, new).expect("as many");
-            bvh.set_triangle_range(mesh, 3, vec![light(random)])
+            bvh.set_lights(mesh, new).expect("as many");
+            bvh.set_light_range(mesh, 3, vec![light(random)])
                 .expect("in the mesh");
             bvh.remove_instance(id).expect("it is there");
             bvh.add_instance(mesh, place(random)).expect("in the domain");

@@ -80,7 +80,7 @@ fn known(bvh: &Tree) -> Vec<Known> {
     let mut all = Vec::new();
     for id in (0..bvh.instances().len() as u32).filter_map(|k| bvh.instance_id(k)) {
         let mesh = bvh.mesh_of(id).expect("of an instance");
-        let own = bvh.mesh_triangles(mesh).expect("of a mesh");
+        let own = bvh.mesh_lights(mesh).expect("of a mesh");
         let Instance { radiance, mask, .. } = bvh.instances()[id.index() as usize];
         let is_on = radiance.iter().any(|&x| x > 0.0);
         let numbers = bvh.lights_of(id).expect("of an instance");
@@ -235,14 +235,14 @@ fn two_levels_go_on_by_edits() {
             rebuilder.begin_frame(&mut bvh).expect("no panic");
             let at = random.below(ids.len() as u32) as usize;
             let mesh = bvh.mesh_of(ids[at]).expect("a mesh");
-            let count = bvh.mesh_triangles(mesh).expect("a mesh").len() as u32;
+            let count = bvh.mesh_lights(mesh).expect("a mesh").len() as u32;
             match random.below(7) {
                 0 => bvh.set_transform(ids[at], random.place()).expect("in the domain"),
                 1 => bvh.set_radiance(ids[at], random.factor()).expect("a factor"),
                 2 | 3 => {
                     let first = random.below(count);
                     let some = 1 + random.below(count - first);
-                    bvh.set_triangle_range(mesh, first, lights(random, some))
+                    bvh.set_light_range(mesh, first, lights(random, some))
                         .expect("in the mesh");
                 }
                 4 if ids.len() > 2 => {

@@ -109,7 +109,7 @@ where
     let (mut sharp, mut off, mut count) = (0, 0.0, 0.0);
     for seed in 0..60 {
         let random = &mut Random(seed);
-        let mut mesh = room(random).triangles()[..8].to_vec();
+        let mut mesh = room(random).all()[..8].to_vec();
         for triangle in &mut mesh {
             triangle.mesh = 0;
         }

@@ -144,7 +144,7 @@ fn sent(light: &AnyLight, p: [f32; 3]) -> f32 {
 
 fn sends(bvh: &Tree, own: &Told, p: [f32; 3]) -> bool {
     sent(
-        &world_light(bvh.triangles(), bvh.instances(), own.light, own.instance),
+        &world_light(bvh.lights(), bvh.instances(), own.light, own.instance),
         p,
     ) > 0.0
 }
@@ -152,7 +152,7 @@ fn sends(bvh: &Tree, own: &Told, p: [f32; 3]) -> bool {
 /// The least that a beam may leave of the weight of a light that reaches `p`: nearly all of it, or of one that fades by its range
 /// the square of a fourth of what the range leaves of its light.
 fn left(bvh: &Tree, own: &Told, p: [f32; 3]) -> f32 {
-    let light = world_light(bvh.triangles(), bvh.instances(), own.light, own.instance);
+    let light = world_light(bvh.lights(), bvh.instances(), own.light, own.instance);
     match SpotLight::try_from(light) {
         Ok(spot) if spot.range > 0.0 => {
             let whole = SpotLight { range: 0.0, ..spot };

@@ -66,7 +66,7 @@ fn run<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(frames: u32) -
         }
         if let Some(mesh) = bvh.mesh_id(frame / 2) {
             let bent = triangles(random, 1 + frame / 2);
-            bvh.set_triangles(mesh, bent).expect("as many");
+            bvh.set_lights(mesh, bent).expect("as many");
         }
         bvh.refit();
         rebuilder.end_frame(&bvh);

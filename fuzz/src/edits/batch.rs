@@ -131,7 +131,7 @@ fn assert_same<N: LightNode<W> + std::fmt::Debug, const W: usize>(
     assert_eq!(words(before.nodes()), words(after.nodes()));
     assert_eq!(words(before.top_nodes()), words(after.top_nodes()));
     assert_eq!(words(before.instances()), words(after.instances()));
-    assert_eq!(words(before.triangles()), words(after.triangles()));
+    assert_eq!(words(before.lights()), words(after.lights()));
     assert_eq!(words(before.roots()), words(after.roots()));
     assert_eq!(before.removed_lights(), after.removed_lights());
     if thorough {

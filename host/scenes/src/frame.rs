@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use lightbvh::light::{AnyLight, EmissiveTriangle};
 use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
-use lightbvh_kernels::shading::skin::Corner;
+use lightbvh_kernels::shading::textures::Corner;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
 use super::camera::View;
 use super::ray_bvh::RayBvh;
 use super::scene_light::SceneLight;
-use super::skin_words::SkinArrays;
+use super::texture_words::TextureArrays;
 
 /// The paper animates its scenes at a simulated 25 frames per second (section 4.1).
 pub const FRAMES_PER_SECOND: u32 = 25;
@@ -39,7 +39,7 @@ pub struct Frame {
     pub others: Vec<AnyLight>,
     /// Where `triangles`, then `emissive` lie on textures; empty where nothing is painted.
     pub corners: [Vec<Corner>; 2],
-    /// [`SkinArrays::words`](super::SkinArrays); empty where nothing is painted.
+    /// [`TextureArrays::words`](super::TextureArrays); empty where nothing is painted.
     pub paint: Arc<Vec<u32>>,
     /// By [`SurfaceTriangle::material`]; the last one of lights by formula, where there are any.
     pub materials: Vec<SurfaceMaterial>,
@@ -51,14 +51,14 @@ pub struct Frame {
 
 impl Frame {
     /// What is painted on the triangles that `rays` are of.
-    pub fn skin(&self, rays: &RayBvh) -> SkinArrays {
+    pub fn textures(&self, rays: &RayBvh) -> TextureArrays {
         if self.paint.is_empty() {
-            return SkinArrays::default();
+            return TextureArrays::default();
         }
         let [surfaces, lights] = &self.corners;
         let of = |&source: &u32| surfaces.get(source as usize).copied().unwrap_or(UNPAINTED);
         let surfaces = rays.sources().iter().map(of);
-        SkinArrays {
+        TextureArrays {
             corners: surfaces.chain(lights.iter().copied()).collect(),
             words: Arc::clone(&self.paint),
         }

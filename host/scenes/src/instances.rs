@@ -67,7 +67,7 @@ impl<L: SceneLight> Instances<L> {
                     if triangles.is_empty() {
                         continue;
                     }
-                    let mesh = lights.apply(vec![Edit::AddMesh { triangles }])?.meshes[0];
+                    let mesh = lights.apply(vec![Edit::AddMesh { lights: triangles }])?.meshes[0];
                     shared.extend(key.map(|key| (key, mesh)));
                     mesh
                 }

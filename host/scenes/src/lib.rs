@@ -49,8 +49,8 @@ mod scene;
 mod scene_light;
 mod shapes;
 mod shown;
-mod skin_words;
 mod srgb;
+mod texture_words;
 mod track;
 mod transform;
 
@@ -75,5 +75,5 @@ pub use paint::{IN_PLACE, MAX_SIDE, Paint, Picture, Texture, Wrap};
 pub use ray_bvh::{RayBvh, RayBvhError};
 pub use scene::Scene;
 pub use scene_light::SceneLight;
-pub use skin_words::SkinArrays;
+pub use texture_words::TextureArrays;
 pub use transform::Transform;

@@ -1,7 +1,7 @@
 //! The scene at a time, in the same order every frame.
 
 use lightbvh::light::{EmissiveTriangle, TWO_SIDED};
-use lightbvh_kernels::shading::skin::Corner;
+use lightbvh_kernels::shading::textures::Corner;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
 use super::animate::Pose;

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use glam::Vec3A;
 use lightbvh_kernels::shading::grid::{MAX_COORDINATE, STEP, snap};
-use lightbvh_kernels::shading::skin::NoSkin;
+use lightbvh_kernels::shading::textures::NoTextures;
 use lightbvh_kernels::shading::trace::{
     LANES, MAX_DEPTH, MAX_TRIANGLES, NONE, RayNode, SurfaceTriangle, Surfaces, TriangleBlock, WIDTH,
 };
@@ -107,7 +107,7 @@ impl RayBvh {
         Surfaces {
             nodes: &self.nodes,
             blocks: &self.blocks,
-            skin: NoSkin,
+            textures: NoTextures,
         }
     }
 

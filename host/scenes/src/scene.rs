@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use super::camera::towards;
 use super::error::SceneError;
 use super::model::SceneData;
-use super::skin_words;
+use super::texture_words;
 
 /// A scene that passed every check of [`Scene::new`]: finite, in range, references whole.
 #[derive(Clone, Debug)]
@@ -65,9 +65,12 @@ impl Scene {
         self
     }
 
-    /// The words of [`SkinArrays`](super::SkinArrays).
+    /// The words of [`TextureArrays`](super::TextureArrays).
     pub(super) fn paint_words(&self) -> Arc<Vec<u32>> {
-        Arc::clone(self.paint.get_or_init(|| Arc::new(skin_words::words(&self.data))))
+        Arc::clone(
+            self.paint
+                .get_or_init(|| Arc::new(texture_words::words(&self.data))),
+        )
     }
 
     /// The scene as a camera at `eye` sees it that looks at `target`, both metres, with a vertical field of view of `yfov`

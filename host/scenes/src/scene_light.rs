@@ -3,9 +3,9 @@
 use lightbvh::EmissiveTriangle;
 use lightbvh::light::{AnyLight, Light};
 use lightbvh_kernels::shading::emitter::Emitter;
-use lightbvh_kernels::shading::skin::{NoSkin, SkinView};
+use lightbvh_kernels::shading::textures::{NoTextures, TextureView};
 
-use super::skin_words::SkinArrays;
+use super::texture_words::TextureArrays;
 use crate::vector::{dot, normal};
 
 /// A type of lights of a scene.
@@ -17,7 +17,7 @@ pub trait SceneLight: Emitter + From<EmissiveTriangle> {
     fn of_kind(light: AnyLight) -> Option<Self>;
 
     /// What is painted on surfaces, where such scenes know of it.
-    fn skin(skin: &SkinArrays) -> Self::Skin<'_>;
+    fn textures(textures: &TextureArrays) -> Self::Textures<'_>;
 
     /// Vertices of the light where it is a triangle; of another, three times the place it is at.
     fn corners(&self) -> [[f32; 3]; 3];
@@ -33,8 +33,8 @@ impl SceneLight for EmissiveTriangle {
         None
     }
 
-    fn skin(_: &SkinArrays) -> NoSkin {
-        NoSkin
+    fn textures(_: &TextureArrays) -> NoTextures {
+        NoTextures
     }
 
     fn corners(&self) -> [[f32; 3]; 3] {
@@ -57,8 +57,8 @@ impl SceneLight for AnyLight {
         Some(light)
     }
 
-    fn skin(skin: &SkinArrays) -> SkinView<'_> {
-        skin.view()
+    fn textures(textures: &TextureArrays) -> TextureView<'_> {
+        textures.view()
     }
 
     fn corners(&self) -> [[f32; 3]; 3] {

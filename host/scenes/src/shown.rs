@@ -6,7 +6,7 @@ use lightbvh_kernels::shading::picture::{self, HEADER_WORDS, PictureWords, Rgba,
 use super::paint::{Texture, Wrap};
 use super::srgb::linear_from_srgb;
 
-/// The words that a skin begins with: the number of materials, and the number that each encoded byte stands for.
+/// The words that a textures begins with: the number of materials, and the number that each encoded byte stands for.
 pub(super) fn header(materials: u32) -> Vec<u32> {
     let mut words = vec![0; HEADER_WORDS as usize];
     words[0] = materials;

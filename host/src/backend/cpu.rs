@@ -67,7 +67,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for CpuB
         in_batches(params, integrator, |params| {
             Ok(Timed::of(|| match sampler {
                 Sampler::Uniform => {
-                    let count = scene.lights.triangles().len() as u32;
+                    let count = scene.lights.all().len() as u32;
                     image(&view, camera, params, integrator, &Uniform { count })
                 }
                 Sampler::Power => {
@@ -109,7 +109,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> CpuBackend<C, W> {
     fn view<'a>(&'a self, scene: &'a SceneArrays<C::Light>, sampler: Sampler) -> Scene<'a, C::Light> {
         scene.lit_by(match sampler.needs_bvh() {
             true => Emitters {
-                triangles: self.bvh.triangles(),
+                lights: self.bvh.lights(),
                 instances: self.bvh.tree().instances,
             },
             false => scene.emitters(),

@@ -27,9 +27,9 @@ pub(super) fn bind<N: Node<W, Light = L>, L: SceneLight, const W: usize>(
     ];
     let listed = scene.emitters();
     bindings.extend(match sampler.needs_bvh() {
-        true => [tree.triangles.bind(), tree.instances.bind()],
+        true => [tree.lights.bind(), tree.instances.bind()],
         false => [
-            device.upload(listed.triangles)?.bind(),
+            device.upload(listed.lights)?.bind(),
             device.upload(listed.instances)?.bind(),
         ],
     });
@@ -41,8 +41,8 @@ pub(super) fn bind<N: Node<W, Light = L>, L: SceneLight, const W: usize>(
     ]);
     if L::IS_ANY {
         bindings.extend([
-            device.upload(&scene.skin.corners)?.bind(),
-            device.upload(&scene.skin.words)?.bind(),
+            device.upload(&scene.textures.corners)?.bind(),
+            device.upload(&scene.textures.words)?.bind(),
         ]);
     }
     Ok(bindings)

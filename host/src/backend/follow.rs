@@ -20,7 +20,7 @@ pub struct Mirrored<'d, N: Node<W>, const W: usize> {
     /// How many of them are of bottom levels, and which are of the top level.
     bottoms: usize,
     pub(super) top: Range<usize>,
-    pub(super) triangles: Buffer<N::Light>,
+    pub(super) lights: Buffer<N::Light>,
     pub(super) instances: Buffer<Instance>,
     roots: Buffer<BlasRoot>,
     pub(super) trails: Buffer<u32>,
@@ -39,7 +39,7 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
             nodes: device.buffer(0)?,
             bottoms: 0,
             top: 0..0,
-            triangles: device.buffer(0)?,
+            lights: device.buffer(0)?,
             instances: device.buffer(0)?,
             roots: device.buffer(0)?,
             trails: device.buffer(0)?,
@@ -80,7 +80,7 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
     fn bind(&self, name: &str) -> Option<Binding> {
         DeviceBuffer::named(name).map(|buffer| match buffer {
             DeviceBuffer::Nodes => self.nodes.bind(),
-            DeviceBuffer::Triangles => self.triangles.bind(),
+            DeviceBuffer::Lights => self.lights.bind(),
             DeviceBuffer::Instances => self.instances.bind(),
             DeviceBuffer::Roots => self.roots.bind(),
             DeviceBuffer::Trails => self.trails.bind(),
@@ -159,7 +159,7 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
     fn write(&mut self, frame: &Frame<'_>) -> Result<(), VulkanError> {
         let device = self.device;
         write(device, &mut self.nodes, frame, DeviceBuffer::Nodes)?;
-        write(device, &mut self.triangles, frame, DeviceBuffer::Triangles)?;
+        write(device, &mut self.lights, frame, DeviceBuffer::Lights)?;
         write(device, &mut self.instances, frame, DeviceBuffer::Instances)?;
         write(device, &mut self.roots, frame, DeviceBuffer::Roots)?;
         write(device, &mut self.trails, frame, DeviceBuffer::Trails)?;

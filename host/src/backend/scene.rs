@@ -8,7 +8,7 @@ use lightbvh_kernels::shading::pixel::Scene as SceneView;
 use lightbvh_kernels::shading::trace::Surfaces;
 
 use crate::render::{RayBvh, power_thresholds};
-use crate::scene::{SceneLight, SkinArrays};
+use crate::scene::{SceneLight, TextureArrays};
 
 /// How the renderer chooses lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, strum::IntoStaticStr, serde::Serialize)]
@@ -56,14 +56,14 @@ pub struct SceneArrays<L = EmissiveTriangle> {
     /// Who looks.
     pub camera: Camera,
     /// The surfaces' paint.
-    pub skin: SkinArrays,
+    pub textures: TextureArrays,
 }
 
 impl<L: SceneLight> SceneArrays<L> {
     /// Gathers a frame; the power table is made here.
     pub fn new(rays: RayBvh, materials: Vec<Material>, lights: Lights<L>, camera: Camera) -> Self {
-        let thresholds = power_thresholds(lights.triangles()).unwrap_or_default();
-        let identity = listed(lights.triangles().len() as u32);
+        let thresholds = power_thresholds(lights.all()).unwrap_or_default();
+        let identity = listed(lights.all().len() as u32);
         Self {
             rays,
             materials,
@@ -71,14 +71,14 @@ impl<L: SceneLight> SceneArrays<L> {
             identity,
             thresholds,
             camera,
-            skin: SkinArrays::default(),
+            textures: TextureArrays::default(),
         }
     }
 
     /// With what is painted on the surfaces.
     #[must_use]
-    pub fn painted(self, skin: SkinArrays) -> Self {
-        Self { skin, ..self }
+    pub fn painted(self, textures: TextureArrays) -> Self {
+        Self { textures, ..self }
     }
 
     /// The arrays as the kernels' functions take them, the lights as they are listed here.
@@ -96,16 +96,20 @@ impl<L: SceneLight> SceneArrays<L> {
     }
 
     /// The surfaces that rays meet, and their paint.
-    pub fn surfaces(&self) -> Surfaces<'_, L::Skin<'_>> {
+    pub fn surfaces(&self) -> Surfaces<'_, L::Textures<'_>> {
         let Surfaces { nodes, blocks, .. } = self.rays.surfaces();
-        let skin = L::skin(&self.skin);
-        Surfaces { nodes, blocks, skin }
+        let textures = L::textures(&self.textures);
+        Surfaces {
+            nodes,
+            blocks,
+            textures,
+        }
     }
 
     /// The lights as they are listed here.
     pub fn emitters(&self) -> Emitters<'_, L> {
         Emitters {
-            triangles: self.lights.triangles(),
+            lights: self.lights.all(),
             instances: &self.identity,
         }
     }

@@ -117,7 +117,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Indep
             return Err(HostError::Sampler {
                 scene: step.scene.name().to_owned(),
                 sampler: recipe.name,
-                lights: arrays.lights.triangles().len(),
+                lights: arrays.lights.all().len(),
             });
         }
         let all = RenderParams {

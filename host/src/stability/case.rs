@@ -85,7 +85,7 @@ pub fn moving_scene(
     let refused = |error| HostError::in_frame(name, 0, error);
     let mut scene: Bvh = lightbvh::Bvh::new(*params);
     let edits = meshes.iter().map(|triangles| Edit::AddMesh {
-        triangles: triangles.clone(),
+        lights: triangles.clone(),
     });
     let ids = scene.apply(edits.collect()).map_err(refused)?.meshes;
     let edits = instances

@@ -45,7 +45,7 @@ pub fn check(
     samples: u32,
 ) -> Vec<Row> {
     let (tree, all) = (bvh.tree(), lights);
-    let lights = all.triangles();
+    let lights = all.all();
     // Without a uniform share.
     let weights = tree.by::<Moments>();
     // Without any flux a uniform share may still choose lights, and the other samples none.
@@ -97,7 +97,7 @@ pub fn check(
 
 /// Probabilities of all lights at a point.
 pub fn all_pmfs(bvh: &Bvh, lights: &Lights, point: &ShadingPoint) -> Vec<f32> {
-    let (tree, count) = (bvh.tree(), lights.triangles().len() as u32);
+    let (tree, count) = (bvh.tree(), lights.all().len() as u32);
     (0..count)
         .into_par_iter()
         .with_min_len(64)

@@ -70,7 +70,7 @@ pub fn run(case: &Case, effort: &Effort, devices: &[&Device], found: &mut Found)
         Source::World(triangles) => triangles,
         Source::Moving { meshes, instances } => {
             let (bvh, lights) = moving_scene(&case.name, meshes, instances, &case.params)?;
-            let points = case::around(lights.triangles(), 24, &mut random::Random::new(5));
+            let points = case::around(lights.all(), 24, &mut random::Random::new(5));
             let points = [&case.points[..], &points].concat();
             let tree = (&bvh, &lights, "instances");
             return check(&case.name, tree, (&points, samples), devices, found);

@@ -35,7 +35,7 @@ pub fn compare(
         cpu: &mut cpu,
         devices: vec![&mut other],
     };
-    compare_bvh(&mut side, &mut tallies, "", (bvh, lights.triangles()), points)?;
+    compare_bvh(&mut side, &mut tallies, "", (bvh, lights.all()), points)?;
     let tally = &tallies.devices[0];
     let row = |(check, kind)| {
         let row = Row::new(

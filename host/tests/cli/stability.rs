@@ -28,7 +28,7 @@ fn rows(break_it: impl Fn(&mut LightBvh)) -> Vec<Row> {
     let lights = Lights::new(scattered(100, 1)).expect("within the domain");
     let mut bvh = LightBvh::single_level(&lights, &BuildParams::default());
     break_it(&mut bvh);
-    let points = case::Case::new("", lights.triangles().to_vec()).points;
+    let points = case::Case::new("", lights.all().to_vec()).points;
     checks::check("broken", "single-level", (&bvh, &lights), &points, 20_000)
 }
 

@@ -33,7 +33,7 @@ use lightbvh_gpu::{DeviceBuffer, MOMENTS, Mirror, Pass, Query, Step, query_push,
 const FRAMES: u16 = 20;
 const QUERIES: u32 = 10_000;
 /// Bindings of the shader of one's own, in the order of its parameters; how many points it lights, by how many samples each.
-const BINDINGS: [&str; 6] = ["nodes", "instances", "trails", "triangles", "points", "results"];
+const BINDINGS: [&str; 6] = ["nodes", "instances", "trails", "lights", "points", "results"];
 const POINTS: u32 = 4096;
 const SAMPLES: u32 = 16;
 
@@ -164,7 +164,7 @@ fn run(gpu: &Rc<Gpu>, shader: Option<&[u32]>) -> Result<u64> {
     }
     if let Some(module) = shader {
         let (points, _): (Vec<_>, Vec<_>) = points(0, POINTS).into_iter().unzip();
-        let (tree, triangles) = (world.bvh.tree(), world.bvh.triangles());
+        let (tree, triangles) = (world.bvh.tree(), world.bvh.lights());
         let cpu: Vec<[f32; 3]> = (0..)
             .zip(&points)
             .map(|(seed, point)| direct_light(&tree, triangles, point, SAMPLES, seed))

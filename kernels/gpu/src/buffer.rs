@@ -6,13 +6,13 @@
 pub enum DeviceBuffer {
     /// The nodes of bottom levels, and behind them those of the top level. A refit writes them.
     Nodes,
-    /// The triangles of bottom levels, or their lights of another kind, in the spaces of their meshes, for a refit.
-    Triangles,
+    /// The lights of bottom levels, or their lights of another kind, in the spaces of their meshes, for a refit.
+    Lights,
     /// The instances.
     Instances,
     /// The roots of bottom levels. A refit writes them.
     Roots,
-    /// The bit trails of triangles, `LightTree::trail_words` words each, and the links of the top level, for pmfs.
+    /// The bit trails of lights, `LightTree::trail_words` words each, and the links of the top level, for pmfs.
     Trails,
     /// Indices of the nodes and roots that a frame's refit computes. Like [`Children`](Self::Children) it belongs to one frame
     /// until the device is done with it.
@@ -25,7 +25,7 @@ impl DeviceBuffer {
     /// All of them.
     pub const ALL: [Self; 7] = [
         Self::Nodes,
-        Self::Triangles,
+        Self::Lights,
         Self::Instances,
         Self::Roots,
         Self::Trails,
@@ -38,7 +38,7 @@ impl DeviceBuffer {
     pub fn name(self) -> &'static str {
         match self {
             Self::Nodes => "nodes",
-            Self::Triangles => "triangles",
+            Self::Lights => "lights",
             Self::Instances => "instances",
             Self::Roots => "roots",
             Self::Trails => "trails",

@@ -75,7 +75,7 @@ impl Frame<'_> {
 const BUFFERS: [DeviceBuffer; 11] = [
     DeviceBuffer::Nodes,
     DeviceBuffer::Nodes,
-    DeviceBuffer::Triangles,
+    DeviceBuffer::Lights,
     DeviceBuffer::Instances,
     DeviceBuffer::Roots,
     DeviceBuffer::Trails,
@@ -100,7 +100,7 @@ fn arrays<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> [&[u8]; LIST] {
     [
         cast_slice(bvh.nodes()),
         cast_slice(bvh.top_nodes()),
-        cast_slice(bvh.triangles()),
+        cast_slice(bvh.lights()),
         cast_slice(tree.instances),
         cast_slice(bvh.roots()),
         cast_slice(tree.trails),
@@ -122,7 +122,7 @@ fn strides<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> [u64; LIST] {
 /// Tracks what a device holds of a light BVH. A new mirror holds nothing, so its first frame uploads everything.
 ///
 /// Arrays that share a buffer stand one after another, each with capacity to grow: the nodes of bottom levels and those of the top
-/// level; trails and links. Indices of nodes of bottom levels, instances and triangles are those of the light BVH.
+/// level; trails and links. Indices of nodes of bottom levels, instances and lights are those of the light BVH.
 ///
 /// A mirror assumes that each frame was done. If the device failed to do it, begin with a new mirror, on this device or
 /// another; the light BVH is not changed. Any number of mirrors may follow one light BVH.
@@ -160,7 +160,7 @@ impl Mirror {
         let written: [&[Range<u32>]; LIST] = [
             &plan.written_nodes,
             &plan.written_top,
-            &plan.written_triangles,
+            &plan.written_lights,
             &plan.written_instances,
             &roots,
             &plan.written_trails,

@@ -124,7 +124,7 @@ macro_rules! record {
 
 #[test]
 fn records_have_their_fields() {
-    record!(Instance: root, blas, first, first_triangle, count, listed, columns, translation, inverse, per_inverse, flux, radiance, mask,
+    record!(Instance: root, blas, first, first_light, count, listed, columns, translation, inverse, per_inverse, flux, radiance, mask,
         mirrored);
     record!(BlasRoot: node, words);
     record!(EmissiveTriangle: p, radiance, mesh, flags);

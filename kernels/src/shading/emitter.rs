@@ -10,12 +10,12 @@ use lightbvh::{EmissiveTriangle, LightPoint, ShadingPoint};
 use super::area::{Connection, MAX_DENSITY, NEAREST_SQUARED, OFFSET, largest_component, reflected};
 use super::grid::{STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, div, flush_vector, sqrt};
 use super::material::Material;
-use super::skin::{NoSkin, Skin, SkinView};
+use super::textures::{NoTextures, TextureView, Textures};
 
 /// A light that points are lit by, and that rays may meet.
 pub trait Emitter: Light {
     /// What is painted on the surfaces of such scenes.
-    type Skin<'a>: Skin;
+    type Textures<'a>: Textures;
 
     /// Connects `point` with the point of this light that `uv` chooses, where the light was chosen with probability `pmf`.
     // A function of its own on devices, by value: passes connect in several places, and it is long.
@@ -74,7 +74,7 @@ pub trait Emitter: Light {
 }
 
 impl Emitter for EmissiveTriangle {
-    type Skin<'a> = NoSkin;
+    type Textures<'a> = NoTextures;
 
     #[inline]
     fn is_met(&self) -> bool {
@@ -95,7 +95,7 @@ impl Emitter for EmissiveTriangle {
 /// Triangles and rectangles are met. A sphere and a disc are seen as facets within them, which hold some of their points and not others, so
 /// no ray but the camera's counts; points and spots are not seen.
 impl Emitter for AnyLight {
-    type Skin<'a> = SkinView<'a>;
+    type Textures<'a> = TextureView<'a>;
 
     #[inline]
     fn is_met(&self) -> bool {

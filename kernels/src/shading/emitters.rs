@@ -8,7 +8,7 @@ use lightbvh::{EmissiveTriangle, INVALID, Instance};
 #[derive(Clone, Copy)]
 pub struct Emitters<'a, L = EmissiveTriangle> {
     /// The lights of all meshes, in the spaces of their meshes.
-    pub triangles: &'a [L],
+    pub lights: &'a [L],
     /// Where the meshes stand.
     pub instances: &'a [Instance],
 }
@@ -33,6 +33,6 @@ impl<L: Light> Emitters<'_, L> {
         } else {
             instance
         };
-        world_light(self.triangles, self.instances, light, instance)
+        world_light(self.lights, self.instances, light, instance)
     }
 }

@@ -9,7 +9,7 @@
 //! | [`emitters`] | the lights, read through their instances |
 //! | [`emitter`] | a light as the renderer shows it, of triangles alone or of any kind |
 //! | [`area`] | a point on the chosen light, and what it contributes |
-//! | [`skin`], [`picture`] | textures: colours, glow, what is cut out |
+//! | [`textures`], [`picture`] | textures: colours, glow, what is cut out |
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
 //! | [`picks`] | the lights of a pixel's samples |
 //! | [`numbers`] | the numbers that lights and points on them are drawn by |
@@ -39,5 +39,5 @@ pub mod picks;
 pub mod picture;
 pub mod pixel;
 pub mod ray;
-pub mod skin;
+pub mod textures;
 pub mod trace;

@@ -10,14 +10,14 @@ use super::emitters::Emitters;
 use super::grid::{TINY_AREA, div, flush_vector, sqrt};
 use super::material::Material;
 use super::ray::Ray;
-use super::skin::{Skin, Spot};
+use super::textures::{Spot, Textures};
 use super::trace::{LANES, NONE, RayNode, Surfaces, TriangleBlock, any_hit, closest_hit, vertex};
 
 /// Everything that light meets.
 #[derive(Clone, Copy)]
 pub struct Scene<'a, L: Emitter = EmissiveTriangle> {
     /// What rays hit.
-    pub surfaces: Surfaces<'a, L::Skin<'a>>,
+    pub surfaces: Surfaces<'a, L::Textures<'a>>,
     /// How it reflects; indexed by the triangles.
     pub materials: &'a [Material],
     /// What of it emits.
@@ -32,14 +32,18 @@ impl<'a, L: Emitter> Scene<'a, L> {
         nodes: &'a [RayNode],
         blocks: &'a [TriangleBlock],
         materials: &'a [Material],
-        triangles: &'a [L],
+        lights: &'a [L],
         instances: &'a [Instance],
-        skin: L::Skin<'a>,
+        textures: L::Textures<'a>,
     ) -> Self {
         Self {
-            surfaces: Surfaces { nodes, blocks, skin },
+            surfaces: Surfaces {
+                nodes,
+                blocks,
+                textures,
+            },
             materials,
-            emitters: Emitters { triangles, instances },
+            emitters: Emitters { lights, instances },
         }
     }
 
@@ -48,7 +52,7 @@ impl<'a, L: Emitter> Scene<'a, L> {
     #[must_use]
     pub fn material(&self, seen: &Seen) -> Material {
         self.surfaces
-            .skin
+            .textures
             .material(self.materials, seen.material, &seen.spot)
     }
 
@@ -57,12 +61,12 @@ impl<'a, L: Emitter> Scene<'a, L> {
     #[must_use]
     pub fn glowing(&self, light: L, number: u32, uv: [f32; 2]) -> L {
         let mut glowing = light;
-        if <L::Skin<'_> as Skin>::IS_PAINTED {
+        if <L::Textures<'_> as Textures>::IS_PAINTED {
             // The parts of a triangle's edges, as `uniform_point` folds them.
             let fold = uv[0] + uv[1] > 1.0;
             let at = if fold { [1.0 - uv[0], 1.0 - uv[1]] } else { uv };
-            let Surfaces { blocks, skin, .. } = self.surfaces;
-            glowing = light.with_emission(skin.glow(blocks, number, at, light.emission()));
+            let Surfaces { blocks, textures, .. } = self.surfaces;
+            glowing = light.with_emission(textures.glow(blocks, number, at, light.emission()));
         }
         glowing
     }
@@ -185,9 +189,9 @@ fn emitted<L: Emitter>(scene: &Scene<'_, L>, light: u32, instance: u32, front: b
     let mut radiance = Vec3::ZERO;
     if light != NONE {
         let mut own = scene.emitters.light(light, instance);
-        if <L::Skin<'_> as Skin>::IS_PAINTED {
-            let Surfaces { blocks, skin, .. } = scene.surfaces;
-            own = own.with_emission(skin.glow(blocks, light, at, own.emission()));
+        if <L::Textures<'_> as Textures>::IS_PAINTED {
+            let Surfaces { blocks, textures, .. } = scene.surfaces;
+            own = own.with_emission(textures.glow(blocks, light, at, own.emission()));
         }
         radiance = own.emitted(front);
     }

@@ -7,7 +7,7 @@ use lightbvh::exact::{max, min, pow2};
 
 pub use super::block::{LANES, NONE, SurfaceTriangle, TriangleBlock, vertex};
 use super::ray::{FAR, MISS, Meeting, Ray};
-use super::skin::{NoSkin, Skin};
+use super::textures::{NoTextures, Textures};
 
 /// Children of a node: as many numbers as a vector register of 256 bits holds.
 pub const WIDTH: usize = 8;
@@ -66,13 +66,13 @@ impl RayNode {
 
 /// The scene as rays see it.
 #[derive(Clone, Copy)]
-pub struct Surfaces<'a, S = NoSkin> {
+pub struct Surfaces<'a, S = NoTextures> {
     /// The ray BVH.
     pub nodes: &'a [RayNode],
     /// What its leaves hold.
     pub blocks: &'a [TriangleBlock],
     /// What is painted on it.
-    pub skin: S,
+    pub textures: S,
 }
 
 /// The first triangle on a ray.
@@ -87,7 +87,7 @@ pub struct Hit {
 /// The nearest hit of the ray; of equally near ones, the first in the order of the triangles.
 #[inline]
 #[must_use]
-pub fn closest_hit<S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray) -> Hit {
+pub fn closest_hit<S: Textures>(surfaces: &Surfaces<'_, S>, ray: &Ray) -> Hit {
     widest(
         #[inline(always)]
         || walk::<false, S>(surfaces, ray, NONE),
@@ -97,7 +97,7 @@ pub fn closest_hit<S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray) -> Hit {
 /// Whether anything but the emissive triangle `except` lies on the ray. A light so never shadows itself, whatever the rounding.
 #[inline]
 #[must_use]
-pub fn any_hit<S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except: u32) -> bool {
+pub fn any_hit<S: Textures>(surfaces: &Surfaces<'_, S>, ray: &Ray, except: u32) -> bool {
     widest(
         #[inline(always)]
         || walk::<true, S>(surfaces, ray, except).triangle != NONE,
@@ -106,7 +106,7 @@ pub fn any_hit<S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except: u32) -> b
 
 /// Visits each node once at most, and a block of triangles for each of its children, whatever the words in the buffers.
 #[inline(always)]
-fn walk<const ANY: bool, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except: u32) -> Hit {
+fn walk<const ANY: bool, S: Textures>(surfaces: &Surfaces<'_, S>, ray: &Ray, except: u32) -> Hit {
     let nodes = surfaces.nodes;
     let end = nodes.len() as u32;
     let mut found = Hit {
@@ -164,7 +164,7 @@ fn walk<const ANY: bool, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except:
 #[cfg(not(target_arch = "spirv"))]
 #[allow(clippy::needless_range_loop)]
 #[inline(always)]
-fn hit_leaf<S: Skin>(
+fn hit_leaf<S: Textures>(
     surfaces: &Surfaces<'_, S>,
     index: u32,
     _count: u32,
@@ -205,7 +205,7 @@ fn hit_leaf<S: Skin>(
 /// The same one by one: an invocation of a device is a lane itself.
 #[cfg(target_arch = "spirv")]
 #[inline(always)]
-fn hit_leaf<S: Skin>(
+fn hit_leaf<S: Textures>(
     surfaces: &Surfaces<'_, S>,
     index: u32,
     count: u32,
@@ -234,7 +234,7 @@ fn hit_leaf<S: Skin>(
 
 /// The nearer of what was found and a triangle that is `light`.
 #[inline(always)]
-fn nearer<S: Skin>(
+fn nearer<S: Textures>(
     surfaces: &Surfaces<'_, S>,
     ray: &Ray,
     found: Hit,
@@ -246,7 +246,7 @@ fn nearer<S: Skin>(
     let t = met.before(found.t);
     let excepted = except != NONE && light == except;
     let mut nearer = found;
-    if t != MISS && !excepted && surfaces.skin.stops(surfaces.blocks, ray, triangle) {
+    if t != MISS && !excepted && surfaces.textures.stops(surfaces.blocks, ray, triangle) {
         nearer = Hit { triangle, t };
     }
     nearer

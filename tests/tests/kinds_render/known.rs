@@ -15,7 +15,7 @@ fn sent(scene: &Scene, x: f32) -> f64 {
     };
     let n = 512;
     let mut sum = 0.0;
-    for light in lights.triangles() {
+    for light in lights.all() {
         for k in 0..n * n {
             let uv = [k % n, k / n].map(|k| (k as f32 + 0.5) / n as f32);
             let own = light.point_for(point.position(), uv).irradiance(&point);

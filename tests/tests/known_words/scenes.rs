@@ -16,7 +16,7 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
         let triangles = generate::small_triangles(30 + i, 100, 2.0, 0.3, i % 2 == 0, i);
         meshes.push((
             scene
-                .apply(vec![Edit::AddMesh { triangles }])
+                .apply(vec![Edit::AddMesh { lights: triangles }])
                 .expect("a mesh")
                 .meshes[0],
             30 + i,
@@ -49,7 +49,10 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
             let (mesh, count) = meshes[random.below(6) as usize];
             let size = random.between(1.0, 9.0);
             let triangles = generate::small_triangles(count, 100, size, 0.5, false, frame);
-            batch.push(Edit::SetTriangles { mesh, triangles });
+            batch.push(Edit::SetLights {
+                mesh,
+                lights: triangles,
+            });
         }
         if ids.len() > 10 {
             for _ in 0..random.below(6) {
@@ -67,7 +70,7 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
         let work = scene.plan(&mut cursor);
         for list in [
             &work.written_nodes,
-            &work.written_triangles,
+            &work.written_lights,
             &work.written_trails,
             &work.written_instances,
             &work.written_top,
@@ -91,7 +94,7 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
         digest.words(scene.tree().links.places);
         digest.words(scene.roots());
         digest.words(scene.instances());
-        digest.words(scene.triangles());
+        digest.words(scene.lights());
         digest.words(scene.tree().trails);
         digest.words(&scene.world_lights());
         for range in scene.removed_lights() {

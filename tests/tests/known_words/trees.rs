@@ -42,7 +42,7 @@ pub fn lights() -> Lights {
 pub fn points() -> Vec<ShadingPoint> {
     let mut random = Random::new(23);
     let mut points: Vec<ShadingPoint> = (0..40).map(|_| generate::point(&mut random, 20.0)).collect();
-    for (i, t) in lights().triangles().iter().enumerate().step_by(23) {
+    for (i, t) in lights().all().iter().enumerate().step_by(23) {
         let away = random.direction();
         let distance = exact::pow2(i as i32 % 20 - 12);
         points.push(ShadingPoint {
@@ -109,7 +109,7 @@ fn picks<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         let sampled = bvh.by::<I>().sample(&point, random.bits());
         digest.word(sampled.light);
         for _ in 0..6 {
-            let light = random.below(lights.triangles().len() as u32);
+            let light = random.below(lights.all().len() as u32);
             digest.float(pmf_of::<_, I, _>(bvh, lights, &point, light));
         }
     }

@@ -172,7 +172,7 @@ fn edits_change_how_flux_grows() {
     assert_eq!(flux(&bvh), [1.0, 1.0, 4.0]);
     for (from, own, name) in [(&spheres, 4.0, "spheres"), (&points, 1.0, "points")] {
         for (k, &light) in from.iter().enumerate() {
-            bvh.set_triangle_range(mesh, k as u32, std::vec![light])
+            bvh.set_light_range(mesh, k as u32, std::vec![light])
                 .expect("a light");
             bvh.refit();
             let own = if k + 1 < PER_MESH { 4.0 } else { own };
@@ -183,7 +183,7 @@ fn edits_change_how_flux_grows() {
         let again = Tree::<AnyLight>::from_words(&bvh.to_words()).expect("written by itself");
         assert_eq!(again.instances, bvh.instances);
     }
-    bvh.set_triangles(mesh, spheres.clone()).expect("as many");
+    bvh.set_lights(mesh, spheres.clone()).expect("as many");
     bvh.refit();
     agrees("spheres at once", &bvh, 1, &spheres);
 }

@@ -10,17 +10,17 @@ use crate::{CompactNode, InstanceId};
 
 type Tree = Bvh<CompactNode<4>, crate::Eq4, 4>;
 
-/// Triangles of the one mesh.
+/// Lights of the one mesh.
 const COUNT: usize = 1 << 12;
 
-fn triangles(count: usize, size: f32) -> Vec<EmissiveTriangle> {
+fn lights(count: usize, size: f32) -> Vec<EmissiveTriangle> {
     let corner = |i: usize| [(i % 64) as f32, (i / 64) as f32, 0.0];
     let lamp = |i| triangle([corner(i), [size, 0.0, 0.0], [0.0, size, 0.0]]);
     (0..count).map(lamp).collect()
 }
 
 fn scene(count: usize) -> (Tree, MeshId, InstanceId) {
-    let (scene, ids): (Tree, _) = scattered(triangles(count, 1.0), 1, |_| [0.0; 3]);
+    let (scene, ids): (Tree, _) = scattered(lights(count, 1.0), 1, |_| [0.0; 3]);
     let mesh = scene.mesh_of(ids[0]).expect("a mesh");
     (scene, mesh, ids[0])
 }
@@ -44,17 +44,17 @@ fn limit(scene: &Tree, mut edits: Vec<Edit>) {
     assert_eq!((error.edit, error.reason), (last, EditReason::TooMany));
 }
 
-/// As many triangles need more memory than a test should take, so the count of those before them is told.
+/// As many lights need more memory than a test should take, so the count of those before them is told.
 #[test]
 fn triangles_are_limited() {
     let (scene, ..) = scene(COUNT);
     for (more, expected) in [(COUNT, Ok(())), (COUNT + 1, Err(EditReason::TooMany))] {
         let mut batch = Batch {
-            triangles: MAX_LIGHTS - COUNT,
+            lights: MAX_LIGHTS - COUNT,
             ..Batch::default()
         };
-        let triangles = triangles(more, 1.0);
-        let found = scene.check_one(&mut batch, &mut Edit::AddMesh { triangles });
+        let lights = lights(more, 1.0);
+        let found = scene.check_one(&mut batch, &mut Edit::AddMesh { lights });
         assert_eq!(found, expected, "{more}");
     }
 }
@@ -62,16 +62,16 @@ fn triangles_are_limited() {
 #[test]
 fn lights_are_limited() {
     let (mut scene, mesh, _) = scene(COUNT);
-    scene.lights.take((MAX_LIGHTS - 4 * COUNT) as u32);
+    scene.numbers.take((MAX_LIGHTS - 4 * COUNT) as u32);
     limit(&scene, vec![add(mesh); 3]);
 }
 
 #[test]
 fn edits_know_of_those_before() {
     let (scene, mesh, instance) = scene(2);
-    let deform = |size| Edit::SetTriangles {
+    let deform = |size| Edit::SetLights {
         mesh,
-        triangles: triangles(2, size),
+        lights: lights(2, size),
     };
     let check = |mut edits: Vec<Edit>| {
         scene
@@ -88,7 +88,7 @@ fn edits_know_of_those_before() {
         1
     );
     let reaches = check(vec![deform(large), deform(1.0)]).expect("near");
-    assert_eq!(reaches[&mesh], reach_of(&triangles(2, 1.0)));
+    assert_eq!(reaches[&mesh], reach_of(&lights(2, 1.0)));
     assert!(too_far(check(vec![moved(instance, [far; 3]), deform(large)]), 1));
     assert!(too_far(check(vec![deform(large), moved(instance, [far; 3])]), 1));
     check(vec![deform(large), deform(1.0), moved(instance, [far; 3])]).expect("small again");
@@ -113,13 +113,13 @@ fn edits_know_of_those_before() {
 /// The first wrong one, though others follow; what is within the domain is brought to its normal form.
 #[test]
 fn wrong_triangles_are_named_wherever_they_are() {
-    let mut triangles = triangles(9, 1.0);
-    triangles[5].p[0][0] = 1e-40;
-    triangles[7].p[2][1] = f32::NAN;
-    triangles[8].radiance[0] = -1.0;
-    let found = checked(&mut triangles).expect_err("a wrong one");
+    let mut lights = lights(9, 1.0);
+    lights[5].p[0][0] = 1e-40;
+    lights[7].p[2][1] = f32::NAN;
+    lights[8].radiance[0] = -1.0;
+    let found = checked(&mut lights).expect_err("a wrong one");
     assert!(matches!(found, EditReason::Light { index: 7, .. }), "{found}");
-    assert_eq!(triangles[5].p[0][0].to_bits(), 0);
+    assert_eq!(lights[5].p[0][0].to_bits(), 0);
 }
 
 #[test]

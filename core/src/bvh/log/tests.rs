@@ -28,7 +28,7 @@ const PARTS: usize = PLACES + (1 << 12);
 struct Mirror<N: Holds, const W: usize> {
     cursor: Cursor,
     nodes: Vec<N>,
-    triangles: Vec<N::Light>,
+    lights: Vec<N::Light>,
     trails: Vec<u32>,
     instances: Vec<Instance>,
     roots: Vec<BlasRoot>,
@@ -60,7 +60,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         Self {
             cursor: Cursor::default(),
             nodes: std::vec![N::EMPTY; 2 * TOP],
-            triangles: std::vec![N::Light::DARK; ABOVE],
+            lights: std::vec![N::Light::DARK; ABOVE],
             trails: std::vec![0; PARTS + (1 << 16)],
             instances: std::vec![Instance::IDENTITY; 1 << 12],
             roots: std::vec![BlasRoot::new(0, &N::Summary::EMPTY); 1 << 12],
@@ -75,8 +75,8 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         if plan.everything {
             self.wholes += 1;
             plan.written_nodes = all(bvh.nodes().len());
-            plan.written_triangles = all(bvh.triangles().len());
-            plan.written_trails = all(bvh.triangles().len());
+            plan.written_lights = all(bvh.lights().len());
+            plan.written_trails = all(bvh.lights().len());
             plan.written_instances = all(bvh.instances().len());
         }
         if plan.whole_top {
@@ -90,13 +90,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         let trail_words = bvh.tree().trail_words as usize;
         copy(&mut self.nodes, 0, &nodes, 1, &plan.written_nodes);
         copy(&mut self.nodes, TOP, &top, 1, &plan.written_top);
-        copy(
-            &mut self.triangles,
-            0,
-            bvh.triangles(),
-            1,
-            &plan.written_triangles,
-        );
+        copy(&mut self.lights, 0, bvh.lights(), 1, &plan.written_lights);
         copy(
             &mut self.trails,
             0,
@@ -114,7 +108,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         copy(&mut self.trails, ABOVE, links.above, 1, &plan.written_above);
         copy(&mut self.trails, PLACES, links.places, 1, &plan.written_places);
         copy(&mut self.trails, PARTS, links.parts, 1, &plan.written_parts);
-        let bottom = |nodes: &[N], node| refit::bottom(nodes, &self.triangles, node);
+        let bottom = |nodes: &[N], node| refit::bottom(nodes, &self.lights, node);
         passes(&mut self.nodes, 0, &plan.bottom, bottom);
         for &mesh in &plan.roots {
             self.roots[mesh as usize] = refit::root(&self.nodes, bvh.roots()[mesh as usize].node);
@@ -123,7 +117,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
             refit::top(
                 nodes,
                 TOP as u32,
-                &self.triangles,
+                &self.lights,
                 &self.instances,
                 &self.roots,
                 node,
@@ -164,7 +158,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         for (light, instance) in lights(bvh) {
             let pmfs = [own.pmf(&point, light, instance), bvh.pmf(&point, light, instance)];
             assert_eq!(pmfs[0].to_bits(), pmfs[1].to_bits(), "{light} of {instance}");
-            let found = refit::world_light(&self.triangles, &self.instances, light, instance);
+            let found = refit::world_light(&self.lights, &self.instances, light, instance);
             assert_eq!(Some(found), bvh.triangle(light, instance));
         }
         // Names of no light.
@@ -241,7 +235,7 @@ fn mirrors_follow_by_plans_alone() {
     follows::<LinkedSpotMomentNode<8, AnyLight>, Defensive<Moments, 6>, 8>(4);
 }
 
-/// The log and the lists of changed triangles are bounded.
+/// The log and the lists of changed lights are bounded.
 #[test]
 fn edits_without_a_refit_take_no_more_room_than_the_arrays() {
     let random = &mut Random(1);
@@ -250,10 +244,10 @@ fn edits_without_a_refit_take_no_more_room_than_the_arrays() {
     let mut mirror = Mirror::<_, 8>::new();
     mirror.follow(&bvh);
     for k in 0..5000_u16 {
-        let of_mesh = Edit::SetTriangleRange {
+        let of_mesh = Edit::SetLightRange {
             mesh,
             first: u32::from(k) % 200,
-            triangles: lamps(random, 1),
+            lights: lamps(random, 1),
         };
         bvh.apply(std::vec![moved(ids[0], [f32::from(k); 3]), of_mesh])
             .expect("there");

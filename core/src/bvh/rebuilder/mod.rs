@@ -28,9 +28,9 @@ use crate::node::{DefaultNode, Holds, Node};
 
 /// Builds the trees of one [`Bvh`] in the background (paper section 3.5). Call [`begin_frame`](Self::begin_frame) before the
 /// frame's edits and [`end_frame`](Self::end_frame) after its refit. One thread builds the top level after any change, and in
-/// turn meshes whose triangles changed. Use one for each [`Bvh`]: two void each other's builds.
+/// turn meshes whose lights changed. Use one for each [`Bvh`]: two void each other's builds.
 ///
-/// Dropping it waits for its thread to end the build that it runs, if any: 0.4 s for a mesh of 10^6 triangles. If no thread can be started (a limit of the system, or a platform without threads),
+/// Dropping it waits for its thread to end the build that it runs, if any: 0.4 s for a mesh of 10^6 lights. If no thread can be started (a limit of the system, or a platform without threads),
 /// builds run at the end of their frame. On `wasm32-unknown-unknown` there is no clock either, and all times are
 /// zero. If panics abort, a panic while building does too.
 #[derive(Debug)]

@@ -23,7 +23,7 @@ pub struct RebuilderParams {
     /// Pause after a build, in durations of that build, from 0; by default 3, a quarter of a core while lights move. Under
     /// [`Swap::Deterministic`] it counts in frames: `after` is the duration. NaN is taken as 0, infinity builds once.
     pub idle: f64,
-    /// Most bytes of triangles that the end of a frame copies for meshes to be built, by default 8 MiB: about 0.8 ms.
+    /// Most bytes of lights that the end of a frame copies for meshes to be built, by default 8 MiB: about 0.8 ms.
     /// A mesh with more keeps its tree.
     pub bytes: usize,
 }

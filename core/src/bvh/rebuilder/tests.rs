@@ -51,8 +51,8 @@ fn shift(bvh: &mut LightBvh, id: InstanceId) {
 
 fn deform(bvh: &mut LightBvh, mesh: u32) {
     let mesh = bvh.mesh_id(mesh).expect("there");
-    let count = bvh.mesh_triangles(mesh).expect("there").len() as u32;
-    bvh.set_triangles(mesh, lamps(&mut Random(9), count))
+    let count = bvh.mesh_lights(mesh).expect("there").len() as u32;
+    bvh.set_lights(mesh, lamps(&mut Random(9), count))
         .expect("as many");
 }
 
@@ -207,7 +207,7 @@ fn walks_find_their_way_where_a_mesh_has_other_subtrees() {
     converge(&mut bvh, &mut own);
     let mesh = bvh.mesh_id(0).expect("there");
     let other = with_one_far(&mut Random(4), 200);
-    bvh.set_triangles(mesh, other).expect("as many");
+    bvh.set_lights(mesh, other).expect("as many");
     let mut meshes = 0;
     for _ in 0..4 {
         bvh.refit();

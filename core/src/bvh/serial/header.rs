@@ -45,11 +45,11 @@ pub(super) struct Header {
     pub bottom_depth: u32,
     /// Lengths of the arrays, places not in use included.
     pub nodes: u32,
-    pub triangles: u32,
+    pub lights: u32,
     pub meshes: u32,
     pub instances: u32,
     /// One more than the greatest number of a light.
-    pub lights: u32,
+    pub numbers: u32,
     /// Number of ranges of lights that are no more.
     pub removed: u32,
     /// Root of the top level, length of its array of nodes, and number of its free nodes.
@@ -84,7 +84,7 @@ impl Header {
         }
         if own.format != FORMAT {
             return refused(format!(
-                "format {}, expected {FORMAT}; build the light BVH anew from its triangles",
+                "format {}, expected {FORMAT}; build the light BVH anew from its lights",
                 own.format
             ));
         }
@@ -113,11 +113,11 @@ impl Header {
                 "levels of the bottom levels",
                 own.bottom_depth <= max_levels(W),
             ),
-            (10, "number of triangles", own.triangles as usize <= MAX_LIGHTS),
+            (10, "number of lights", own.lights as usize <= MAX_LIGHTS),
             (
                 13,
                 "end of the lights' numbers",
-                own.lights as usize <= MAX_LIGHTS,
+                own.numbers as usize <= MAX_LIGHTS,
             ),
             (19, "number of parts", own.parts as usize <= most_parts),
         ] {
@@ -139,7 +139,7 @@ impl Header {
     }
 }
 
-/// The word of a layout, and of the lights of its trees if they are no emissive triangles: FNV-1a of the bytes of their names.
+/// The word of a layout, and of the lights of its trees if they are no emissive lights: FNV-1a of the bytes of their names.
 pub(super) fn layout<N: Node<W>, const W: usize>() -> u32 {
     let lights = match N::Light::NAME {
         EmissiveTriangle::NAME => "",

@@ -1,6 +1,6 @@
 //! A light BVH as words, to be kept in a file and read again.
 //!
-//! Only what cannot be computed is written: triangles, transforms, links, and what later edits depend on (which places are
+//! Only what cannot be computed is written: lights, transforms, links, and what later edits depend on (which places are
 //! free, the order of lists, how far apart the children of a node were). Nodes' summaries, instances' words, trails
 //! and levels are computed again, by the functions that a refit calls: they are bit-identical on every machine.
 //! `docs/format.md` lists every word.

@@ -25,7 +25,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         bvh.read_instances(words, &header)?;
         words.need(header.removed)?;
         for _ in 0..header.removed {
-            let range = words.range(header.lights, "removed lights")?;
+            let range = words.range(header.numbers, "removed lights")?;
             bvh.removed_lights.push(range);
         }
         words.expect(!bvh.forgotten || header.removed > 0, "removed lights")?;
@@ -53,8 +53,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 let is_range = start <= end && end <= room && room <= header.nodes;
                 words.expect(is_range, "nodes of a mesh")?;
                 (mesh.nodes, mesh.room) = (start..end, room);
-                mesh.triangles = words.range(header.triangles, "triangles of a mesh")?;
-                let is_alone = self.is_alone(mesh.triangles.len());
+                mesh.lights = words.range(header.lights, "lights of a mesh")?;
+                let is_alone = self.is_alone(mesh.lights.len());
                 words.expect(is_alone == (start == end), "nodes of a mesh")?;
                 words.expect(!is_alone || start == room, "nodes of a mesh")?;
                 let flags = words.one()?;
@@ -71,8 +71,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let live = || (0u32..).zip(&self.meshes).filter(|(_, mesh)| mesh.live);
         let nodes = live().map(|(_, mesh)| mesh.nodes.start..mesh.room);
         self.node_ranges = taken(header.nodes, nodes.collect(), "nodes")?;
-        let triangles = live().map(|(_, mesh)| mesh.triangles.clone());
-        self.triangle_ranges = taken(header.triangles, triangles.collect(), "triangles")?;
+        let lights = live().map(|(_, mesh)| mesh.lights.clone());
+        self.light_ranges = taken(header.lights, lights.collect(), "lights")?;
         let meshes = live().map(|(index, _)| index..index + 1).collect();
         self.mesh_ranges = taken(header.meshes, meshes, "meshes")?;
         Ok(())
@@ -93,12 +93,12 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 placed.user = words.one()?;
                 placed.listed = words.one()?;
                 let first = words.one()?;
-                let triangles = own.triangles.len() as u32;
-                let lights = first.checked_add(triangles).filter(|&end| end <= header.lights);
+                let lights = own.lights.len() as u32;
+                let lights = first.checked_add(lights).filter(|&end| end <= header.numbers);
                 let Some(end) = lights else {
                     return Err(words.wrong("first light of an instance"));
                 };
-                placed.lights = first..end;
+                placed.numbers = first..end;
                 placed.radiance = words.array::<3>()?.map(f32::from_bits);
                 placed.mask = words.one()?;
                 let entries = words.array::<12>()?.map(f32::from_bits);
@@ -169,13 +169,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     fn read_triangles(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
-        self.triangles = alloc::vec![N::Light::DARK; words.need(header.triangles)?];
+        self.lights = alloc::vec![N::Light::DARK; words.need(header.lights)?];
         for (index, mesh) in (0..).zip(&self.meshes) {
-            for light in &mut self.triangles[mesh.triangles.start as usize..mesh.triangles.end as usize] {
+            for light in &mut self.lights[mesh.lights.start as usize..mesh.lights.end as usize] {
                 *light = light.of_mesh(index);
             }
         }
-        for (index, light) in (0..).zip(&mut self.triangles) {
+        for (index, light) in (0..).zip(&mut self.lights) {
             let mesh = light.mesh();
             if mesh == INVALID {
                 let gap = words.one()?;
@@ -194,9 +194,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             *light = checked.map_err(|error| damaged(format_args!("light {index}: {error}")))?;
         }
         for mesh in &mut self.meshes {
-            let range = mesh.triangles.start as usize..mesh.triangles.end as usize;
-            mesh.reach = reach_of(&self.triangles[range.clone()]);
-            mesh.is_by_area = is_by_area(&self.triangles[range]);
+            let range = mesh.lights.start as usize..mesh.lights.end as usize;
+            mesh.reach = reach_of(&self.lights[range.clone()]);
+            mesh.is_by_area = is_by_area(&self.lights[range]);
         }
         for (instance, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
             let checked = placed.transform.check(self.meshes[placed.mesh as usize].reach);

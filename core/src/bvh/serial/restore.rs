@@ -64,13 +64,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Which numbers of lights are free.
     fn restore_lights(&mut self, header: &Header) -> Result<(), ReadError> {
         let live = self.placed.iter().filter(|placed| placed.live);
-        let mut used: Vec<Range<u32>> = live.map(|placed| placed.lights.clone()).collect();
+        let mut used: Vec<Range<u32>> = live.map(|placed| placed.numbers.clone()).collect();
         self.light_count = used.iter().map(ExactSizeIterator::len).sum();
         let waiting = &self.removed_lights[usize::from(self.forgotten)..];
         self.waiting_lights = waiting.iter().map(ExactSizeIterator::len).sum();
         used.extend_from_slice(waiting);
-        self.lights = taken(header.lights, used, "lights")?;
-        if header.lights != self.light_end() {
+        self.numbers = taken(header.numbers, used, "lights")?;
+        if header.numbers != self.light_end() {
             return Err(misplaced("the end of the lights' numbers"));
         }
         Ok(())
@@ -78,25 +78,25 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     fn restore_meshes(&mut self) -> Result<(), ReadError> {
         self.trail_words = trail_words(W, self.bottom_depth);
-        self.trails = alloc::vec![0; self.triangles.len() * self.trail_words as usize];
+        self.trails = alloc::vec![0; self.lights.len() * self.trail_words as usize];
         self.roots = alloc::vec![BlasRoot::new(INVALID, &N::Summary::EMPTY); self.meshes.len()];
         let mut seen = alloc::vec![false; self.nodes.len()];
-        let mut leaves = alloc::vec![false; self.triangles.len()];
+        let mut leaves = alloc::vec![false; self.lights.len()];
         for index in 0..self.meshes.len() {
             let mesh = &self.meshes[index];
             if !mesh.live {
                 continue;
             }
-            let (nodes, triangles) = (mesh.nodes.clone(), mesh.triangles.clone());
+            let (nodes, lights) = (mesh.nodes.clone(), mesh.lights.clone());
             if !nodes.is_empty() {
                 let found = Found::of(&self.nodes, nodes.start, kind::LIGHT, &mut seen).map_err(damaged)?;
                 found.check_depth_first(&nodes).map_err(|_| misplaced(NODES))?;
-                if found.depth > self.bottom_depth || found.leaves.len() != triangles.len() {
+                if found.depth > self.bottom_depth || found.leaves.len() != lights.len() {
                     return Err(misplaced(NODES));
                 }
                 for own in &found.leaves {
-                    // As many as there are triangles, each for the first time: so all of them.
-                    let is_own = triangles.contains(&own.link);
+                    // As many as there are lights, each for the first time: so all of them.
+                    let is_own = lights.contains(&own.link);
                     if !is_own || core::mem::replace(&mut leaves[own.link as usize], true) {
                         return Err(misplaced(NODES));
                     }
@@ -183,8 +183,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                     && placed.transform == Transform::IDENTITY
                     && placed.radiance == [1.0; 3]
                     && placed.mask == u32::MAX
-                    && placed.lights.start == 0
-                    && mesh.triangles.start == 0
+                    && placed.numbers.start == 0
+                    && mesh.lights.start == 0
             }
             // Over no lights.
             ([], []) => true,

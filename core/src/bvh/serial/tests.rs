@@ -16,13 +16,13 @@ use crate::node::{CompactNode, LightNode, MomentNode, TwoSidedMomentNode};
 use crate::tree::INVALID;
 use crate::{EmissiveTriangle, Lights, Rebuilder};
 
-/// Triangles of several mesh lights.
+/// Lights of several mesh lights.
 fn lights(seed: u32, count: u32) -> Lights {
-    let mut triangles: std::vec::Vec<EmissiveTriangle> = lamps(&mut Random(seed), count);
+    let mut lights: std::vec::Vec<EmissiveTriangle> = lamps(&mut Random(seed), count);
     (0..)
-        .zip(&mut triangles)
+        .zip(&mut lights)
         .for_each(|(k, own)| own.mesh = k * 7 / count);
-    Lights::new(triangles).expect("within the domain")
+    Lights::new(lights).expect("within the domain")
 }
 
 /// Samples with pmfs, and all that later edits depend on; the nodes' words are those of a refit, as `validate` finds.

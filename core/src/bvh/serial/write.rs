@@ -33,10 +33,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             buckets: self.params.buckets,
             bottom_depth: self.bottom_depth,
             nodes: self.nodes.len() as u32,
-            triangles: self.triangles.len() as u32,
+            lights: self.lights.len() as u32,
             meshes: self.meshes.len() as u32,
             instances: self.placed.len() as u32,
-            lights: self.light_end(),
+            numbers: self.light_end(),
             removed: self.removed_lights.len() as u32,
             top_root: self.top.root,
             top_nodes: self.top.nodes.len() as u32,
@@ -47,16 +47,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let mut words = bytemuck::cast::<_, [u32; HEADER_WORDS]>(header).to_vec();
         for (index, mesh) in (0u32..).zip(&self.meshes) {
             let flags = u32::from(self.reshaped.contains(&index)) | (u32::from(mesh.is_light) << 1);
-            let (nodes, triangles) = (&mesh.nodes, &mesh.triangles);
+            let (nodes, lights) = (&mesh.nodes, &mesh.lights);
             match mesh.live {
-                true => words.extend([
-                    nodes.start,
-                    nodes.end,
-                    mesh.room,
-                    triangles.start,
-                    triangles.end,
-                    flags,
-                ]),
+                true => words.extend([nodes.start, nodes.end, mesh.room, lights.start, lights.end, flags]),
                 false => words.push(INVALID),
             }
         }
@@ -80,7 +73,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             let InstanceState {
                 mesh, user, listed, ..
             } = *placed;
-            words.extend([mesh, user, listed, placed.lights.start]);
+            words.extend([mesh, user, listed, placed.numbers.start]);
             words.extend(placed.radiance.map(f32::to_bits));
             words.push(placed.mask);
             let transform = &placed.transform;
@@ -120,13 +113,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
     }
 
-    /// The triangles in use, and a word for each place that is not.
+    /// The lights in use, and a word for each place that is not.
     fn write_triangles_to(&self, words: &mut Vec<u32>) {
-        let mut used = alloc::vec![false; self.triangles.len()];
+        let mut used = alloc::vec![false; self.lights.len()];
         for mesh in &self.meshes {
-            used[mesh.triangles.start as usize..mesh.triangles.end as usize].fill(true);
+            used[mesh.lights.start as usize..mesh.lights.end as usize].fill(true);
         }
-        for (triangle, &used) in self.triangles.iter().zip(&used) {
+        for (triangle, &used) in self.lights.iter().zip(&used) {
             if used {
                 let own: &[u32] = bytemuck::cast_slice(core::slice::from_ref(triangle));
                 let places = own.iter().enumerate();

@@ -215,8 +215,7 @@ fn whole_builds_alone_open_instances() {
     assert!(bvh.top.opened.is_empty());
     bvh.set_radiance(id, [1.0; 3]).expect("a factor");
     assert_eq!(leaves(&mut bvh), [1, 8]);
-    bvh.set_triangles(mesh, with_one_far(random, 200))
-        .expect("as many");
+    bvh.set_lights(mesh, with_one_far(random, 200)).expect("as many");
     assert_eq!(leaves(&mut bvh), [8, 1]);
     bvh.remove_instance(id).expect("there");
     bvh.refit();

@@ -11,7 +11,7 @@ use crate::{BuildParams, CompactNode, Edit, Transform};
 
 type Tree = Bvh<CompactNode<2>, crate::Eq4, 2>;
 
-/// Two meshes of 5 and 4 triangles; three instances of each, one of them stretched; levels to spare.
+/// Two meshes of 5 and 4 lights; three instances of each, one of them stretched; levels to spare.
 fn scene() -> Tree {
     let lamp = |i: u16| {
         let x = f32::from(i);
@@ -22,7 +22,7 @@ fn scene() -> Tree {
         ..BuildParams::default()
     });
     let meshes = [5, 4].map(|count| Edit::AddMesh {
-        triangles: (0..count).map(lamp).collect(),
+        lights: (0..count).map(lamp).collect(),
     });
     let meshes = scene.apply(meshes.into()).expect("meshes").meshes;
     let mut adds = vec![];
@@ -123,9 +123,9 @@ fn broken_triangles_are_found() {
         wide(s);
         s.trails[1] = 1;
     });
-    finds("light's mesh", |s| s.triangles[3].mesh += 1);
+    finds("light's mesh", |s| s.lights[3].mesh += 1);
     // Moved without a refit.
-    finds("word 0: expected", |s| s.triangles[0].p[0][0] -= 8.0);
+    finds("word 0: expected", |s| s.lights[0].p[0][0] -= 8.0);
 }
 
 #[test]
@@ -141,10 +141,10 @@ fn broken_instances_are_found() {
         };
     });
     finds("word 6", |s| s.placed[2].transform.columns[0][0] = 3.0);
-    finds("range of lights", |s| s.placed[2].lights.end += 1);
+    finds("range of lights", |s| s.placed[2].numbers.end += 1);
     // The lights of another instance of the mesh.
     finds("range of lights", |s| {
-        s.placed[2].lights = s.placed[0].lights.clone();
+        s.placed[2].numbers = s.placed[0].numbers.clone();
         s.instances[2].first = s.instances[0].first;
     });
     finds("list entry", |s| s.live.swap(2, 3));

@@ -66,16 +66,15 @@ where
     let bvh = scene::<N, W>(&mut Random(5));
     let plan = bvh.plan_of_everything();
     let (nodes, first) = flat(&bvh);
-    let (nodes, triangles, instances, roots) = (&*nodes, bvh.triangles(), bvh.instances(), bvh.roots());
+    let (nodes, lights, instances, roots) = (&*nodes, bvh.lights(), bvh.instances(), bvh.roots());
     assert!(plan.bottom.nodes().len() > 20 && plan.top.nodes().len() > 4);
     for &index in plan.bottom.nodes() {
-        let parts =
-            by_children::<N, W, ROWS>(nodes, index, |slot| bottom_child(nodes, triangles, index, slot));
+        let parts = by_children::<N, W, ROWS>(nodes, index, |slot| bottom_child(nodes, lights, index, slot));
         assert!(same(&nodes[index as usize], &parts), "{} {W}: {index}", N::NAME);
     }
     for index in plan.top.nodes().iter().map(|node| first + node) {
         let parts = by_children::<N, W, ROWS>(nodes, index, |slot| {
-            top_child(nodes, first, triangles, instances, roots, index, slot)
+            top_child(nodes, first, lights, instances, roots, index, slot)
         });
         assert!(same(&nodes[index as usize], &parts), "{} {W}: {index}", N::NAME);
     }
@@ -112,12 +111,12 @@ fn limits_go_by_way_of_children_too() {
 fn what_is_not_there_is_no_child() {
     type Layout = LinkedSpotMomentNode<8, AnyLight>;
     let bvh = scene::<Layout, 8>(&mut Random(5));
-    let (triangles, instances, roots) = (bvh.triangles(), bvh.instances(), bvh.roots());
+    let (lights, instances, roots) = (bvh.lights(), bvh.instances(), bvh.roots());
     let mut nodes = [bvh.nodes(), &[Layout::EMPTY]].concat();
     let (at, end) = (bvh.nodes().len(), nodes.len() as u32);
     let mut alien = instances.to_vec();
     alien[0].blas = roots.len() as u32;
-    nodes[at].set_child(0, kind::LIGHT, triangles.len() as u32);
+    nodes[at].set_child(0, kind::LIGHT, lights.len() as u32);
     nodes[at].set_child(1, kind::INNER, end);
     nodes[at].set_child(2, kind::MESH, instances.len() as u32);
     nodes[at].set_child(3, kind::MESH, 0);
@@ -125,14 +124,14 @@ fn what_is_not_there_is_no_child() {
     nodes[at].set_child(5, kind::EMPTY, 0);
     for slot in [0, 1, 2, 3, 5] {
         assert_eq!(
-            bottom_child(&nodes, triangles, at as u32, slot),
+            bottom_child(&nodes, lights, at as u32, slot),
             Child::EMPTY,
             "{slot}"
         );
     }
     for slot in 0..6 {
         assert_eq!(
-            top_child(&nodes, 0, triangles, &alien, roots, at as u32, slot),
+            top_child(&nodes, 0, lights, &alien, roots, at as u32, slot),
             Child::EMPTY,
             "{slot}"
         );
@@ -141,12 +140,12 @@ fn what_is_not_there_is_no_child() {
     let mut lost = roots.to_vec();
     let blas = instances[0].blas as usize;
     assert_ne!(
-        top_child(&nodes, 0, triangles, instances, &lost, at as u32, 3).limits,
+        top_child(&nodes, 0, lights, instances, &lost, at as u32, 3).limits,
         Limits::NONE
     );
     lost[blas].node = end;
     assert_eq!(
-        top_child(&nodes, 0, triangles, instances, &lost, at as u32, 3).limits,
+        top_child(&nodes, 0, lights, instances, &lost, at as u32, 3).limits,
         Limits::NONE
     );
 }

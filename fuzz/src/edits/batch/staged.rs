@@ -15,7 +15,7 @@ impl Staged {
         let (sound, all) = accepted(&triangles);
         let verdict = first_wrong(&[(Some(!triangles.is_empty()), "EmptyMesh"), (sound, "Light")]);
         self.meshes.push(all);
-        (Edit::AddMesh { triangles }, verdict)
+        (Edit::AddMesh { lights: triangles }, verdict)
     }
 
     pub fn add_instance(
@@ -83,7 +83,10 @@ impl Staged {
             mesh.reach = reach;
         }
         (
-            Edit::SetTriangles { mesh: id, triangles },
+            Edit::SetLights {
+                mesh: id,
+                lights: triangles,
+            },
             first_wrong(&conditions),
         )
     }
@@ -111,10 +114,10 @@ impl Staged {
             let reach = mesh.reach;
             self.push_places(id, reach, &mut conditions);
         }
-        let edit = Edit::SetTriangleRange {
+        let edit = Edit::SetLightRange {
             mesh: id,
             first,
-            triangles,
+            lights: triangles,
         };
         (edit, first_wrong(&conditions))
     }

@@ -79,7 +79,7 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
 fn measure<C: TriangleChoice<W>, const W: usize>(scene: &Scene) -> Vec<Case> {
     let bvh = Bvh::<C, W>::single_level(&scene.lights, &BuildParams::default());
     let tree = bvh.tree();
-    let lights = scene.lights.triangles().len() as u32;
+    let lights = scene.lights.all().len() as u32;
     let mut cases = Vec::new();
     for what in ["sample", "pmf"] {
         let mut nodes = Vec::with_capacity(QUERIES as usize);

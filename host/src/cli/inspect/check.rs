@@ -138,7 +138,7 @@ impl Source<'_> {
         I: ImportanceModel<N, WIDTH> + Sync,
     {
         let bvh = self.bvh::<N, I>(model)?;
-        let lights = self.lights.triangles();
+        let lights = self.lights.all();
         let of = |point: &ShadingPoint| -> Vec<f32> {
             let lights = (0..).zip(lights);
             lights

@@ -95,7 +95,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let requirements = Requirements::of(&bvh, declared);
     let chosen = requirements.model();
     let lights = lights_at(&scene, frames[1])?;
-    let most = MOST_PROBABILITIES / lights.triangles().len().max(1);
+    let most = MOST_PROBABILITIES / lights.all().len().max(1);
     let count = args.points.min(most.max(1) as u32);
     let points = points::on_surfaces(&scene, frames[1], count);
     let checked = check(&requirements, &scene, frames, &lights, &points)?;
@@ -104,9 +104,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .map(|missing| missing.command());
     let kinds = match scene.analytic_count() {
         0 => None,
-        _ => Some(LightKinds::of(
-            lights_of::<AnyLight>(&scene, args.frame)?.triangles(),
-        )),
+        _ => Some(LightKinds::of(lights_of::<AnyLight>(&scene, args.frame)?.all())),
     };
     let (facts, reasons) = (facts(&requirements), reasons(&requirements));
     let outcome = Outcome::good_if(checked.holds());
@@ -174,8 +172,8 @@ fn without_triangles(
     mut report: Value,
 ) -> Result<Outcome, HostError> {
     let lights = lights_of::<AnyLight>(scene, frame)?;
-    let count = lights.triangles().len();
-    let kinds = LightKinds::of(lights.triangles());
+    let count = lights.all().len();
+    let kinds = LightKinds::of(lights.all());
     let tree = kinds.tree();
     if context.json {
         report["lights"] = count.into();

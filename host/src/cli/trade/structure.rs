@@ -56,7 +56,7 @@ pub(super) fn structures(
     let built = in_turns(subjects.len(), BUILDS, 1, |at, _| subjects[at].build(frame))?;
     let all = subjects.iter().zip(&sampled).zip(built);
     let all = all.map(|((subject, own), built)| Structure {
-        bytes_per_light: subject.bytes() as f64 / frame.lights.triangles().len() as f64,
+        bytes_per_light: subject.bytes() as f64 / frame.lights.all().len() as f64,
         build_ms: 1e-6 * Interval::of(built).median,
         refit_ms: subject.updates().refit_ms(),
         update_ms: subject.updates().mean_ms(),
@@ -76,7 +76,7 @@ fn variances(subject: &dyn Subject, lights: &Lights, points: &[ShadingPoint]) ->
         points
     };
     let pmf = |k: usize, light| subject.pmf(lights, &points[k], light);
-    let all = measure::variances(lights.triangles(), points, pmf);
+    let all = measure::variances(lights.all(), points, pmf);
     let all: Vec<f64> = all.into_iter().flatten().collect();
     Variances {
         variance: mean_of(&all),

@@ -281,7 +281,7 @@ impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize
     fn render(&self, arrays: &SceneArrays, params: RenderParams) -> Timed<Vec<[f32; 3]>> {
         let tree = self.bvh.tree();
         let view = arrays.lit_by(Emitters {
-            triangles: self.bvh.triangles(),
+            lights: self.bvh.lights(),
             instances: tree.instances,
         });
         let params = RenderParams {

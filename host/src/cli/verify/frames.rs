@@ -135,7 +135,7 @@ impl<'d, L: MethodLight> Lane<'d, L> {
             side.compare(tallies, Kind::Nodes, &what("refit"), &record, |runner| {
                 runner.nodes()
             })?;
-            let lights = (arrays.lights.triangles(), recipe.lights == Sampler::SingleLevel);
+            let lights = (arrays.lights.all(), recipe.lights == Sampler::SingleLevel);
             let seed = hash(plan.seed.wrapping_add(step.frame));
             for first in (0..plan.queries).step_by(BATCH as usize) {
                 let count = u64::min(plan.queries - first, BATCH) as u32;
@@ -174,7 +174,7 @@ impl<'d, L: MethodLight> Lane<'d, L> {
     }
 
     fn tree(&self, step: &Step<'_, L>) -> Option<Tree> {
-        let lights = step.lights.triangles().len();
+        let lights = step.lights.all().len();
         // Candidates change the image alone.
         let found = self.cpu.tree().filter(|_| self.recipe.candidates == 1);
         found.map(|found| Tree {

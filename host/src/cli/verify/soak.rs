@@ -196,7 +196,7 @@ impl World {
             new_instances: Vec::new(),
             new_mesh: None,
             count: args.instances as usize,
-            largest: args.mesh_triangles,
+            largest: args.mesh_lights,
             random: Random::new(args.seed),
         };
         for number in 0..MESHES {
@@ -339,11 +339,14 @@ impl World {
         }
         let first = first as u32;
         match is_whole {
-            true => Edit::SetTriangles { mesh, triangles },
-            false => Edit::SetTriangleRange {
+            true => Edit::SetLights {
+                mesh,
+                lights: triangles,
+            },
+            false => Edit::SetLightRange {
                 mesh,
                 first,
-                triangles,
+                lights: triangles,
             },
         }
     }
@@ -358,7 +361,7 @@ impl World {
         edits.push(Edit::RemoveMesh(id));
         let triangles = self.mesh(false);
         self.new_mesh = Some(triangles.clone());
-        edits.push(Edit::AddMesh { triangles });
+        edits.push(Edit::AddMesh { lights: triangles });
         edits.extend(self.add(count));
         edits
     }

@@ -41,13 +41,13 @@ pub fn direct(
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[DefaultNode],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] trails: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] points: &[ShadingPoint],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] results: &mut [[f32; 3]],
 ) {
     if id.x < push.count {
         let tree = push.tree.tree(nodes, instances, trails);
         let i = id.x as usize;
-        results[i] = direct_light(&tree, triangles, &points[i], push.samples, id.x);
+        results[i] = direct_light(&tree, lights, &points[i], push.samples, id.x);
     }
 }

@@ -8,11 +8,11 @@ use lightbvh::exact::{div, hash, max};
 use lightbvh::refit::world_light;
 use lightbvh::{DefaultTree, EmissiveTriangle, Random64, ShadingPoint};
 
-/// The mean of `samples` light samples at `point`. `triangles` are `Bvh::triangles`; `seed` tells points apart.
+/// The mean of `samples` light samples at `point`. `lights` are `Bvh::lights`; `seed` tells points apart.
 #[inline]
 pub fn direct_light(
     tree: &DefaultTree<'_>,
-    triangles: &[EmissiveTriangle],
+    lights: &[EmissiveTriangle],
     point: &ShadingPoint,
     samples: u32,
     seed: u32,
@@ -22,7 +22,7 @@ pub fn direct_light(
         let random = hash(hash(seed) ^ k);
         let sampled = tree.sample(point, Random64::from(random));
         if sampled.pmf > 0.0 {
-            let triangle = world_light(triangles, tree.instances, sampled.light, sampled.instance);
+            let triangle = world_light(lights, tree.instances, sampled.light, sampled.instance);
             let weight = div(received(&triangle, point), sampled.pmf);
             red += triangle.radiance[0] * weight;
             green += triangle.radiance[1] * weight;

@@ -38,9 +38,9 @@ impl World {
             self.bvh.rebuild();
         }
         let time = f32::from(frame) * 0.1;
-        let mut edits = vec![Edit::SetTriangles {
+        let mut edits = vec![Edit::SetLights {
             mesh: self.chain,
-            triangles: waving(time),
+            lights: waving(time),
         }];
         for (k, &instance) in (0_u16..).zip(&self.lamps) {
             // A third of the lamps drives, a third flickers, a third stands.

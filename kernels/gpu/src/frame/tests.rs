@@ -82,7 +82,7 @@ fn buffers_that_follow_are_those_of_a_new_device() {
     for k in 0..40_u8 {
         let edits = match k % 4 {
             0 => vec![Edit::AddMesh {
-                triangles: vec![lamp(f32::from(k)); 10 * usize::from(k)],
+                lights: vec![lamp(f32::from(k)); 10 * usize::from(k)],
             }],
             1 => vec![Edit::RemoveInstance(all.remove(3))],
             _ => Vec::new(),

@@ -19,7 +19,7 @@ impl Scene {
     /// A random number for a sample, and a light for a pmf.
     pub fn random(&self, i: u32) -> (u32, u32) {
         let random = hash(i);
-        (random, hash(!random) % self.lights.triangles().len() as u32)
+        (random, hash(!random) % self.lights.all().len() as u32)
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bytemuck::cast_slice;
 use image::RgbaImage;
 use image::imageops::thumbnail;
-use lightbvh_kernels::shading::skin::{Corner, PaintWords, SkinView};
+use lightbvh_kernels::shading::textures::{Corner, PaintWords, TextureView};
 use lightbvh_kernels::shading::trace::NONE;
 
 use super::model::SceneData;
@@ -18,17 +18,17 @@ const MAX_TEXELS: u64 = 1 << 24;
 
 /// A frame's paint.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct SkinArrays {
-    /// [`SkinView::corners`].
+pub struct TextureArrays {
+    /// [`TextureView::corners`].
     pub corners: Vec<Corner>,
-    /// [`SkinView::words`].
+    /// [`TextureView::words`].
     pub words: Arc<Vec<u32>>,
 }
 
-impl SkinArrays {
+impl TextureArrays {
     /// As the kernels' functions take it.
-    pub fn view(&self) -> SkinView<'_> {
-        SkinView {
+    pub fn view(&self) -> TextureView<'_> {
+        TextureView {
             corners: &self.corners,
             words: &self.words,
         }

@@ -19,7 +19,7 @@ pub struct Spot {
 }
 
 /// What surfaces are painted with.
-pub trait Skin: Copy + Send + Sync {
+pub trait Textures: Copy + Send + Sync {
     /// Whether there is such paint; without, every surface is opaque and of one material.
     const IS_PAINTED: bool;
 
@@ -45,9 +45,9 @@ pub trait Skin: Copy + Send + Sync {
 
 /// No paint: every surface is opaque, and of one material.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct NoSkin;
+pub struct NoTextures;
 
-impl Skin for NoSkin {
+impl Textures for NoTextures {
     const IS_PAINTED: bool = false;
 }
 
@@ -65,7 +65,7 @@ const _: () = assert!(size_of::<Corner>() == 28);
 
 /// Paint, as buffers hold it.
 #[derive(Clone, Copy, Debug)]
-pub struct SkinView<'a> {
+pub struct TextureView<'a> {
     /// By the number of a triangle in a [`Hit`](super::trace::Hit), all lanes of all blocks; then by the number of a light.
     pub corners: &'a [Corner],
     /// [`HEADER_WORDS`], of which the first says how many materials are painted, [`SRGB_WORDS`], a [`PaintWords`] for each material, pictures. Empty where nothing is painted.
@@ -119,7 +119,7 @@ fn between(corner: &Corner, at: [f32; 2]) -> [f32; 2] {
     [along(0), along(1)]
 }
 
-impl SkinView<'_> {
+impl TextureView<'_> {
     #[inline]
     fn has_material(&self, material: u32) -> bool {
         material < word(self.words, 0)
@@ -172,7 +172,7 @@ impl SkinView<'_> {
     }
 }
 
-impl Skin for SkinView<'_> {
+impl Textures for TextureView<'_> {
     const IS_PAINTED: bool = true;
 
     #[inline]
