@@ -1,10 +1,13 @@
 //! Affine maps of instances.
 
+use glam::{Affine3A, Quat, Vec3};
+
 use crate::domain::DomainError;
 use crate::emission::luminance_of;
 use crate::exact;
 use crate::instance::Instance;
 use crate::light::{Light, MAX_COORDINATE, MIN_COORDINATE};
+use crate::vector;
 
 /// Entries of the maps below this count as zero: 2^-60.
 const TINY_ENTRY: f32 = exact::pow2(-60);
@@ -26,10 +29,19 @@ const ENTRIES: [[&str; 3]; 4] = [
 /// An affine map `x ↦ A x + t` from a mesh's space to the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
-    /// The columns of A; each entry of magnitude at most 2^40. `VkTransformMatrixKHR` and DXR's matrix have rows.
+    /// The columns of A; each entry of magnitude at most 2^40.
     pub columns: [[f32; 3]; 3],
     /// t, metres; each entry of magnitude at most 2^40.
     pub translation: [f32; 3],
+}
+
+impl From<Affine3A> for Transform {
+    fn from(map: Affine3A) -> Self {
+        Self {
+            columns: map.matrix3.to_cols_array_2d(),
+            translation: map.translation.to_array(),
+        }
+    }
 }
 
 impl Transform {
@@ -45,6 +57,52 @@ impl Transform {
         Self {
             translation,
             ..Self::IDENTITY
+        }
+    }
+
+    /// The three columns of A, then t: `VkTransformMatrixKHR` and DXR's matrix have [rows](Self::from_rows).
+    #[must_use]
+    pub const fn from_cols([a, b, c, translation]: [[f32; 3]; 4]) -> Self {
+        Self {
+            columns: [a, b, c],
+            translation,
+        }
+    }
+
+    /// The rows of A, each followed by its component of t.
+    #[must_use]
+    pub const fn from_rows([x, y, z]: [[f32; 4]; 3]) -> Self {
+        Self::from_cols([
+            [x[0], y[0], z[0]],
+            [x[1], y[1], z[1]],
+            [x[2], y[2], z[2]],
+            [x[3], y[3], z[3]],
+        ])
+    }
+
+    /// Scales along the mesh's axes, then turns by the unit quaternion `rotation` (x, y, z, w), then moves by `translation` metres.
+    #[must_use]
+    pub fn from_trs(translation: [f32; 3], rotation: [f32; 4], scale: [f32; 3]) -> Self {
+        Affine3A::from_scale_rotation_translation(
+            scale.into(),
+            Quat::from_array(rotation),
+            translation.into(),
+        )
+        .into()
+    }
+
+    /// Puts the mesh's origin at `p`, metres, and turns its −Z to `direction`, of any length, and its +Y as near to `up` as may be: as cameras
+    /// and spots look in glTF. Where the two are parallel, or one is zero, any turn about the direction is taken.
+    #[must_use]
+    pub fn look_along(p: [f32; 3], direction: [f32; 3], up: [f32; 3]) -> Self {
+        let back = -Vec3::from(direction).normalize_or(Vec3::NEG_Z);
+        let across = vector::cross(Vec3::from(up), back);
+        let across = across
+            .try_normalize()
+            .unwrap_or_else(|| back.any_orthonormal_vector());
+        Self {
+            columns: [across, vector::cross(back, across), back].map(|v| v.to_array()),
+            translation: p,
         }
     }
 

@@ -5,6 +5,7 @@ extern crate std;
 use super::*;
 use crate::exact::{self, hash, pow2};
 use crate::kit::Random;
+use crate::vector::length_squared;
 
 fn map(columns: [[f32; 3]; 3], translation: [f32; 3]) -> Transform {
     Transform { columns, translation }
@@ -34,12 +35,20 @@ fn determinant(columns: &[[f32; 3]; 3]) -> f64 {
     dot(a, cross(b, c))
 }
 
-/// How far the columns of A times the columns of B are from the identity, entry by entry.
-fn off_identity(a: &[[f32; 3]; 3], b: &[[f32; 3]; 3]) -> f64 {
-    let (a, b, mut most) = (wide(a), wide(b), 0.0f64);
-    for (column, row) in (0..3).flat_map(|column| [0, 1, 2].map(|row| (column, row))) {
-        let entry: f64 = (0..3).map(|k| a[k][row] * b[column][k]).sum();
-        most = most.max((entry - f64::from(u8::from(row == column))).abs());
+/// The columns of A times the columns of B.
+fn product(a: &[[f32; 3]; 3], b: &[[f32; 3]; 3]) -> [[f64; 3]; 3] {
+    let (a, b) = (wide(a), wide(b));
+    core::array::from_fn(|column| core::array::from_fn(|row| (0..3).map(|k| a[k][row] * b[column][k]).sum()))
+}
+
+/// How far a matrix is from the identity, entry by entry.
+fn off_identity(columns: &[[f64; 3]; 3]) -> f64 {
+    let mut most = 0.0f64;
+    for column in 0..3 {
+        for row in 0..3 {
+            let expected = f64::from(u8::from(row == column));
+            most = most.max((columns[column][row] - expected).abs());
+        }
     }
     most
 }
@@ -56,8 +65,11 @@ fn inverses_of_random_maps() {
         // at most the product of the norms. 1 % for the arithmetic in f64.
         let norms = norm(&wide(&instance.columns)) * norm(&wide(&instance.inverse));
         let most = 1.01 * f64::from(pow2(-24)) * norms;
-        let (map, inverse) = (&instance.columns, &instance.inverse);
-        for off in [off_identity(map, inverse), off_identity(inverse, map)] {
+        for found in [
+            product(&instance.columns, &instance.inverse),
+            product(&instance.inverse, &instance.columns),
+        ] {
+            let off = off_identity(&found);
             assert!(off <= most, "{seed}: {off} > {most}");
             assert!(norms > 160.0 || off < 1e-5, "{seed}: {off}");
         }
@@ -197,5 +209,55 @@ fn entries_and_reach_are_limited() {
         let error = transform.check(2.001).expect_err("farther");
         let said = std::format!("{error}");
         assert!(said.contains("moves a mesh is 1.09992"), "{said}");
+    }
+}
+
+/// Every way to write a map down gives the same one.
+#[test]
+fn maps_are_made_of_what_engines_have() {
+    let made = random(5);
+    let [a, b, c] = made.columns;
+    let t = made.translation;
+    assert_eq!(Transform::from_cols([a, b, c, t]), made);
+    let row = |k: usize| [a[k], b[k], c[k], t[k]];
+    assert_eq!(Transform::from_rows([row(0), row(1), row(2)]), made);
+    let columns = [a, b, c].map(Vec3::from);
+    let glam = Affine3A::from_mat3_translation(
+        glam::Mat3::from_cols(columns[0], columns[1], columns[2]),
+        t.into(),
+    );
+    assert_eq!(Transform::from(glam), made);
+    // A quarter of a turn about z, after the scale and before the way.
+    let turn = [
+        0.0,
+        0.0,
+        core::f32::consts::FRAC_1_SQRT_2,
+        core::f32::consts::FRAC_1_SQRT_2,
+    ];
+    let made = Transform::from_trs([1.0, 2.0, 3.0], turn, [2.0, 3.0, 4.0]);
+    let expected = [[0.0, 2.0, 0.0], [-3.0, 0.0, 0.0], [0.0, 0.0, 4.0]];
+    for (found, expected) in made.columns.iter().flatten().zip(expected.iter().flatten()) {
+        assert!(exact::abs(found - expected) < 1e-6, "{made:?}");
+    }
+    assert_eq!(made.translation, [1.0, 2.0, 3.0]);
+}
+
+/// −Z goes to the direction, +Y towards up, and the map is a rotation, also where there is no up.
+#[test]
+fn maps_look_along_their_direction() {
+    let ups = [[0.0, 1.0, 0.0], [0.3, -2.0, 0.1], [0.0; 3], [0.0, 0.0, -5.0]];
+    for direction in [[0.0, 0.0, -5.0], [0.0, -1.0, 0.0], [3.0, 4.0, -1.0], [0.0; 3]] {
+        for up in ups {
+            let made = Transform::look_along([7.0, 8.0, 9.0], direction, up);
+            let [x, y, z] = made.columns.map(Vec3::from);
+            for unit in [x, y, z] {
+                assert!(exact::abs(length_squared(unit) - 1.0) < 1e-5, "{made:?}");
+            }
+            assert!(length_squared(crate::vector::cross(x, y) - z) < 1e-9, "{made:?}");
+            assert!(crate::vector::dot(y, up.into()) > -1e-5, "{made:?}");
+            let to = Vec3::from(direction).normalize_or(-z);
+            assert!(length_squared(to + z) < 1e-9, "{made:?}");
+            assert_eq!(made.translation, [7.0, 8.0, 9.0]);
+        }
     }
 }
