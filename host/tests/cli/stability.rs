@@ -14,7 +14,7 @@ fn every_extreme_is_survived_on_the_cpu() {
     let rows = report["rows"].as_array().expect("rows");
     let failed: Vec<_> = rows.iter().filter(|row| row["pass"] != true).collect();
     assert!(failed.is_empty(), "{failed:#?}");
-    assert!(rows.len() > 250, "only {} rows", rows.len());
+    assert!(rows.len() > 200, "only {} rows", rows.len());
     for row in rows {
         assert_eq!(row["device"], "cpu");
         assert!(
