@@ -101,6 +101,22 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(updated)
     }
 
+    /// Applies each edit of a batch that is sound, in order. Returns the ids that were added, and the errors of the others.
+    /// [`apply`](Self::apply) is all or none, and builds several meshes at a time.
+    pub fn apply_each(&mut self, edits: Vec<Edit<N::Light>>) -> (Added, Vec<EditError>) {
+        let (mut added, mut refused) = (Added::default(), Vec::new());
+        for (index, edit) in edits.into_iter().enumerate() {
+            match self.apply(alloc::vec![edit]) {
+                Ok(own) => {
+                    added.meshes.extend(own.meshes);
+                    added.instances.extend(own.instances);
+                }
+                Err(error) => refused.push(EditError { edit: index, ..error }),
+            }
+        }
+        (added, refused)
+    }
+
     fn set_place(&mut self, index: u32, transform: Transform) {
         let own = &mut self.placed[index as usize].transform;
         let bits = |column: &[f32; 3]| column.map(f32::to_bits);

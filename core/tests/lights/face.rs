@@ -1,7 +1,7 @@
 //! Empty trees, lights that are followed.
 
 use lightbvh::error::{EditReason, FollowError};
-use lightbvh::{BuildParams, EmissiveTriangle, INVALID, LightBvh, Lights, ShadingPoint, Transform};
+use lightbvh::{BuildParams, Edit, EmissiveTriangle, INVALID, LightBvh, Lights, ShadingPoint, Transform};
 
 const POINT: ShadingPoint = ShadingPoint {
     p: [0.0; 3],
@@ -121,4 +121,37 @@ fn lights_are_followed_after_edits() {
     assert_eq!(bvh.follow(&lights(1.0)), Err(FollowError { mesh: 1, reason }));
     let first = Lights::new(vec![lamp(0), lamp(0)]).expect("lamps");
     assert_eq!(bvh.follow(&first), Ok(()));
+}
+
+/// Of a batch with two wrong edits the others are applied, and each error names its own.
+#[test]
+fn each_sound_edit_is_applied() {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(vec![lamp(0)]).expect("a lamp");
+    let gone = bvh.add_instance(mesh, Transform::IDENTITY).expect("a mesh");
+    bvh.remove_instance(gone).expect("it is there");
+    let (added, refused) = bvh.apply_each(vec![
+        Edit::RemoveInstance(gone),
+        Edit::AddLight {
+            light: lamp(0),
+            mask: u32::MAX,
+        },
+        Edit::AddInstance {
+            mesh,
+            transform: Transform::at([f32::NAN; 3]),
+            radiance: [1.0; 3],
+            mask: u32::MAX,
+        },
+        Edit::AddInstance {
+            mesh,
+            transform: Transform::at([3.0, 0.0, 0.0]),
+            radiance: [1.0; 3],
+            mask: u32::MAX,
+        },
+    ]);
+    let edits: Vec<usize> = refused.iter().map(|error| error.edit).collect();
+    assert_eq!((added.instances.len(), edits), (2, vec![0, 2]));
+    assert!(matches!(refused[0].reason, EditReason::UnknownInstance(id) if id == gone));
+    bvh.refit();
+    bvh.validate().expect("valid");
 }
