@@ -138,10 +138,7 @@ fn lights_that_cannot_be_followed() {
     let lights = |count| Lights::new(vec![LAMP; count]).expect("lamps of one mesh light");
     let mut bvh = lightbvh::LightBvh::two_level(&lights(2), &lightbvh::BuildParams::default());
     let error = bvh.follow(&lights(3)).expect_err("one more");
-    says(
-        &error,
-        &["mesh light 0: 3 triangles, expected 2", "build it anew"],
-    );
+    says(&error, &["mesh light 0: 3 lights, expected 2", "build it anew"]);
     // An edit by itself names no batch.
     let mesh = bvh.mesh_id(0).expect("the first");
     let error = bvh.remove_mesh(mesh).expect_err("in use").to_string();

@@ -204,16 +204,17 @@ fn scenes_without_a_camera_are_seen_whole() {
 #[test]
 fn optional_extensions_that_cannot_be_read_are_left_out() {
     let mut root = triangle();
-    root["nodes"][0]["extensions"] = json!({ "EXT_mesh_gpu_instancing": { "attributes": "all" } });
+    let draco = json!({ "KHR_draco_mesh_compression": { "attributes": "all" } });
+    root["meshes"][0]["primitives"][0]["extensions"] = draco;
     let said = read_json(&root).warnings().join("\n");
     assert!(
-        said.contains("nodes[0]: its extension EXT_mesh_gpu_instancing is ignored"),
+        said.contains("its extension KHR_draco_mesh_compression is ignored"),
         "{said}"
     );
-    root["extensionsRequired"] = json!(["EXT_mesh_gpu_instancing"]);
+    root["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]);
     let error = refused(&root);
     assert!(
-        error.contains("nodes[0].extensions.EXT_mesh_gpu_instancing"),
+        error.contains(".extensions.KHR_draco_mesh_compression"),
         "{error}"
     );
 }

@@ -1,6 +1,7 @@
 //! A frame of a scene on a device.
 
 use lightbvh::node::Node;
+use lightbvh_gpu::DeviceBuffer;
 use lightbvh_kernels::shading::pick::by;
 
 use super::follow::Mirrored;
@@ -27,7 +28,10 @@ pub(super) fn bind<N: Node<W, Light = L>, L: SceneLight, const W: usize>(
     ];
     let listed = scene.emitters();
     bindings.extend(match sampler.needs_bvh() {
-        true => [tree.lights.bind(), tree.instances.bind()],
+        true => [
+            tree.bind(DeviceBuffer::Lights),
+            tree.bind(DeviceBuffer::Instances),
+        ],
         false => [
             device.upload(listed.lights)?.bind(),
             device.upload(listed.instances)?.bind(),

@@ -20,8 +20,10 @@ pub struct Mirrored<'d, N: Node<W>, const W: usize> {
     /// How many of them are of bottom levels, and which are of the top level.
     bottoms: usize,
     pub(super) top: Range<usize>,
-    pub(super) lights: Buffer<N::Light>,
-    pub(super) instances: Buffer<Instance>,
+    lights: Buffer<N::Light>,
+    instances: Buffer<Instance>,
+    /// Bytes of the lights and instances that there are: kernels see no more of them.
+    used: [usize; 2],
     roots: Buffer<BlasRoot>,
     pub(super) trails: Buffer<u32>,
     list: Buffer<u32>,
@@ -41,6 +43,7 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
             top: 0..0,
             lights: device.buffer(0)?,
             instances: device.buffer(0)?,
+            used: [0; 2],
             roots: device.buffer(0)?,
             trails: device.buffer(0)?,
             list: device.buffer(0)?,
@@ -76,17 +79,17 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
         Ok(self.roots.read()?)
     }
 
-    /// The array that a kernel's binding of this name takes.
-    fn bind(&self, name: &str) -> Option<Binding> {
-        DeviceBuffer::named(name).map(|buffer| match buffer {
+    /// A buffer as an argument.
+    pub(super) fn bind(&self, buffer: DeviceBuffer) -> Binding {
+        match buffer {
             DeviceBuffer::Nodes => self.nodes.bind(),
-            DeviceBuffer::Lights => self.lights.bind(),
-            DeviceBuffer::Instances => self.instances.bind(),
+            DeviceBuffer::Lights => self.lights.bind().first(self.used[0]),
+            DeviceBuffer::Instances => self.instances.bind().first(self.used[1]),
             DeviceBuffer::Roots => self.roots.bind(),
             DeviceBuffer::Trails => self.trails.bind(),
             DeviceBuffer::List => self.list.bind(),
             DeviceBuffer::Children => self.children.bind(),
-        })
+        }
     }
 
     /// The results of a kernel over `count` invocations. Bindings are matched by name with the tree's arrays and `others`;
@@ -101,7 +104,7 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
         let output = self.device.output::<T>(count)?;
         let bind = |name| {
             let other = others.iter().find(|(other, _)| *other == name);
-            let own = || self.bind(name).unwrap_or_else(|| output.bind());
+            let own = || DeviceBuffer::named(name).map_or_else(|| output.bind(), |buffer| self.bind(buffer));
             other.map_or_else(own, |(_, binding)| binding.clone())
         };
         let bindings: Vec<_> = kernel.bindings.iter().map(|binding| bind(binding.name)).collect();
@@ -117,6 +120,7 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
     /// Nothing of `bvh` depends on what becomes of the device: if this fails, all is copied the next time, or to another device.
     pub fn follow<I>(&mut self, bvh: &lightbvh::Bvh<N, I, W>) -> Result<Duration, BackendError> {
         let frame = self.mirror.frame(bvh);
+        self.used = [size_of_val(bvh.lights()), size_of_val(bvh.instances())];
         let followed = self.write(&frame).and_then(|()| self.refit(&frame));
         if followed.is_err() {
             // The mirror believes that the frame was followed.
@@ -139,7 +143,8 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
             };
             let known = self.kernels.refit(pass);
             let bind = |binding: &lightbvh_gpu::kernel::Binding| {
-                let buffer = self.bind(binding.name).expect("a buffer of the tree");
+                let buffer = DeviceBuffer::named(binding.name).expect("a buffer of the tree");
+                let buffer = self.bind(buffer);
                 match binding.name {
                     "children" => buffer.of_elements(binding.stride),
                     _ => buffer,

@@ -45,7 +45,7 @@ pub(super) struct Args {
     instances: u32,
     /// Triangles of the largest mesh of --soak, 10 to 10^6.
     #[arg(long, requires = "soak", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(10..=1_000_000))]
-    mesh_lights: u32,
+    mesh_triangles: u32,
 }
 
 /// Frames `A..B`, B left out.

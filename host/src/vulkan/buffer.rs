@@ -37,6 +37,14 @@ impl Binding {
             ..self
         }
     }
+
+    /// The first `bytes` bytes alone, at most all.
+    pub(crate) fn first(self, bytes: usize) -> Self {
+        Self {
+            bytes: self.bytes.min(bytes as u64),
+            ..self
+        }
+    }
 }
 
 impl Device {

@@ -196,7 +196,7 @@ impl World {
             new_instances: Vec::new(),
             new_mesh: None,
             count: args.instances as usize,
-            largest: args.mesh_lights,
+            largest: args.mesh_triangles,
             random: Random::new(args.seed),
         };
         for number in 0..MESHES {
