@@ -79,8 +79,11 @@ impl<T: Pod> Buffer<T> {
 
     fn new(shared: &Arc<Shared>, len: usize) -> Result<Self, VulkanError> {
         let bytes = (len as u64).saturating_mul(Self::ELEMENT_BYTES as u64);
-        // Vulkan has no buffers of zero bytes; one word stands in, smaller than any element but a word itself.
         let memory = Arc::new(Memory::new(shared, bytes.max(4), MemoryLocation::GpuOnly)?);
+        if len == 0 {
+            // Vulkan has no buffers of zero bytes. One word stands in, smaller than any element but a word: kernels read that as 0.
+            memory.fill(0)?;
+        }
         Ok(Self {
             memory,
             len,
