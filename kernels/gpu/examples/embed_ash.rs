@@ -21,6 +21,7 @@ use std::rc::Rc;
 use bytemuck::cast_slice;
 use common::Result;
 use common::buffer::Buffer;
+use common::commands::{read, run};
 use common::gpu::Gpu;
 use common::pipeline::Pipeline;
 use common::words::compare;
@@ -59,7 +60,7 @@ impl DeviceLights {
     /// Updates the device to the light BVH. Returns the push constants of kernels that walk it.
     fn update(&mut self, gpu: &Rc<Gpu>, bvh: &LightBvh) -> Result<TreeWords> {
         let frame = self.mirror.frame(bvh);
-        gpu.run(|commands| {
+        run(gpu, |commands| {
             for step in frame.steps() {
                 match step {
                     Step::Resize { buffer, bytes } => {
@@ -95,7 +96,7 @@ fn ask(
     let (queries, count) = asked;
     let results = Buffer::storage(gpu, u64::from(stride) * u64::from(count))?;
     let queries = Buffer::staged(gpu, queries)?;
-    gpu.run(|commands| {
+    run(gpu, |commands| {
         let named = |name: &str| match name {
             "results" => Some(&results),
             "queries" | "points" => Some(&queries),
@@ -104,7 +105,7 @@ fn ask(
         commands.dispatch(kernel, named, push, count);
         Ok(())
     })?;
-    results.read()
+    read(gpu, &results)
 }
 
 /// A pipeline of a kernel, whose bindings have names.
@@ -118,16 +119,16 @@ fn check(gpu: &Rc<Gpu>) -> Result<()> {
     let operands = Buffer::staged(gpu, self_test::operands())?;
     let answers = Buffer::storage(gpu, self_test::ANSWERS_BYTES as u64)?;
     let kernel = kernel(gpu, &self_test::SELF_TEST)?;
-    gpu.run(|commands| {
+    run(gpu, |commands| {
         let named = |name: &str| Some(if name == "operands" { &operands } else { &answers });
         commands.dispatch(&kernel, named, &self_test::PUSH, self_test::INVOCATIONS);
         Ok(())
     })?;
-    Ok(self_test::defect(&answers.read()?).map_or(Ok(()), Err)?)
+    Ok(self_test::defect(&read(gpu, &answers)?).map_or(Ok(()), Err)?)
 }
 
 /// Runs all frames on one device, then a shader of one's own. Returns how many words were compared.
-fn run(gpu: &Rc<Gpu>, shader: Option<&[u32]>) -> Result<u64> {
+fn frames(gpu: &Rc<Gpu>, shader: Option<&[u32]>) -> Result<u64> {
     check(gpu)?;
     let mut world = World::new()?;
     let mut lights = DeviceLights::new(gpu)?;
@@ -151,7 +152,7 @@ fn run(gpu: &Rc<Gpu>, shader: Option<&[u32]>) -> Result<u64> {
             size_of::<SampledLight>() as u32,
         )?;
 
-        let nodes = lights.buffers[&DeviceBuffer::Nodes].read()?;
+        let nodes = read(gpu, &lights.buffers[&DeviceBuffer::Nodes])?;
         let (compared, different) = lights.mirror.compare_nodes(&world.bvh, &nodes);
         if let Some(node) = different.first() {
             return Err(format!("node {node} differs").into());
@@ -190,7 +191,7 @@ fn on_all(shader: Option<String>) -> Result<()> {
     let bytes = shader.map(|path| std::fs::read(&path).map_err(|error| format!("{path}: {error}")));
     let module = bytes.transpose()?.map(|bytes| spirv::words(&bytes));
     for gpu in Gpu::all()? {
-        let words = run(&gpu, module.as_deref()).map_err(|error| format!("{}: {error}", gpu.name))?;
+        let words = frames(&gpu, module.as_deref()).map_err(|error| format!("{}: {error}", gpu.name))?;
         println!(
             "{}: {FRAMES} frames, {words} words compared, none different",
             gpu.name

@@ -12,11 +12,11 @@ use super::area::{Connection, luminance};
 use super::emitter::Emitter;
 use super::grid::{TINY, div, flush_vector};
 use super::numbers::{Numbers, Part};
+use super::params::RenderParams;
 use super::pick::PickLight;
 use super::picks::Picks;
 use super::pixel::{Scene, Seen, arriving};
 use super::trace::NONE;
-use crate::render::RenderParams;
 
 /// Most candidates of a sample.
 pub const MAX_CANDIDATES: u32 = 1 << 8;

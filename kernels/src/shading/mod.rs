@@ -13,7 +13,7 @@
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
 //! | [`picks`] | the lights of a pixel's samples |
 //! | [`numbers`] | the numbers that lights and points on them are drawn by |
-//! | [`pixel`] | what a ray sees |
+//! | [`params`], [`pixel`] | what pixels have in common; what a ray sees |
 //! | [`direct`] | the light that a surface reflects once |
 //! | [`lobe`], [`mis`] | directions with a known density; weights of two ways to find a light |
 //! | [`path`] | light along whole paths |
@@ -33,6 +33,7 @@ pub mod lobe;
 pub mod material;
 pub mod mis;
 pub mod numbers;
+pub mod params;
 pub mod path;
 pub mod pick;
 pub mod picks;

@@ -22,7 +22,7 @@ impl Buffer {
     }
 
     /// A buffer that the CPU writes or reads, for copies.
-    fn staging(gpu: &Rc<Gpu>, bytes: u64) -> Result<Self> {
+    pub fn staging(gpu: &Rc<Gpu>, bytes: u64) -> Result<Self> {
         let host = vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
         Self::new(gpu, bytes, host)
     }
@@ -76,20 +76,15 @@ impl Buffer {
         })
     }
 
-    /// A copy of its bytes.
-    pub fn read(&self) -> Result<Vec<u8>> {
-        let back = Self::staging(&self.gpu, self.bytes)?;
-        self.gpu.run(|commands| {
-            commands.copy(self, &back, 0);
-            Ok(())
-        })?;
+    /// The bytes of a buffer that the CPU reads, once the device is done with it.
+    pub fn mapped(&self) -> Result<Vec<u8>> {
         let device = &self.gpu.device;
         let mut data = vec![0; self.bytes as usize];
         // SAFETY: the memory can be mapped, holds as many bytes, and every submission has been waited for.
         unsafe {
-            let from = device.map_memory(back.memory, 0, vk::WHOLE_SIZE, vk::MemoryMapFlags::empty())?;
+            let from = device.map_memory(self.memory, 0, vk::WHOLE_SIZE, vk::MemoryMapFlags::empty())?;
             std::ptr::copy_nonoverlapping(from.cast::<u8>(), data.as_mut_ptr(), data.len());
-            device.unmap_memory(back.memory);
+            device.unmap_memory(self.memory);
         }
         Ok(data)
     }

@@ -6,8 +6,6 @@ use ash::vk;
 use lightbvh_gpu::{FloatControls, FloatEnvironment, STORAGE_BUFFERS};
 
 use super::Result;
-use super::buffer::Buffer;
-use super::pipeline::Pipeline;
 
 /// How long the device may take for one frame, ns. A software device compiles a kernel at its first dispatch.
 const TIME_LIMIT: u64 = 120_000_000_000;
@@ -132,96 +130,23 @@ impl Gpu {
     }
 
     /// Records commands, submits them, and waits until they are done.
-    pub fn run(self: &Rc<Self>, record: impl FnOnce(&mut Commands) -> Result<()>) -> Result<()> {
-        let (device, raw) = (&self.device, self.commands);
+    pub fn run<E>(&self, record: impl FnOnce(vk::CommandBuffer) -> Result<E>) -> Result<()> {
+        let (device, commands) = (&self.device, self.commands);
         let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
         // SAFETY: the command buffer is the device's and not in use, for each run waits for its end.
-        unsafe { device.begin_command_buffer(raw, &begin) }?;
-        let mut commands = Commands {
-            gpu: Rc::clone(self),
-            raw,
-            staged: Vec::new(),
-        };
-        commands.barrier();
-        record(&mut commands)?;
-        commands.barrier();
-        let buffers = [raw];
+        unsafe { device.begin_command_buffer(commands, &begin) }?;
+        // Lives until the commands have ended.
+        let _used = record(commands)?;
+        let buffers = [commands];
         let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
-        // SAFETY: as above; what the commands use is borrowed by the caller until they have ended.
+        // SAFETY: as above; what the commands use is borrowed by the caller, or held, until they have ended.
         unsafe {
-            device.end_command_buffer(raw)?;
+            device.end_command_buffer(commands)?;
             device.queue_submit(self.queue, &submits, self.fence)?;
             device.wait_for_fences(&[self.fence], true, TIME_LIMIT)?;
             device.reset_fences(&[self.fence])?;
         }
         Ok(())
-    }
-}
-
-/// Commands that are being recorded. A dispatch sees what the commands before it have written.
-pub struct Commands {
-    gpu: Rc<Gpu>,
-    raw: vk::CommandBuffer,
-    /// Read by the commands.
-    staged: Vec<Buffer>,
-}
-
-impl Commands {
-    /// Writes `bytes` to a buffer from the byte `at` on.
-    pub fn upload(&mut self, to: &Buffer, at: u64, bytes: &[u8]) -> Result<()> {
-        let staged = Buffer::staged(&self.gpu, bytes)?;
-        self.copy(&staged, to, at);
-        self.staged.push(staged);
-        Ok(())
-    }
-
-    /// Copies a buffer to another, from the byte `at` on.
-    pub fn copy(&self, from: &Buffer, to: &Buffer, at: u64) {
-        assert!(at + from.bytes <= to.bytes, "within the buffer");
-        let region = [vk::BufferCopy {
-            src_offset: 0,
-            dst_offset: at,
-            size: from.bytes,
-        }];
-        // SAFETY: both are the device's, made for copies, and hold the region.
-        unsafe {
-            self.gpu
-                .device
-                .cmd_copy_buffer(self.raw, from.raw, to.raw, &region);
-        }
-    }
-
-    /// Dispatches a pipeline with one invocation for each item, over the buffers that `named` gives.
-    pub fn dispatch<'a>(
-        &self,
-        pipeline: &Pipeline,
-        named: impl Fn(&str) -> Option<&'a Buffer>,
-        push: &[u32],
-        items: u32,
-    ) {
-        self.barrier();
-        pipeline.dispatch(self.raw, named, push, items);
-    }
-
-    /// Lets all that follows see all that was written before.
-    fn barrier(&self) {
-        let stages = vk::PipelineStageFlags::TRANSFER | vk::PipelineStageFlags::COMPUTE_SHADER;
-        let memory = [vk::MemoryBarrier::default()
-            .src_access_mask(vk::AccessFlags::MEMORY_WRITE)
-            .dst_access_mask(vk::AccessFlags::MEMORY_READ | vk::AccessFlags::MEMORY_WRITE)];
-        let after = stages | vk::PipelineStageFlags::HOST;
-        // SAFETY: the command buffer is being recorded, and its queue has these stages.
-        unsafe {
-            self.gpu.device.cmd_pipeline_barrier(
-                self.raw,
-                stages,
-                after,
-                vk::DependencyFlags::empty(),
-                &memory,
-                &[],
-                &[],
-            );
-        }
     }
 }
 

@@ -1,7 +1,8 @@
-//! A small engine that knows nothing of lights: an instance, a device, buffers and pipelines, all made here with `ash`. The
+//! A small engine that knows nothing of lights: an instance, a device, buffers, pipelines and commands, all made here with `ash`. The
 //! examples drive lightbvh with it; yours takes its place.
 
 pub mod buffer;
+pub mod commands;
 pub mod gpu;
 pub mod pipeline;
 pub mod words;
