@@ -1,4 +1,4 @@
-//! The loaders of text: OBJ, PLY.
+//! The loader of OBJ.
 
 use arbitrary::{Result, Unstructured};
 use lightbvh_scenes::{Scene, SceneError};
@@ -10,39 +10,28 @@ use crate::gltf::within_domain;
 const OBJ: &str = "v|vn|vt|f|f|f|o|g|usemtl|mtllib|l|p|s|\n|\n|\n|\\\n|\
     #|a|b|1/1/1|2//2|3/3|1/2/3|-1|-2|-3//-1|1|2|3";
 
-/// What headers of PLY files are made of, and numbers after them, with bars between.
-const PLY: &str = "ply\nformat ascii 1.0\n|element vertex|element face|element x|property float x\n|\
-    property float y\n|property double z\n|property float nx\n|property float ny\n|\
-    property float nz\n|property float u\n|property float v\n|\
-    property list uchar int vertex_indices\n|property list int float junk\n|property uchar red\n|\
-    end_header\n|comment\n|\n|0|1|2|3";
-
 /// Numbers, of which some are at the edge of what is taken, and none.
 const NUMBERS: &str = "0 1 -1 2 0.5 3 4 8 -0 1e-3 90 180 360 1e10 1e20 1e30 1e38 3.5e38 -1e30 1e-30 1e-45 1e300 nan \
     inf 1048577 4294967296 18446744073709551616 0x10 1.5.2 ";
 
-/// An OBJ or PLY file, of any bytes or of words that such files are made of: refused, or a scene whose frames hold numbers
-/// in the domain.
+/// An OBJ file, of any bytes or of words that such files are made of: refused, or a scene whose frames hold numbers in the
+/// domain.
 pub fn texts(data: &[u8], _: Forms) {
     let run = |u: &mut Unstructured<'_>| -> Result<()> {
         let kind: u8 = u.arbitrary()?;
-        let (words, read): (&str, fn(&[u8]) -> _) = match kind % 3 {
-            0 | 1 => (OBJ, |bytes| Scene::read_obj_slice("fuzz.obj", bytes, None)),
-            _ => (PLY, |bytes| Scene::read_ply_slice("fuzz.ply", bytes)),
-        };
-        let bytes = match kind / 3 % 8 {
+        let bytes = match kind % 8 {
             0 => u.bytes(u.len())?.to_vec(),
-            _ => text(u, words)?.into_bytes(),
+            _ => text(u)?.into_bytes(),
         };
-        open(read(&bytes));
+        open(Scene::read_obj_slice("fuzz.obj", &bytes, None));
         Ok(())
     };
     let _ = run(&mut Unstructured::new(data));
 }
 
 /// Words and numbers until the input ends: a quarter of them numbers, and now and then several in a row, as points come.
-fn text(u: &mut Unstructured<'_>, words: &str) -> Result<String> {
-    let words: Vec<&str> = words.split('|').collect();
+fn text(u: &mut Unstructured<'_>) -> Result<String> {
+    let words: Vec<&str> = OBJ.split('|').collect();
     let numbers: Vec<&str> = NUMBERS.split(' ').collect();
     let mut text = String::new();
     while !u.is_empty() && text.len() < 1 << 16 {

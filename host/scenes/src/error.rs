@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[non_exhaustive]
 pub enum SceneError {
     /// The name is neither a built-in scene, of which the names follow, nor something that looks like a file.
-    #[error("unknown scene `{0}`: name a built-in scene ({1}) or a .gltf, .glb, .obj or .ply file")]
+    #[error("unknown scene `{0}`: name a built-in scene ({1}) or a .gltf, .glb or .obj file")]
     UnknownScene(String, String),
     /// A file could not be read.
     #[error("cannot read {0}: {1}; check that the file is there and that you may read it")]

@@ -1,7 +1,7 @@
 //! Scenes: triangles, emissive materials, node animation and a camera, turned into world-space triangles per frame.
 //!
 //! ```text
-//! Scene::open("street" | "path.glb")      load.rs: a built-in name, or a file of glTF 2.0, OBJ or PLY
+//! Scene::open("street" | "path.glb")      load.rs: a built-in name, or a file of glTF 2.0 or OBJ
 //!   └─ Scene (checked)                    scene.rs around model.rs: nodes, meshes, materials, animations; check.rs: what is refused
 //!        ├─ Scene::frame(n) -> Frame      place.rs: triangles, emissive triangles, mesh lights, camera at n / 25 s
 //!        └─ Scene::to_glb()               glb_out.rs: any scene as .glb
@@ -41,8 +41,6 @@ mod obj_in;
 mod paint;
 mod pictures;
 mod place;
-#[cfg(feature = "formats")]
-mod ply_in;
 mod random;
 mod ray_bvh;
 mod scene;

@@ -21,7 +21,7 @@ pub const BUILT_IN: [&str; 3] = ["street", "square", "carousel"];
 pub const STAGE: &str = "stage";
 
 impl Scene {
-    /// Opens a built-in scene by name, or a file by path, within the usual [`Limits`]: `.obj`, `.ply`, `.gltf` or `.glb`. A
+    /// Opens a built-in scene by name, or a file by path, within the usual [`Limits`]: `.obj`, `.gltf` or `.glb`. A
     /// file of another name is read as glTF.
     ///
     /// # Errors
@@ -50,21 +50,19 @@ impl Scene {
             extension.is_some_and(|extension| extension.eq_ignore_ascii_case(ending))
         };
         // A bare word is more likely a misspelt name than a file without an extension.
-        if !["obj", "ply", "gltf", "glb"].into_iter().any(ends_in) && !path.is_file() {
+        if !["obj", "gltf", "glb"].into_iter().any(ends_in) && !path.is_file() {
             let built_in = format!("{}, {STAGE}", BUILT_IN.join(", "));
             return Err(SceneError::UnknownScene(name, built_in));
         }
         let load = Load::new(path.parent(), limits)?;
         let bytes = load.read_any(path)?;
         #[cfg(not(feature = "formats"))]
-        if ends_in("obj") || ends_in("ply") {
-            return Err(not_compiled(&name, "OBJ and PLY"));
+        if ends_in("obj") {
+            return Err(not_compiled(&name, "OBJ"));
         }
         #[cfg(feature = "formats")]
         if ends_in("obj") {
             return Self::read_obj(&name, &bytes, &load);
-        } else if ends_in("ply") {
-            return Self::read_ply(&name, &bytes, &load);
         }
         Self::read_gltf(&name, &bytes, &load)
     }

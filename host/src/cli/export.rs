@@ -13,7 +13,7 @@ use crate::scene::{AnalyticKind, SceneError};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .obj or .ply file.
+    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb or .obj file.
     scene: OsString,
     #[command(flatten)]
     reading: Reading,

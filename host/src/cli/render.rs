@@ -23,7 +23,7 @@ const BOUNCES: u32 = 8;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .obj or .ply file.
+    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb or .obj file.
     scene: OsString,
     #[command(flatten)]
     reading: Reading,

@@ -12,5 +12,5 @@ pub use camera::camera;
 pub use cpu::{render, render_path};
 pub use film::{Film, FilmError, MAX_AUTO_EXPOSURE};
 pub use lightbvh_scenes::{RayBvh, RayBvhError, View};
-pub use output::{uninterrupted, write_whole};
+pub use output::{real_path, uninterrupted, write_whole};
 pub use power::power_thresholds;

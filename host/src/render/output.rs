@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Error, ErrorKind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// Held while a temporary file exists.
@@ -16,8 +16,11 @@ pub fn uninterrupted<T>(work: impl FnOnce() -> T) -> T {
 }
 
 /// Writes `bytes` to a temporary file in the folder of `path` and renames it: nobody sees half a file, and a failure leaves an
-/// older file as it was.
+/// older file as it was. Links are followed; pipes and devices are written directly.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let Some(path) = real_path(path)? else {
+        return fs::write(path, bytes);
+    };
     let name = path
         .file_name()
         .ok_or_else(|| Error::new(ErrorKind::InvalidInput, "the path names no file"))?;
@@ -26,11 +29,25 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     temporary_name.push(format!(".{}.tmp", std::process::id()));
     let temporary = path.with_file_name(temporary_name);
     uninterrupted(|| {
-        let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
+        let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, &path));
         if written.is_err() {
             // Best effort: the first error is the one to report.
             let _ = fs::remove_file(&temporary);
         }
         written
     })
+}
+
+/// The path of the file itself, links followed; `None` for a pipe or a device.
+pub fn real_path(path: &Path) -> io::Result<Option<PathBuf>> {
+    match fs::metadata(path) {
+        Ok(found) if found.is_dir() => Err(Error::new(ErrorKind::IsADirectory, "it is a folder")),
+        Ok(found) if !found.is_file() => Ok(None),
+        Ok(_) => fs::canonicalize(path).map(Some),
+        Err(_) if path.is_symlink() => Err(Error::new(
+            ErrorKind::NotFound,
+            "it is a link to a file that does not exist; make that file, or remove the link",
+        )),
+        Err(_) => Ok(Some(path.to_owned())),
+    }
 }

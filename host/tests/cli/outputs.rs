@@ -1,11 +1,43 @@
-//! Files after an interrupt.
+//! Files that are written: through links, into pipes, and after an interrupt.
 #![cfg(unix)]
 
 use std::fs;
+use std::os::unix::fs::{FileTypeExt, symlink};
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use crate::program::Folder;
+use crate::program::{Folder, refused, run};
+
+const SMALL: &str = "--width 16 --height 9 --spp 1";
+
+#[test]
+fn links_are_followed_and_pipes_are_written_directly() {
+    let folder = Folder::new("outputs");
+    let [file, link, pipe, lost] =
+        ["file.exr", "link.exr", "pipe.exr", "lost.exr"].map(|name| folder.file(name));
+    let render = |to: &str| assert!(run(&format!("render street {SMALL} -o {to}")).status.success());
+    render(&file);
+    let expected = fs::read(&file).expect("an image");
+    fs::write(&file, "older").expect("a file");
+    symlink(&file, &link).expect("a link");
+    render(&link);
+    assert!(fs::symlink_metadata(&link).expect("a link").is_symlink());
+    assert!(fs::read(&file).expect("an image") == expected);
+
+    let made = Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.expect("mkfifo is part of POSIX").success());
+    let reader = std::thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::read(pipe).expect("an image")
+    });
+    render(&pipe);
+    assert!(reader.join().expect("no panic") == expected);
+    assert!(fs::metadata(&pipe).expect("a pipe").file_type().is_fifo());
+
+    symlink(folder.file("nothing"), &lost).expect("a link");
+    let said = refused(&format!("render street {SMALL} -o {lost}"));
+    assert!(said.contains(&lost) && said.contains("remove the link"), "{said}");
+}
 
 /// At several times: between files, and while one is written.
 #[test]

@@ -1,7 +1,7 @@
 //! Refusals and their words.
 
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use crate::program::{Folder, has_device, refused};
 
@@ -77,6 +77,22 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
         let said = refused("verify --queries 1 --device no-such-device");
         assert!(said.contains("no-such-device"), "{said}");
     }
+}
+
+/// `head` closes a table; an object that is cut is none.
+#[test]
+fn closed_output_fails_for_json_alone() {
+    let code = |line: &str| {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_lightbvh"))
+            .args(line.split(' '))
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        drop(child.stdout.take());
+        child.wait().expect("it ends").code()
+    };
+    assert_eq!((code("info"), code("info --json")), (Some(0), Some(2)));
 }
 
 #[cfg(target_os = "linux")]

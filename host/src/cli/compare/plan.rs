@@ -10,7 +10,7 @@ pub(super) const TIMED: u32 = 8;
 /// The comparison as the options give it.
 #[derive(Clone, Debug, clap::Args)]
 pub(in crate::cli) struct Args {
-    /// A built-in scene or a .gltf, .glb, .obj or .ply file; may be repeated.
+    /// A built-in scene or a .gltf, .glb or .obj file; may be repeated.
     #[arg(long, default_values = BUILT_IN)]
     pub(super) scene: Vec<String>,
     #[command(flatten)]

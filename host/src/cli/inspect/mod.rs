@@ -28,7 +28,7 @@ use crate::workload::{lights_at, lights_of};
 const MOST_PROBABILITIES: usize = 1 << 25;
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .obj or .ply file.
+    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb or .obj file.
     scene: OsString,
     #[command(flatten)]
     reading: Reading,

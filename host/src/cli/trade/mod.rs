@@ -30,7 +30,7 @@ use crate::workload::{arrays_at, lights_at};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// A built-in scene or a .gltf, .glb, .obj or .ply file; may be repeated [default: three built-in].
+    /// A built-in scene or a .gltf, .glb or .obj file; may be repeated [default: three built-in].
     #[arg(long)]
     scene: Vec<String>,
     #[command(flatten)]
