@@ -31,10 +31,10 @@ pub(super) struct Args {
     #[arg(long, default_value_t = 200_000, value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     queries: u32,
     /// Measure frames of moving lights instead: time, variance relative to a fresh build, bytes.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "device")]
     dynamic: bool,
     /// Count nodes and time of single samples and pmfs in adversarial scenes instead.
-    #[arg(long, conflicts_with = "dynamic")]
+    #[arg(long, conflicts_with_all = ["dynamic", "device"])]
     worst: bool,
 }
 
@@ -62,12 +62,6 @@ struct Case {
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
-    if context.device.is_some() && (args.worst || args.dynamic) {
-        return Err(HostError::Usage {
-            option: "--device",
-            needs: "neither --dynamic nor --worst, which run on the CPU",
-        });
-    }
     if args.worst {
         return worst::run(context);
     }

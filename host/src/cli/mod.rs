@@ -30,8 +30,6 @@ use crate::render::uninterrupted;
 #[derive(Debug, Parser)]
 #[command(name = "lightbvh", version)]
 struct Args {
-    #[command(flatten)]
-    context: Context,
     #[command(subcommand)]
     command: Command,
 }
@@ -39,37 +37,57 @@ struct Args {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Build, animate, refit and render a street on the CPU and every device
-    Demo(demo::Args),
+    Demo(OnDevices<demo::Args>),
     /// Render a frame of a scene
-    Render(render::Args),
+    Render(OnDevices<render::Args>),
     /// Write a scene as a .glb file
     Export(export::Args),
     /// Compare every device with the CPU, bit for bit, and check every invariant of the trees
     ///
     /// Without a device only invariants are checked: a note says so, or with LIGHTBVH_REQUIRE_VULKAN=1 an error.
-    Verify(verify::Args),
+    Verify(OnDevices<verify::Args>),
     /// Check every extreme that the light BVH must survive against stated bounds
-    Stability(stability::Args),
+    Stability(OnDevices<stability::Args>),
     /// Report what a scene requires and the smallest model that is sufficient, and check it
-    Inspect(inspect::Args),
+    Inspect(Json<inspect::Args>),
     /// List the Vulkan devices and whether their arithmetic is exact
-    Info,
+    Info(OnDevices<Nothing>),
     /// Compare all methods over an animation as the paper does: errors and times
-    Compare(compare::Args),
+    Compare(OnDevices<compare::Args>),
     /// Measure speed against accuracy for importances, builders, levels and candidates
-    Trade(trade::Args),
+    Trade(Json<trade::Args>),
     /// Time build, refit, sample and pmf, or frames of moving lights, or the worst scenes
-    Bench(bench::Args),
+    Bench(OnDevices<bench::Args>),
 }
 
-/// Options that commands share.
-#[derive(Debug, Default, clap::Args)]
-struct Context {
+/// A command that prints a table or one JSON object.
+#[derive(Debug, clap::Args)]
+struct Json<A: clap::Args> {
+    #[command(flatten)]
+    own: A,
     /// Print one JSON object instead of tables.
-    #[arg(long, global = true)]
+    #[arg(long)]
     json: bool,
+}
+
+/// The same of a command that runs devices.
+#[derive(Debug, clap::Args)]
+struct OnDevices<A: clap::Args> {
+    #[command(flatten)]
+    own: Json<A>,
     /// Use only the Vulkan device of this index or name (a part of it is enough).
-    #[arg(long, global = true, value_name = "INDEX|NAME")]
+    #[arg(long, value_name = "INDEX|NAME")]
+    device: Option<String>,
+}
+
+/// No options of its own.
+#[derive(Debug, clap::Args)]
+struct Nothing {}
+
+/// Options that all commands share.
+#[derive(Default)]
+struct Context {
+    json: bool,
     device: Option<String>,
 }
 
@@ -88,24 +106,43 @@ impl Outcome {
     }
 }
 
+/// A command by its options.
+type Run<A> = fn(&Context, &A) -> Result<Outcome, HostError>;
+
+impl<A: clap::Args> Json<A> {
+    fn run(self, run: Run<A>) -> (bool, Result<Outcome, HostError>) {
+        let context = Context {
+            json: self.json,
+            ..Context::default()
+        };
+        (self.json, run(&context, &self.own))
+    }
+}
+
+impl<A: clap::Args> OnDevices<A> {
+    fn run(self, run: Run<A>) -> (bool, Result<Outcome, HostError>) {
+        let context = Context {
+            json: self.own.json,
+            device: self.device,
+        };
+        (context.json, run(&context, &self.own.own))
+    }
+}
+
 impl Command {
-    fn run(self, context: &Context) -> Result<Outcome, HostError> {
-        let usage = |option, needs| Err(HostError::Usage { option, needs });
+    /// Whether JSON was asked for, and what came of it.
+    fn run(self) -> (bool, Result<Outcome, HostError>) {
         match self {
-            Self::Export(_) if context.json => usage("--json", "a command that reports something"),
-            Self::Export(_) | Self::Inspect(_) | Self::Trade(_) if context.device.is_some() => {
-                usage("--device", "a command that runs devices")
-            }
-            Self::Demo(args) => demo::run(context, &args),
-            Self::Render(args) => render::run(context, &args),
-            Self::Export(args) => export::run(&args),
-            Self::Verify(args) => verify::run(context, &args),
-            Self::Stability(args) => stability::run(context, &args),
-            Self::Inspect(args) => inspect::run(context, &args),
-            Self::Info => info::run(context),
-            Self::Compare(args) => compare::run(context, &args),
-            Self::Trade(args) => trade::run(context, &args),
-            Self::Bench(args) => bench::run(context, &args),
+            Self::Demo(args) => args.run(demo::run),
+            Self::Render(args) => args.run(render::run),
+            Self::Export(args) => (false, export::run(&args)),
+            Self::Verify(args) => args.run(verify::run),
+            Self::Stability(args) => args.run(stability::run),
+            Self::Inspect(args) => args.run(inspect::run),
+            Self::Info(args) => args.run(|context, Nothing {}| info::run(context)),
+            Self::Compare(args) => args.run(compare::run),
+            Self::Trade(args) => args.run(trade::run),
+            Self::Bench(args) => args.run(bench::run),
         }
     }
 }
@@ -114,11 +151,23 @@ impl Command {
 pub fn main() -> ExitCode {
     // 128 and the number of the signal, as shells have it. Without the handler, a signal may leave a temporary file.
     let _ = ctrlc::set_handler(|| uninterrupted(|| std::process::exit(130)));
-    // clap's own exit code for wrong usage is 2, as ours.
-    let args = Args::parse();
-    match args.command.run(&args.context) {
+    let args = match Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => {
+            // clap's own exit code for wrong usage is 2, as ours.
+            let code = error.exit_code();
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(code).unwrap_or(2));
+        }
+    };
+    let (is_json, result) = args.command.run();
+    match result {
         Ok(Outcome::Good) => ExitCode::SUCCESS,
         Ok(Outcome::Bad) => ExitCode::from(1),
+        // The reader of a table has closed it, as `head` does; an object that is cut is none.
+        Err(HostError::Output(error)) if !is_json && error.kind() == std::io::ErrorKind::BrokenPipe => {
+            ExitCode::SUCCESS
+        }
         Err(error) => {
             news!("lightbvh: {error}");
             ExitCode::from(2)

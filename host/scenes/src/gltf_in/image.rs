@@ -8,7 +8,7 @@ use image::RgbaImage;
 use super::super::error::SceneError;
 use super::super::glow::Glows;
 use super::super::paint::Picture;
-use super::super::pictures;
+use super::super::pictures::{self, undecoded};
 use super::{Document, container, ktx2};
 
 /// A picture and its [mean](pictures::mean_of).
@@ -71,7 +71,9 @@ impl Document<'_> {
 
     fn decode(&self, name: &str, bytes: &[u8]) -> Result<RgbaImage, SceneError> {
         let pixels = if bytes.starts_with(&ktx2::IDENTIFIER) {
-            ktx2::decode(self.load, name, bytes)?
+            let header = ktx2::Header::read(bytes).map_err(|problem| undecoded(name, problem))?;
+            self.load.check(name, "a picture, decoded,", header.bytes())?;
+            header.decode(name, bytes)?
         } else {
             pictures::decode_surface(self.load, name, bytes)?
         };
