@@ -44,7 +44,7 @@ fn links_are_followed_and_pipes_are_written_directly() {
 fn an_interrupt_leaves_no_temporary_file() {
     for milliseconds in [0, 2, 8] {
         let folder = Folder::new(&format!("interrupt-{milliseconds}"));
-        let line = format!("demo --width 64 --height 36 --out {}", folder.file(""));
+        let line = format!("demo --width 192 --height 108 --out {}", folder.file(""));
         let mut child = Command::new(env!("CARGO_BIN_EXE_lightbvh"))
             .args(line.split(' '))
             .stdout(Stdio::null())
