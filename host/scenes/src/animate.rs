@@ -35,7 +35,7 @@ impl Pose {
         Self { world }
     }
 
-    /// The place of a node that carries what has directions and no size: a camera, a point, a spot. Scales do not change
+    /// The place of a node with a camera, a point light or a spot. Scales do not change
     /// such things (glTF 2.0, section 3.10; `KHR_lights_punctual`), but where they are so small or so large that directions are
     /// lost, these are the world's.
     pub fn unscaled(&self, node: u32) -> DAffine3 {

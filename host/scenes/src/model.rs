@@ -125,7 +125,7 @@ pub struct Animation {
     pub name: String,
     /// Its place in the file, from 0.
     pub place: u32,
-    /// What moves.
+    /// The channels, one for each animated property.
     pub channels: Vec<Channel>,
 }
 

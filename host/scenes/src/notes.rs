@@ -7,7 +7,7 @@ const MAX_PLACES: usize = 3;
 /// Warnings of one file, and of what it includes.
 #[derive(Debug, Default)]
 pub(super) struct Notes {
-    /// What is said, the first places and the number of all.
+    /// Each message with its first places and the number of all places.
     kinds: Vec<(String, Vec<String>, usize)>,
     more: u64,
 }

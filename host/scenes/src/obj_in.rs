@@ -79,7 +79,7 @@ impl Scene {
                         _ => material = rest,
                     }
                 }
-                "mtllib" => reading.library(line, rest)?,
+                "mtllib" => reading.material_file(line, rest)?,
                 "l" | "p" | "curv" | "curv2" | "surf" => {
                     reading.note(line, format!("`{word}` is left out; only faces are read"));
                 }
@@ -95,8 +95,8 @@ impl Reading<'_> {
         self.notes.add(format!("{} line {line}", self.file), what);
     }
 
-    /// Reads a library.
-    fn library(&mut self, line: u32, name: &str) -> Result<(), SceneError> {
+    /// Reads an MTL file.
+    fn material_file(&mut self, line: u32, name: &str) -> Result<(), SceneError> {
         // Without a folder nothing is permitted.
         let folder = self.load.folder().unwrap_or(Path::new(""));
         let path = folder.join(name.replace('\\', "/"));
@@ -244,7 +244,7 @@ fn shown(text: &str) -> String {
     text.chars().take(60).collect()
 }
 
-/// What is wrong with a line.
+/// An error at a line.
 fn wrong(file: &str, line: u32, problem: String) -> SceneError {
     malformed(
         format!("{file}, line {line}"),

@@ -25,7 +25,7 @@ pub struct Frame<'a> {
 /// A step of a [`Frame`]. Steps are done in their order: a device sees what those before have written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step<'a> {
-    /// The buffer is replaced by one of at least so many bytes. What it held is not needed: the steps that follow write all
+    /// The buffer is replaced by one of at least `bytes` bytes. Its old contents are not needed: the steps that follow write all
     /// of it that is read. A buffer that grows gets half as much again, so resizes are few.
     Resize {
         /// Which one.
@@ -39,12 +39,12 @@ pub enum Step<'a> {
         buffer: DeviceBuffer,
         /// Where they begin, bytes.
         at: u64,
-        /// What is written, not empty.
+        /// The data, not empty.
         bytes: &'a [u8],
     },
     /// The kernel of the pass is dispatched ([`KernelSet::refit`](crate::KernelSet::refit)).
     Dispatch {
-        /// What it computes.
+        /// The pass.
         pass: Pass,
         /// Its push constants.
         push: [u32; 3],
@@ -267,8 +267,8 @@ impl Mirror {
         own.map(|(_, room)| room).sum()
     }
 
-    /// Makes room for so many bytes of an array, in whole elements; says whether there was too little. What grows will grow again, so it gets half
-    /// as much again.
+    /// Reserves `bytes` bytes for an array, in whole elements. Returns whether it had to grow; an array that grows gets half as much
+    /// again.
     fn reserve(&mut self, array: usize, bytes: u64, stride: u64) -> bool {
         let room = &mut self.room[array];
         let is_larger = bytes > *room || *room == 0;

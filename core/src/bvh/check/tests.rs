@@ -44,7 +44,7 @@ fn limit(scene: &Tree, mut edits: Vec<Edit>) {
     assert_eq!((error.edit, error.reason), (last, EditReason::TooMany));
 }
 
-/// As many lights need more memory than a test should take, so the count of those before them is told.
+/// The greatest number of lights does not fit a test's memory, so the test sets the count.
 #[test]
 fn triangles_are_limited() {
     let (scene, ..) = scene(COUNT);
@@ -110,7 +110,7 @@ fn edits_know_of_those_before() {
     );
 }
 
-/// The first wrong one, though others follow; what is within the domain is brought to its normal form.
+/// The error names the first wrong light; sound lights are normalized.
 #[test]
 fn wrong_triangles_are_named_wherever_they_are() {
     let mut lights = lights(9, 1.0);

@@ -1,4 +1,4 @@
-//! The least and the greatest weights: of which masks leave some, and times what is reflected.
+//! Weights at both ends of the range, under masks and times reflectance.
 
 use crate::beam::Limits;
 use crate::choose::{FULL, choose};

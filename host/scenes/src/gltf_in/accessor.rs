@@ -54,7 +54,7 @@ impl Document<'_> {
         Ok((0..own.count).map(|i| own.unsigned(i)).collect())
     }
 
-    /// Takes memory for all elements, or so many.
+    /// Reserves memory for all elements, or for the given number of them.
     fn elements(
         &self,
         index: Index<Accessor>,

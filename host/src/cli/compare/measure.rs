@@ -80,7 +80,7 @@ impl<'a> Job<'a> {
         })
     }
 
-    /// Brings a method through all frames, with so many images of each measured one.
+    /// Runs a method over all frames, with the given number of images of each measured frame.
     pub fn run(
         &self,
         method: Method,
