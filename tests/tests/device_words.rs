@@ -264,7 +264,7 @@ where
             if frame % every == 0 {
                 let sampled = held.compare::<I, P>(&bvh, &points, random).into_iter();
                 seen.extend(sampled.map(|(own, sample)| {
-                    let light = bvh.triangle(sample.light, sample.instance);
+                    let light = bvh.light(sample.light, sample.instance);
                     let mask = |light| (light, bvh.instances()[sample.instance as usize].mask);
                     (own, light.map(mask))
                 }));

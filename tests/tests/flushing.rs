@@ -96,7 +96,7 @@ where
                 .to_bits(),
         );
     }
-    if let Some(light) = bvh.triangle(sample.light, sample.instance) {
+    if let Some(light) = bvh.light(sample.light, sample.instance) {
         all.extend(words(&[light]));
         let (u, v) = (exact::unit_f32(third), exact::unit_f32(fourth));
         for uv in [[u, v], [u, u], [1.0 - u, u], [f32::MIN_POSITIVE, v]] {

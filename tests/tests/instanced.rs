@@ -115,7 +115,7 @@ fn one_instance_is_meant_by_any_name() {
             for (k, id) in ids.iter().enumerate().take(3) {
                 let own = id.index();
                 let found = emitters.light(light_of(k), instance);
-                let expected = bvh.triangle(light_of(k), own).expect("a light");
+                let expected = bvh.light(light_of(k), own).expect("a light");
                 let is_meant = (own as usize) < count && (instance == own || count == 1);
                 let radiance = if is_meant { expected.radiance } else { [0.0; 3] };
                 assert_eq!(

@@ -143,7 +143,7 @@ pub unsafe extern "C" fn lightbvh_point_of(
                 let message = format!("no light {light} in an instance {instance}");
                 Fault::new(Status::NoLight, message)
             };
-            let triangle = bvh.triangle(light, instance).ok_or_else(missing)?;
+            let triangle = bvh.light(light, instance).ok_or_else(missing)?;
             place.write(triangle.point([u, v]));
             Ok(())
         })

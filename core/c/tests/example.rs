@@ -115,7 +115,7 @@ fn expected() -> String {
         };
         let random = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(u64::from(k) + 1);
         let sample = bvh.sample(&point, random);
-        let triangle = bvh.triangle(sample.light, sample.instance).unwrap();
+        let triangle = bvh.light(sample.light, sample.instance).unwrap();
         let on = triangle.point([0.25, 0.5]);
         let [pmf, x, density] = [sample.pmf, on.p[0], on.density].map(f32::to_bits);
         writeln!(

@@ -28,17 +28,17 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     /// Light `light` of the instance of index `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them;
-    /// `None` where there is no such. In a single-level BVH, where samples name no instance, that is not looked at.
+    /// `None` if there is none. A single-level BVH ignores `instance`.
     #[must_use]
-    pub fn triangle(&self, light: u32, instance: u32) -> Option<N::Light> {
+    pub fn light(&self, light: u32, instance: u32) -> Option<N::Light> {
         let index = if self.single { 0 } else { instance };
         let placed = self
             .placed
             .get(index as usize)
             .filter(|placed| placed.live && placed.numbers.contains(&light))?;
         let own = &self.instances[index as usize];
-        let triangle = self.meshes[placed.mesh as usize].lights.start + (light - placed.numbers.start);
-        Some(self.lights[triangle as usize].in_world(own, index))
+        let place = self.meshes[placed.mesh as usize].lights.start + (light - placed.numbers.start);
+        Some(self.lights[place as usize].in_world(own, index))
     }
 
     /// The id of the instance of index `instance`, as a [`SampledLight`](crate::SampledLight) names it; `None` where there is

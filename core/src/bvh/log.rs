@@ -254,7 +254,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     /// Lists everything, for a mirror that copies all arrays. To compare a mirror, compare the listed nodes and roots, the live
-    /// instances, and what [`triangle`](Self::triangle) and these name.
+    /// instances, and what [`light`](Self::light) and these name.
     #[must_use]
     pub fn plan_of_everything(&self) -> RefitPlan {
         let used = (0u32..).zip(&self.meshes).filter(|(_, mesh)| mesh.live);

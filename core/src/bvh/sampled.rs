@@ -85,7 +85,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         let found = self.tree().sample(point, number);
         let index = if self.single { 0 } else { found.instance };
-        let light = self.triangle(found.light, index)?;
+        let light = self.light(found.light, index)?;
         let instance = self.instance_id(index)?;
         let on = light.point_for(at.position(), uv);
         let seen = on.seen_from(at.position());
@@ -124,7 +124,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         let pmf = self.pmf_of(point, instance, part)?;
         let number = self.lights_of(instance)?.start + part;
-        let light = self.triangle(number, instance.index())?;
+        let light = self.light(number, instance.index())?;
         let on = light.point_at(at.position(), vector(&position));
         Some(on.density_seen(at.position(), pmf))
     }

@@ -222,7 +222,7 @@ pub fn sound_samples<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(
             let pmf = bvh.pmf(&point, sampled.light, sampled.instance);
             assert_eq!(pmf.to_bits(), sampled.pmf.to_bits(), "{sampled:?}");
             assert!(
-                bvh.triangle(sampled.light, sampled.instance).is_some(),
+                bvh.light(sampled.light, sampled.instance).is_some(),
                 "{sampled:?}"
             );
         }

@@ -37,7 +37,7 @@ fn no_lights_are_a_tree_that_answers_none() {
             (INVALID, INVALID, 0.0)
         );
         assert_eq!(bvh.pmf(&POINT, 0, 0), 0.0);
-        assert_eq!(bvh.triangle(0, 0), None);
+        assert_eq!(bvh.light(0, 0), None);
         assert!(bvh.world_lights().is_empty() && bvh.light_count() == 0);
         bvh.follow(&lights).expect("as empty as before");
         let again = LightBvh::from_words(&bvh.to_words()).expect("its own words");

@@ -71,7 +71,7 @@ fn check_sampling(name: &str, bvh: &Tree, random: &mut Random) {
             let sampled = bvh.sample(&point, Random64::from(random.word()));
             let pmf = bvh.pmf(&point, sampled.light, sampled.instance);
             assert_eq!(sampled.pmf.to_bits(), pmf.to_bits(), "{name}");
-            let light = bvh.triangle(sampled.light, sampled.instance).expect("a light");
+            let light = bvh.light(sampled.light, sampled.instance).expect("a light");
             mean += sent(&light, &point, random) / f64::from(pmf) / f64::from(SAMPLES);
         }
         let deviation = (squares / f64::from(SAMPLES)).sqrt();

@@ -166,7 +166,7 @@ fn check_all(bvh: &Tree, receivers: u32, random: &mut Random, seen: &mut Seen) {
         check(&bvh.tree(), &known, &receiver, random, seen);
     }
     let near = known.get(random.below(known.len().max(1) as u32) as usize);
-    let Some((own, light)) = near.and_then(|own| Some((own, bvh.triangle(own.light, own.instance)?))) else {
+    let Some((own, light)) = near.and_then(|own| Some((own, bvh.light(own.light, own.instance)?))) else {
         return;
     };
     macro_rules! check_by {

@@ -64,7 +64,7 @@ fn a_sample_and_a_hit_agree_with_their_light() {
             (plain.instance, plain.pmf),
             (sampled.instance.index(), sampled.pmf)
         );
-        let light = bvh.triangle(plain.light, plain.instance).expect("a light");
+        let light = bvh.light(plain.light, plain.instance).expect("a light");
         assert_eq!(sampled.light, light);
         let on = light.point_for(point.p.into(), uv);
         assert_eq!((sampled.point, sampled.irradiance), (on, on.irradiance(&point)));
@@ -182,7 +182,7 @@ fn lights_by_themselves() {
             let number = bvh.lights_of(*id).expect("a light").start;
             let light = light.checked().expect("in the domain");
             let expected = light.in_world(&bvh.instances()[id.index() as usize], id.index());
-            assert_eq!(bvh.triangle(number, id.index()), Some(expected));
+            assert_eq!(bvh.light(number, id.index()), Some(expected));
         }
         assert_eq!(bvh.light_count(), own.len() + 1);
         // Once there have been forty, all room is used again.

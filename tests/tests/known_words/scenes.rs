@@ -118,7 +118,7 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
         let world = scene.world_lights();
         for &id in &ids {
             for light in scene.lights_of(id).expect("it is there") {
-                assert_eq!(scene.triangle(light, id.index()), Some(world[light as usize]));
+                assert_eq!(scene.light(light, id.index()), Some(world[light as usize]));
             }
         }
         for &id in &ids {

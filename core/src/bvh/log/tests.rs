@@ -159,12 +159,12 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
             let pmfs = [own.pmf(&point, light, instance), bvh.pmf(&point, light, instance)];
             assert_eq!(pmfs[0].to_bits(), pmfs[1].to_bits(), "{light} of {instance}");
             let found = refit::world_light(&self.lights, &self.instances, light, instance);
-            assert_eq!(Some(found), bvh.triangle(light, instance));
+            assert_eq!(Some(found), bvh.light(light, instance));
         }
         // Names of no light.
         for (light, instance) in [(INVALID, 0), (0, INVALID - 1), (INVALID, INVALID)] {
             assert_eq!(
-                (own.pmf(&point, light, instance), bvh.triangle(light, instance)),
+                (own.pmf(&point, light, instance), bvh.light(light, instance)),
                 (0.0, None)
             );
         }
