@@ -23,7 +23,7 @@
 //! | [`light`] | lights of other kinds: points, spots, spheres, rectangles, discs; points on them |
 //! | [`importance`], [`node`] | what children are chosen by, and what nodes store of them |
 //! | [`requirements`] | what a scene requires, and the smallest model that is sufficient |
-//! | [`tree`] | a light BVH as borrowed arrays, the same on devices |
+//! | [`tree`] | the models that light BVHs are made of; a light BVH as borrowed arrays, the same on devices |
 //! | [`refit`], [`exact`] | passes and arithmetic, the same on devices |
 //! | [`reservoir`] | one of several light samples by what they would contribute (resampled importance sampling) |
 //! | [`error`] | why input is refused |
@@ -75,6 +75,7 @@ mod halves;
 mod instance;
 #[cfg(test)]
 mod kit;
+mod model;
 mod moments;
 mod point;
 mod prefetch;

@@ -1,4 +1,4 @@
-//! A light BVH as traversal sees it: borrowed arrays, the same on both processors.
+//! A light BVH as traversal sees it: borrowed arrays, the same on both processors; and the [models](Model) that it may be made of.
 
 use core::marker::PhantomData;
 
@@ -7,6 +7,7 @@ use bytemuck::{Pod, Zeroable};
 use crate::importance::DefaultImportance;
 use crate::instance::Instance;
 pub use crate::light::INVALID;
+pub use crate::model::{AnyKind, Masked, Model, Paper, Triangles};
 use crate::node::DefaultNode;
 use crate::trail::{BitTrail, Path, max_levels, place_parts};
 

@@ -34,10 +34,10 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
     u: &mut Unstructured<'_>,
     forms: Forms,
 ) -> Result<()> {
-    let mut scene = Bvh::<N, (), W>::new(input::params(u)?);
+    let mut scene = Bvh::<(N, ()), W>::new(input::params(u)?);
     let mut model = Model::default();
     let mut cursor = Cursor::default();
-    let mut rebuilder: Option<Rebuilder<N, W>> = None;
+    let mut rebuilder: Option<Rebuilder<(N, ()), W>> = None;
     let count = 1 + u.arbitrary::<u8>()? % 8;
     for frame in 0..count {
         let bits: u8 = u.arbitrary()?;
@@ -74,7 +74,7 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
         }
         if bits & 64 != 0 {
             let words = scene.to_words();
-            let read = Bvh::<N, (), W>::from_words(&words).unwrap_or_else(|error| panic!("{error}"));
+            let read = Bvh::<(N, ()), W>::from_words(&words).unwrap_or_else(|error| panic!("{error}"));
             assert!(read.to_words() == words);
         }
     }
@@ -88,8 +88,8 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
 
 /// Begins a frame of the rebuilder; returns whether anything was swapped in.
 fn begin<N: LightNode<W>, const W: usize>(
-    rebuilder: &mut Option<Rebuilder<N, W>>,
-    scene: &mut Bvh<N, (), W>,
+    rebuilder: &mut Option<Rebuilder<(N, ()), W>>,
+    scene: &mut Bvh<(N, ()), W>,
 ) -> bool {
     rebuilder.as_mut().is_some_and(|rebuilder| {
         let start = rebuilder.begin_frame(scene).expect("its own");
@@ -100,7 +100,7 @@ fn begin<N: LightNode<W>, const W: usize>(
 /// A point for samples.
 fn place<N: LightNode<W>, const W: usize>(
     u: &mut Unstructured<'_>,
-    scene: &Bvh<N, (), W>,
+    scene: &Bvh<(N, ()), W>,
 ) -> Result<ShadingPoint> {
     let mut world = scene.world_lights();
     if world.is_empty() {
@@ -117,7 +117,7 @@ fn place<N: LightNode<W>, const W: usize>(
 /// Samples between edits, or a swap, and the refit: of lights that are there, with their probabilities.
 fn before_refit<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     model: &Model,
-    scene: &Bvh<N, (), W>,
+    scene: &Bvh<(N, ()), W>,
     point: &ShadingPoint,
     random: u32,
 ) {
@@ -135,7 +135,7 @@ fn before_refit<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 }
 
 /// Every invariant, and every light against the model.
-fn check<N: LightNode<W>, const W: usize>(model: &Model, scene: &Bvh<N, (), W>) {
+fn check<N: LightNode<W>, const W: usize>(model: &Model, scene: &Bvh<(N, ()), W>) {
     scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
     assert_eq!(scene.tree().live as usize, model.instances.len());
     model.check_lights(scene);
@@ -146,7 +146,7 @@ fn check<N: LightNode<W>, const W: usize>(model: &Model, scene: &Bvh<N, (), W>) 
 fn sampled<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     u: &mut Unstructured<'_>,
     model: &Model,
-    scene: &Bvh<N, (), W>,
+    scene: &Bvh<(N, ()), W>,
 ) -> Result<()> {
     let point = place(u, scene)?;
     let random: u32 = u.arbitrary()?;

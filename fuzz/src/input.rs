@@ -1,5 +1,6 @@
 //! Lights, points and nodes from the fuzzer's bytes.
 
+use lightbvh::tree::Model;
 use arbitrary::{Error, Result, Unstructured};
 use lightbvh::exact::pow2;
 use lightbvh::{
@@ -224,7 +225,7 @@ pub fn sum_is_one(pmfs: &[f32], halvings: u32, point: &ShadingPoint) {
 
 /// The probability of light `light` of a BVH that was built over `lights`.
 pub fn pmf_of<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &Bvh<N, impl Sized, W>,
+    bvh: &Bvh<impl Model<W, Node = N, Light = EmissiveTriangle>, W>,
     lights: &Lights,
     point: &ShadingPoint,
     light: u32,

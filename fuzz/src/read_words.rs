@@ -1,7 +1,9 @@
 //! Files that hold any words.
 
+use lightbvh::light::EmissiveTriangle;
+use lightbvh::tree::Model;
 use arbitrary::{Result, Unstructured};
-use lightbvh::{Bvh, CompactNode, Edit, Eq4, ImportanceModel, LightNode, MomentNode, Moments, Transform};
+use lightbvh::{Bvh, CompactNode, Edit, Eq4, ImportanceModel, MomentNode, Moments, Transform};
 
 use crate::{Forms, input};
 
@@ -11,19 +13,22 @@ pub fn read_words(data: &[u8], forms: Forms) {
     for form in forms.of(data, 3) {
         let u = &mut Unstructured::new(data);
         let _ = match form {
-            0 => run::<CompactNode<2>, Eq4, 2>(u),
-            1 => run::<CompactNode<4>, Eq4, 4>(u),
-            _ => run::<MomentNode<8>, Moments, 8>(u),
+            0 => run::<(CompactNode<2>, Eq4), 2>(u),
+            1 => run::<(CompactNode<4>, Eq4), 4>(u),
+            _ => run::<(MomentNode<8>, Moments), 8>(u),
         };
     }
 }
 
-fn run<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(u: &mut Unstructured<'_>) -> Result<()> {
+fn run<M: Model<W, Light = EmissiveTriangle>, const W: usize>(u: &mut Unstructured<'_>) -> Result<()>
+where
+    M::Importance: ImportanceModel<M::Node, W>,
+{
     let params = input::params(u)?;
     let lights = input::lights(u)?;
     let bits: u8 = u.arbitrary()?;
     let mut written = match bits & 3 {
-        0 => Bvh::<N, I, W>::single_level(&lights, &params),
+        0 => Bvh::<M, W>::single_level(&lights, &params),
         _ => Bvh::two_level(&lights, &params),
     };
     if bits & 4 != 0
@@ -54,11 +59,11 @@ fn run<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(u: &mut Unstru
         *own = length;
     }
     let point = input::point(u, lights.all())?;
-    let Ok(mut bvh) = Bvh::<N, I, W>::from_words(&words) else {
+    let Ok(mut bvh) = Bvh::<M, W>::from_words(&words) else {
         return Ok(());
     };
     let again = bvh.to_words();
-    let copy = Bvh::<N, I, W>::from_words(&again).unwrap_or_else(|error| panic!("{error}"));
+    let copy = Bvh::<M, W>::from_words(&again).unwrap_or_else(|error| panic!("{error}"));
     assert!(copy.to_words() == again);
     let random: u32 = u.arbitrary()?;
     for i in 0..3 {

@@ -62,7 +62,7 @@ fn tree<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     form: u32,
 ) {
     let mut bvh = match form % 2 {
-        0 => Bvh::<N, (), W>::two_level(lights, params),
+        0 => Bvh::<(N, ()), W>::two_level(lights, params),
         _ => Bvh::single_level(lights, params),
     };
     bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
@@ -87,7 +87,7 @@ fn tree<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 }
 
 /// All words that a device holds.
-fn words<N: LightNode<W>, const W: usize>(bvh: &Bvh<N, (), W>) -> Vec<u8> {
+fn words<N: LightNode<W>, const W: usize>(bvh: &Bvh<(N, ()), W>) -> Vec<u8> {
     let (tree, links) = (bvh.tree(), bvh.tree().links);
     [
         cast_slice(bvh.nodes()),
@@ -102,7 +102,7 @@ fn words<N: LightNode<W>, const W: usize>(bvh: &Bvh<N, (), W>) -> Vec<u8> {
 }
 
 fn distributions<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &Bvh<N, (), W>,
+    bvh: &Bvh<(N, ()), W>,
     lights: &Lights,
     points: &[ShadingPoint],
     random: u32,

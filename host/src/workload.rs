@@ -2,7 +2,7 @@
 
 use lightbvh::exact::hash;
 use lightbvh::light::Light;
-use lightbvh::node::{Holds, Node};
+use lightbvh::tree::Model;
 use lightbvh::{BuildParams, Bvh, INVALID, Lights, Random64, ShadingPoint};
 use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
@@ -80,11 +80,11 @@ pub fn arrays_lit_by<L: SceneLight>(
 }
 
 /// The light BVH that `sampler` walks; the other samplers walk none and get the two-level one.
-pub fn build<N: Node<W>, I, const W: usize>(
-    lights: &Lights<<N as Holds>::Light>,
+pub fn build<M: Model<W>, const W: usize>(
+    lights: &Lights<M::Light>,
     sampler: Sampler,
     params: &BuildParams,
-) -> Bvh<N, I, W> {
+) -> Bvh<M, W> {
     match sampler {
         Sampler::SingleLevel => Bvh::single_level(lights, params),
         _ => Bvh::two_level(lights, params),
@@ -92,9 +92,9 @@ pub fn build<N: Node<W>, I, const W: usize>(
 }
 
 /// The instance of light `light` in a BVH that was built over `lights`: what a pmf is asked for beside the light.
-pub fn instance_of<N: Node<W>, I, const W: usize>(
-    bvh: &Bvh<N, I, W>,
-    lights: &Lights<<N as Holds>::Light>,
+pub fn instance_of<M: Model<W>, const W: usize>(
+    bvh: &Bvh<M, W>,
+    lights: &Lights<M::Light>,
     light: u32,
 ) -> u32 {
     match lights.all().get(light as usize) {
@@ -105,8 +105,8 @@ pub fn instance_of<N: Node<W>, I, const W: usize>(
 
 /// The words of nodes in use, out of those of all nodes in the order of [`node_words`](crate::backend::node_words): the others
 /// may differ on a device.
-pub fn words_in_use<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>, words: &[u32]) -> Vec<u32> {
-    let width = size_of::<N>() / size_of::<u32>();
+pub fn words_in_use<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>, words: &[u32]) -> Vec<u32> {
+    let width = size_of::<M::Node>() / size_of::<u32>();
     let used = nodes_in_use(bvh).into_iter().map(|node| node as usize * width);
     used.flat_map(|at| words[at..at + width].to_vec()).collect()
 }

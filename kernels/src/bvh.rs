@@ -1,89 +1,68 @@
 //! The light BVHs that the kernels are compiled for, and their picker for the renderer.
 
-use lightbvh::importance::DefaultImportance;
+use core::fmt::Debug;
+
 use lightbvh::light::AnyLight;
-use lightbvh::node::{DefaultNode, Holds, Node as Layout, SpotMomentNode};
+use lightbvh::node::{DefaultNode, Node as Layout, SpotMomentNode};
+pub use lightbvh::tree::{AnyKind, Model, Paper, Triangles};
 use lightbvh::{
-    CompactNode, EmissiveTriangle, Eq4, ImportanceModel, LightTree, Random64, SampledLight, ShadingPoint,
+    CompactNode, EmissiveTriangle, ImportanceModel, LightTree, Random64, SampledLight, ShadingPoint,
 };
 
 use crate::shading::emitter::Emitter;
 use crate::shading::pick::PickLight;
 
-/// A layout with its importance: what one set of kernels is compiled for.
-pub trait Choice<const W: usize>: Copy + Send + Sync + 'static {
-    /// What the lights are.
-    type Light: Emitter;
-    /// The node layout.
-    type Node: Layout<W> + Holds<Light = Self::Light> + core::fmt::Debug;
-    /// What children are chosen by.
-    type Importance: ImportanceModel<Self::Node, W> + Clone + core::fmt::Debug + Send + Sync + 'static;
+/// A model that a set of kernels is compiled for.
+pub trait Compiled<const W: usize>:
+    Model<W, Light: Emitter, Importance: ImportanceModel<Self::Node, W> + Debug + Send + Sync + 'static>
+    + Copy
+    + Send
+    + Sync
+    + 'static
+{
     /// Name for tables and options.
     const NAME: &'static str;
     /// What the names of its kernels end in.
     const SUFFIX: &'static str;
 }
 
-/// A choice over emissive triangles alone.
-pub trait TriangleChoice<const W: usize>: Choice<W, Light = EmissiveTriangle> {}
+/// One over emissive triangles alone.
+pub trait TriangleModel<const W: usize>: Compiled<W> + Model<W, Light = EmissiveTriangle> {}
 
-impl<C: Choice<W, Light = EmissiveTriangle>, const W: usize> TriangleChoice<W> for C {}
+impl<C: Compiled<W> + Model<W, Light = EmissiveTriangle>, const W: usize> TriangleModel<W> for C {}
 
-/// The paper's importance, Eq. 4, on quantised bounds, 4 children to a node.
-#[derive(Clone, Copy, Debug)]
-pub struct Paper;
-
-impl Choice<4> for Paper {
-    type Light = EmissiveTriangle;
-    type Node = PaperNode;
-    type Importance = Eq4;
+impl Compiled<4> for Paper {
     const NAME: &'static str = "eq4";
     const SUFFIX: &'static str = "_eq4";
 }
 
-/// The default: the layout and importance that measured best for their time, 8 children to a node, with a share of 1/64 of
-/// uniform choice.
-#[derive(Clone, Copy, Debug)]
-pub struct Standard;
-
-impl Choice<WIDTH> for Standard {
-    type Light = EmissiveTriangle;
-    type Node = Node;
-    type Importance = DefaultImportance;
+impl Compiled<WIDTH> for Triangles {
     const NAME: &'static str = "moments";
     const SUFFIX: &'static str = "";
 }
 
-/// The default over lights of any kind.
-#[derive(Clone, Copy, Debug)]
-pub struct Kinds;
-
-impl Choice<WIDTH> for Kinds {
-    type Light = AnyLight;
-    type Node = AnyNode;
-    type Importance = DefaultImportance;
+impl Compiled<WIDTH> for AnyKind {
     const NAME: &'static str = "moments with beams";
     const SUFFIX: &'static str = "_any";
 }
 
-/// Children per node of [`Standard`].
+/// Children per node of [`Triangles`].
 pub const WIDTH: usize = 8;
-/// Node of [`Standard`].
+/// Node of [`Triangles`].
 pub type Node = DefaultNode;
 /// Node of [`Paper`].
 pub type PaperNode = CompactNode<4>;
 /// Node over lights of any kind, spots among them: the words of [`Node`], and beams.
 pub type AnyNode = SpotMomentNode<8, AnyLight>;
 
-/// The tree of a choice.
-pub type TreeOf<'a, C, const W: usize> =
-    LightTree<'a, <C as Choice<W>>::Node, <C as Choice<W>>::Importance, W>;
-/// The tree of [`Standard`].
-pub type StandardTree<'a> = TreeOf<'a, Standard, WIDTH>;
+/// The tree of a model.
+pub type TreeOf<'a, C, const W: usize> = LightTree<'a, <C as Model<W>>::Node, <C as Model<W>>::Importance, W>;
+/// The tree of [`Triangles`].
+pub type StandardTree<'a> = TreeOf<'a, Triangles, WIDTH>;
 /// The tree of [`Paper`].
 pub type PaperTree<'a> = TreeOf<'a, Paper, 4>;
-/// The tree of [`Kinds`].
-pub type AnyTree<'a> = TreeOf<'a, Kinds, WIDTH>;
+/// The tree of [`AnyKind`].
+pub type AnyTree<'a> = TreeOf<'a, AnyKind, WIDTH>;
 
 impl<N: Layout<W>, I: ImportanceModel<N, W>, const W: usize> PickLight for LightTree<'_, N, I, W> {
     #[inline]

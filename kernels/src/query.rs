@@ -8,7 +8,7 @@ use lightbvh::refit::world_light;
 use lightbvh::{EmissiveTriangle, Instance, LightPoint, Random64, SampledLight, ShadingPoint, TreeWords};
 use spirv_std::spirv;
 
-use crate::bvh::{Choice, Node, PaperNode, PaperTree, StandardTree, TreeOf};
+use crate::bvh::{Compiled, Node, PaperNode, PaperTree, StandardTree, TreeOf};
 use crate::invocation;
 
 /// A point, and what is asked: 32 bytes.
@@ -44,7 +44,7 @@ pub struct QueryPush {
 /// The answer to a query of pass `sample`.
 #[inline]
 #[must_use]
-pub fn sample_query<C: Choice<W>, const W: usize>(tree: &TreeOf<'_, C, W>, query: &Query) -> SampledLight {
+pub fn sample_query<C: Compiled<W>, const W: usize>(tree: &TreeOf<'_, C, W>, query: &Query) -> SampledLight {
     let number = Random64 {
         high: query.words[0],
         low: query.words[1],
@@ -55,7 +55,7 @@ pub fn sample_query<C: Choice<W>, const W: usize>(tree: &TreeOf<'_, C, W>, query
 /// The answer to a query of pass `pmf`.
 #[inline]
 #[must_use]
-pub fn pmf_query<C: Choice<W>, const W: usize>(tree: &TreeOf<'_, C, W>, query: &Query) -> f32 {
+pub fn pmf_query<C: Compiled<W>, const W: usize>(tree: &TreeOf<'_, C, W>, query: &Query) -> f32 {
     tree.pmf(&query.point, query.words[0], query.words[1])
 }
 

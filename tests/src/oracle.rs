@@ -4,6 +4,7 @@ use glam::DVec3;
 use lightbvh::device::cone::Cone;
 use lightbvh::device::trail::leaf_parts;
 use lightbvh::node::kind;
+use lightbvh::tree::Model;
 use lightbvh::{
     BuildParams, Bvh, EmissiveTriangle, ImportanceModel, LightBounds, LightNode, LightTree, Lights,
     ShadingPoint,
@@ -75,7 +76,7 @@ pub fn built<N: LightNode<W>, const W: usize>(
     lights: &Lights,
     params: &BuildParams,
     two: bool,
-) -> Bvh<N, (), W> {
+) -> Bvh<(N, ()), W> {
     if two {
         Bvh::two_level(lights, params)
     } else {
@@ -85,7 +86,7 @@ pub fn built<N: LightNode<W>, const W: usize>(
 
 /// Probability of every light at `point`.
 pub fn all_pmfs<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &Bvh<N, impl Sized, W>,
+    bvh: &Bvh<impl Model<W, Node = N, Light = EmissiveTriangle>, W>,
     lights: &Lights,
     point: &ShadingPoint,
 ) -> Vec<f32> {

@@ -153,11 +153,11 @@ fn transform(random: &mut Random) -> Transform {
 ///
 /// # Panics
 /// If a light is out of the domain.
-pub fn scene<N: Node<W>, const W: usize>(random: &mut Random) -> (Bvh<N, (), W>, Vec<f32>)
+pub fn scene<N: Node<W>, const W: usize>(random: &mut Random) -> (Bvh<(N, ()), W>, Vec<f32>)
 where
     N::Light: Any,
 {
-    let mut bvh = Bvh::<N, (), W>::default();
+    let mut bvh = Bvh::<(N, ()), W>::default();
     let mut sizes = vec![1.0];
     for _ in 0..1 + random.below(4) {
         // Lights of one place, about each other, or farther apart than they are large.

@@ -56,7 +56,7 @@ fn deep_in_both(meshes: u32, triangles: u32) -> Lights {
 fn deepest(lights: &Lights) -> u32 {
     fn within<N: LightNode<W>, const W: usize>(lights: &Lights, params: &BuildParams, deepest: &mut u32) {
         for bvh in [
-            Bvh::<N, (), W>::two_level(lights, params),
+            Bvh::<(N, ()), W>::two_level(lights, params),
             Bvh::single_level(lights, params),
         ] {
             bvh.validate().unwrap_or_else(|v| panic!("{v}"));
@@ -92,7 +92,7 @@ fn trees_stay_within_the_levels_of_a_trail() {
         assert!((least..=64).contains(&found), "{found} levels");
     }
     let lights = deep_in_both(48, 48);
-    let bvh = Bvh::<CompactNode<2>, (), 2>::two_level(&lights, &split(Heuristic::Sah, 2));
+    let bvh = Bvh::<(CompactNode<2>, ()), 2>::two_level(&lights, &split(Heuristic::Sah, 2));
     bvh.validate().unwrap_or_else(|v| panic!("{v}"));
     assert!(bvh.depth() > 2 * 33, "only {} levels", bvh.depth());
     assert_eq!(bvh.tree().trail_words, 2);
@@ -103,7 +103,7 @@ fn grown<N: LightNode<W>, const W: usize>()
 where
     Eq4: ImportanceModel<N, W>,
 {
-    let mut scene = Bvh::<N, (), W>::new(split(Heuristic::Sah, 2));
+    let mut scene = Bvh::<(N, ()), W>::new(split(Heuristic::Sah, 2));
     let mut random = Random::new(1);
     let mut instances = Vec::new();
     for (count, words) in [(5, 1), (60, 2), (7, 2)] {

@@ -86,7 +86,7 @@ impl<'d, N: Node<W>, const W: usize> Held<'d, N, W> {
     /// Follows `bvh`, and compares everything; returns the samples.
     fn compare<I: ImportanceModel<N, W, P>, P: Ask>(
         &mut self,
-        bvh: &Bvh<N, (), W>,
+        bvh: &Bvh<(N, ()), W>,
         points: &[ShadingPoint],
         random: &mut Random,
     ) -> Vec<(P, SampledLight)> {
@@ -209,7 +209,7 @@ where
     N::Light: Any,
 {
     let random = &mut Random::new(77);
-    let mut bvh = Bvh::<N, (), W>::default();
+    let mut bvh = Bvh::<(N, ()), W>::default();
     let mesh = |random: &mut Random, count: usize| -> Vec<N::Light> {
         let light = |_| {
             let place = [0; 3].map(|_| random.between(-4.0, 4.0));
@@ -284,7 +284,8 @@ fn built<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(device: &Dev
         (shrinking(130, 26, false), split(Heuristic::Sah, 2)),
     ] {
         let later = moved(&lights, 31);
-        for build in [Bvh::<N, (), W>::single_level, Bvh::two_level] as [fn(&Lights, &BuildParams) -> _; 2] {
+        for build in [Bvh::<(N, ()), W>::single_level, Bvh::two_level] as [fn(&Lights, &BuildParams) -> _; 2]
+        {
             let mut bvh = build(&lights, &params);
             held.compare::<I, ShadingPoint>(&bvh, &points, random);
             bvh.follow(&later).expect("as many lights");

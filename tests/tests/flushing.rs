@@ -43,7 +43,7 @@ fn words<T: Pod>(values: &[T]) -> Vec<u32> {
 
 /// All nodes and roots, computed anew in the order of the passes, child by child.
 #[inline(never)]
-fn refitted<N: Node<W>, const W: usize, const ROWS: usize>(bvh: &Bvh<N, (), W>) -> (Vec<u32>, Vec<u32>) {
+fn refitted<N: Node<W>, const W: usize, const ROWS: usize>(bvh: &Bvh<(N, ()), W>) -> (Vec<u32>, Vec<u32>) {
     let (plan, triangles, instances) = (bvh.plan_of_everything(), bvh.lights(), bvh.tree().instances);
     let (mut nodes, mut roots) = ([bvh.nodes(), bvh.top_nodes()].concat(), bvh.roots().to_vec());
     let first = bvh.nodes().len() as u32;
@@ -74,7 +74,7 @@ fn refitted<N: Node<W>, const W: usize, const ROWS: usize>(bvh: &Bvh<N, (), W>) 
 /// What a query answers: the sample, the pmf of another light, the light itself, a point on it, what that sends.
 #[inline(never)]
 fn answers<N, I, P, const W: usize>(
-    bvh: &Bvh<N, (), W>,
+    bvh: &Bvh<(N, ()), W>,
     receiver: &P,
     at: &ShadingPoint,
     numbers: [u32; 4],
@@ -117,7 +117,7 @@ fn same(what: &str, [plain, flushed]: &[Vec<u32>; 2]) {
 }
 
 /// Refits and queries of [`SCENES`] scenes.
-fn check<N, const W: usize, const ROWS: usize>(queries: impl Fn(&Bvh<N, (), W>, &mut Random, &[f32]))
+fn check<N, const W: usize, const ROWS: usize>(queries: impl Fn(&Bvh<(N, ()), W>, &mut Random, &[f32]))
 where
     N: Node<W>,
     N::Light: scenes::Any,
@@ -139,7 +139,7 @@ where
 }
 
 /// One query of importance `I`.
-fn ask<N, I, P, const W: usize>(bvh: &Bvh<N, (), W>, receiver: &P, at: &ShadingPoint, random: &mut Random)
+fn ask<N, I, P, const W: usize>(bvh: &Bvh<(N, ()), W>, receiver: &P, at: &ShadingPoint, random: &mut Random)
 where
     N: Node<W>,
     I: ImportanceModel<N, W, P>,
@@ -156,7 +156,7 @@ where
 /// Queries of a list of importances that take points.
 macro_rules! points {
     ($node:ty, $width:literal, $($importance:ty),+) => {
-        |bvh: &Bvh<$node, (), $width>, random: &mut Random, sizes: &[f32]| {
+        |bvh: &Bvh<($node, ()), $width>, random: &mut Random, sizes: &[f32]| {
             $(
                 let point = scenes::point(random, sizes);
                 ask::<$node, $importance, ShadingPoint, $width>(bvh, &point, &point, random);

@@ -75,7 +75,7 @@ fn lights() {
 
 #[test]
 fn edits() {
-    let mut scene = Bvh::<CompactNode<4>, (), 4>::default();
+    let mut scene = Bvh::<(CompactNode<4>, ()), 4>::default();
     let mesh = scene.add_mesh(vec![LAMP; 3]).expect("a mesh");
     let add = |transform, radiance| Edit::AddInstance {
         mesh,
@@ -122,7 +122,7 @@ fn edits() {
     far.columns[0][0] = 1.0e12;
     refused(add(far, 1.0), &["as far as", "2^40 m", "scale the scene"]);
 
-    let mut scene = Bvh::<CompactNode<4>, (), 4>::default();
+    let mut scene = Bvh::<(CompactNode<4>, ()), 4>::default();
     for (edit, words) in [
         (Edit::RemoveMesh(mesh), "edit 0: mesh 0 is not there"),
         (Edit::RemoveInstance(instance), "edit 0: instance 0 is not there"),

@@ -63,9 +63,9 @@ impl Node<4> for Gated {
     }
 }
 
-type Tree = Bvh<Gated, (), 4>;
+type Tree = Bvh<(Gated, ()), 4>;
 
-fn rebuilder(swap: Swap) -> Rebuilder<Gated, 4> {
+fn rebuilder(swap: Swap) -> Rebuilder<(Gated, ()), 4> {
     Rebuilder::new(RebuilderParams {
         after: 1,
         swap,
@@ -119,7 +119,7 @@ fn rebuilt(scene: &Tree) -> Vec<u32> {
 }
 
 /// Runs frames without edits until nothing is left to build.
-fn converge(rebuilder: &mut Rebuilder<Gated, 4>, scene: &mut Tree) {
+fn converge(rebuilder: &mut Rebuilder<(Gated, ()), 4>, scene: &mut Tree) {
     loop {
         rebuilder.end_frame(scene);
         if !rebuilder.is_busy() {

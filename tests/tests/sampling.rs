@@ -77,7 +77,7 @@ fn a_defensive_mixture_keeps_the_uniform_share() {
 }
 
 /// Lights by their place in the order of the slots; the order of numbers is that of the lights.
-fn places<N: LightNode<W>, const W: usize>(bvh: &Bvh<N, (), W>, lights: &Lights) -> Vec<usize> {
+fn places<N: LightNode<W>, const W: usize>(bvh: &Bvh<(N, ()), W>, lights: &Lights) -> Vec<usize> {
     let mut places = vec![usize::MAX; lights.all().len()];
     for (place, (triangle, _)) in leaves(&bvh.tree()).into_iter().enumerate() {
         places[triangle as usize] = place;

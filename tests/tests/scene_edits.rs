@@ -6,7 +6,7 @@ use lightbvh::{Bvh, CompactNode, Edit, EmissiveTriangle, InstanceId, Transform};
 use lightbvh_tests::generate::{self, Random};
 use lightbvh_tests::placing::{self, Kind};
 
-type Tree = Bvh<CompactNode<4>, (), 4>;
+type Tree = Bvh<(CompactNode<4>, ()), 4>;
 
 fn lamps() -> Vec<EmissiveTriangle> {
     generate::small_triangles(7, 7, 2.0, 0.4, false, 5)

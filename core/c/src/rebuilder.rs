@@ -1,14 +1,14 @@
 //! Builds in the background.
 
+use lightbvh::Rebuilder;
 use lightbvh::bvh::{FrameStart, RebuilderParams, Swap};
-use lightbvh::{MomentNode, Rebuilder};
 
 use crate::error::{Fault, Status};
 use crate::held::{Handle, Held};
 use crate::raw;
 
 /// `lightbvh_rebuilder`.
-pub type CRebuilder = Held<Rebuilder<MomentNode<8>, 8>>;
+pub type CRebuilder = Held<Rebuilder>;
 
 /// What the start of a frame did: `lightbvh_frame_start`.
 #[repr(C)]

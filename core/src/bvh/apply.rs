@@ -8,7 +8,7 @@ use super::records::put;
 use super::{Bvh, InstanceState};
 use crate::build::{Topology, build_each};
 use crate::instance::Instance;
-use crate::node::Node;
+use crate::model::Model;
 use crate::transform::Transform;
 
 /// What a batch of edits made.
@@ -21,7 +21,7 @@ pub struct Added {
     pub instances: Vec<InstanceId>,
 }
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Applies a batch of edits in their order, all or none. The next [`refit`](Self::refit) restores the quality of sampling.
     /// Until then probabilities are exact and no removed light is returned, but a sample may be none if a light was removed,
     /// and added lights have the uniform share alone.
@@ -33,7 +33,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     ///
     /// # Errors
     /// [`EditError`] naming the first edit that cannot be done; the scene is as before then.
-    pub fn apply(&mut self, mut edits: Vec<Edit<N::Light>>) -> Result<Added, EditError> {
+    pub fn apply(&mut self, mut edits: Vec<Edit<M::Light>>) -> Result<Added, EditError> {
         for (mesh, reach) in self.check(&mut edits)? {
             self.meshes[mesh.index as usize].reach = reach;
         }
@@ -103,7 +103,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// Applies each edit of a batch that is sound, in order. Returns the ids that were added, and the errors of the others.
     /// [`apply`](Self::apply) is all or none, and builds several meshes at a time.
-    pub fn apply_each(&mut self, edits: Vec<Edit<N::Light>>) -> (Added, Vec<EditError>) {
+    pub fn apply_each(&mut self, edits: Vec<Edit<M::Light>>) -> (Added, Vec<EditError>) {
         let (mut added, mut refused) = (Added::default(), Vec::new());
         for (index, edit) in edits.into_iter().enumerate() {
             match self.apply(alloc::vec![edit]) {

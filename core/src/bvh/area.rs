@@ -2,7 +2,7 @@
 
 use super::Bvh;
 use crate::light::Light;
-use crate::node::Node;
+use crate::model::Model;
 
 /// Whether flux goes by area: that of surfaces does. If a mesh has other lights too, their weights are as far off as their flux is from
 /// it, and positive all the same.
@@ -10,7 +10,7 @@ pub(super) fn is_by_area<L: Light>(lights: &[L]) -> bool {
     lights.is_empty() || lights.iter().any(Light::is_surface)
 }
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Whether the flux of a mesh goes by area.
     pub(super) fn goes_by_area(&self, mesh: u32) -> bool {
         let own = &self.meshes[mesh as usize].lights;

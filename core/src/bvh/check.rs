@@ -8,7 +8,7 @@ use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACT
 use crate::exact;
 use crate::light::Light;
 use crate::lights::MAX_LIGHTS;
-use crate::node::Node;
+use crate::model::Model;
 use crate::trail::MAX_PLACES;
 use crate::transform::{Transform, reach_of};
 
@@ -34,11 +34,11 @@ struct Batch {
     lights: usize,
 }
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Brings all lights of the batch into the domain, or says which edit cannot be done. Returns how far meshes
     /// reach that are deformed.
-    pub(super) fn check(&self, edits: &mut [Edit<N::Light>]) -> Result<Reaches, EditError> {
-        let deforms = |edit: &Edit<N::Light>| {
+    pub(super) fn check(&self, edits: &mut [Edit<M::Light>]) -> Result<Reaches, EditError> {
+        let deforms = |edit: &Edit<M::Light>| {
             matches!(
                 edit,
                 Edit::SetLights { .. } | Edit::SetLightRange { .. } | Edit::SetLight { .. }
@@ -58,7 +58,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(batch.reaches)
     }
 
-    fn check_one(&self, batch: &mut Batch, edit: &mut Edit<N::Light>) -> Result<(), EditReason> {
+    fn check_one(&self, batch: &mut Batch, edit: &mut Edit<M::Light>) -> Result<(), EditReason> {
         if self.single && !matches!(edit, Edit::SetLights { .. } | Edit::SetLightRange { .. }) {
             return Err(EditReason::SingleLevel);
         }
@@ -193,7 +193,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         &self,
         batch: &mut Batch,
         mesh: MeshId,
-        lights: &mut [N::Light],
+        lights: &mut [M::Light],
     ) -> Result<(), EditReason> {
         checked(lights)?;
         let (known, mut reach) = (self.reach(batch, mesh), reach_of(lights));

@@ -6,13 +6,13 @@ use core::ops::Range;
 use super::Bvh;
 use crate::build::{BuildParams, build_each};
 use crate::lights::Lights;
-use crate::node::Node;
+use crate::model::Model;
 use crate::transform::Transform;
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// One tree over all lights: the paper's baseline. Light `k` is triangle `k`; the only edits are those of the lights.
     #[must_use]
-    pub fn single_level(lights: &Lights<N::Light>, params: &BuildParams) -> Self {
+    pub fn single_level(lights: &Lights<M::Light>, params: &BuildParams) -> Self {
         let all = Some(0..lights.all().len()).filter(|all| !all.is_empty());
         let mut bvh = Self::new(*params);
         bvh.single = true;
@@ -23,7 +23,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// A bottom level (BLAS) over the lights of each mesh light, and a top level (TLAS) over the mesh lights (paper
     /// section 3.2), each an instance that stays where it is. Light `k` is triangle `k`, instance `i` is mesh light `i`.
     #[must_use]
-    pub fn two_level(lights: &Lights<N::Light>, params: &BuildParams) -> Self {
+    pub fn two_level(lights: &Lights<M::Light>, params: &BuildParams) -> Self {
         let meshes = (0..lights.mesh_count()).map(|mesh| lights.mesh(mesh));
         let mut bvh = Self::new(*params);
         bvh.over(lights.all(), meshes);
@@ -31,7 +31,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     /// A mesh and an instance of it for each range of the lights.
-    fn over(&mut self, lights: &[N::Light], meshes: impl Iterator<Item = Range<usize>>) {
+    fn over(&mut self, lights: &[M::Light], meshes: impl Iterator<Item = Range<usize>>) {
         let meshes: Vec<_> = meshes.map(|range| &lights[range]).collect();
         let topologies = build_each(&meshes, &self.params);
         for (lights, topology) in meshes.into_iter().zip(topologies) {

@@ -6,17 +6,17 @@ use core::fmt;
 use super::Bvh;
 use super::edit::EditReason;
 use crate::lights::Lights;
-use crate::node::Node;
+use crate::model::Model;
 use crate::transform::reach_of;
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Moves or changes all lights of a BVH built over [`Lights`], and refits it: the lights of mesh `k` are those of
     /// mesh light `k`, or all of them in a single-level BVH.
     ///
     /// # Errors
     /// [`FollowError`] naming the mesh light whose number of lights is another (0 where there is no such), or that would be
     /// out of range where an instance has moved it meanwhile; the BVH is as before then.
-    pub fn follow(&mut self, lights: &Lights<N::Light>) -> Result<(), FollowError> {
+    pub fn follow(&mut self, lights: &Lights<M::Light>) -> Result<(), FollowError> {
         let given = match self.single {
             true => alloc::vec![0..lights.all().len()],
             false => (0..lights.mesh_count()).map(|mesh| lights.mesh(mesh)).collect(),

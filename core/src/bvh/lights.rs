@@ -7,12 +7,12 @@ use super::Bvh;
 use super::edit::{InstanceId, MeshId};
 use crate::light::Light;
 use crate::lights::MAX_LIGHTS;
-use crate::node::Node;
+use crate::model::Model;
 
 /// So many numbers of removed lights wait to be taken, and as many as there are lights.
 const LEAST_WAITING: usize = 1 << 16;
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// The lights of an instance: numbered without gaps, the same as long as the instance lives; that of triangle
     /// `k`, as the mesh was given, is `start + k`.
     #[must_use]
@@ -30,7 +30,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Light `light` of the instance of index `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them;
     /// `None` if there is none. A single-level BVH ignores `instance`.
     #[must_use]
-    pub fn light(&self, light: u32, instance: u32) -> Option<N::Light> {
+    pub fn light(&self, light: u32, instance: u32) -> Option<M::Light> {
         let index = if self.single { 0 } else { instance };
         let placed = self
             .placed
@@ -57,7 +57,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// The lights of a mesh, in its own space and in the order in which it was given; `None` where there is no such mesh.
     #[must_use]
-    pub fn mesh_lights(&self, mesh: MeshId) -> Option<&[N::Light]> {
+    pub fn mesh_lights(&self, mesh: MeshId) -> Option<&[M::Light]> {
         let own = self.mesh_id(mesh.index).filter(|&own| own == mesh)?;
         let range = &self.meshes[own.index as usize].lights;
         Some(&self.lights[range.start as usize..range.end as usize])
@@ -90,8 +90,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// All lights in the world by number, up to the greatest in use. Their `mesh` is the index of the instance; numbers not in
     /// use get lights without radiance of mesh `u32::MAX`.
     #[must_use]
-    pub fn world_lights(&self) -> Vec<N::Light> {
-        let dark = N::Light::DARK;
+    pub fn world_lights(&self) -> Vec<M::Light> {
+        let dark = M::Light::DARK;
         let mut out = alloc::vec![dark; self.numbers.used_end() as usize];
         for (index, placed) in self.placed.iter().enumerate().filter(|(_, placed)| placed.live) {
             let own = &self.instances[index];

@@ -1,5 +1,6 @@
 //! One log of changes, which each mirror reads from its own cursor on.
 
+use crate::model::Model;
 use alloc::collections::{BTreeSet, VecDeque};
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -120,7 +121,7 @@ impl RefitPlan {
     }
 }
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Logs the edits of the top level.
     pub(super) fn log_top(&mut self) {
         let written = core::mem::take(&mut self.top.written);

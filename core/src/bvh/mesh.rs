@@ -1,5 +1,6 @@
 //! Meshes: their lights, and trees over them, each in its own range of nodes.
 
+use crate::model::{Model, SummaryOf};
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -46,9 +47,9 @@ impl<N: Holds> MeshTree<N> {
     }
 }
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Adds a mesh with the tree of `topology`, whose primitives are numbered from 0.
-    pub(super) fn insert_mesh(&mut self, lights: &[N::Light], topology: &Topology<N>) -> MeshId {
+    pub(super) fn insert_mesh(&mut self, lights: &[M::Light], topology: &Topology<M::Node>) -> MeshId {
         let index = self.mesh_ranges.take(1).start;
         let range = self.light_ranges.take(lights.len() as u32);
         let generation = self
@@ -64,7 +65,11 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             ..Mesh::default()
         };
         put(&mut self.meshes, index, mesh);
-        put(&mut self.roots, index, BlasRoot::new(INVALID, &N::Summary::EMPTY));
+        put(
+            &mut self.roots,
+            index,
+            BlasRoot::new(INVALID, &<SummaryOf<M, W>>::EMPTY),
+        );
         self.put_triangles(index, 0, lights);
         if self.is_alone(lights.len()) {
             // An old trail may stay: none is followed.
@@ -90,7 +95,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     /// Writes lights of a mesh from its `first`-th on, and marks them for refit.
-    pub(super) fn write_triangles(&mut self, index: u32, first: u32, lights: &[N::Light]) {
+    pub(super) fn write_triangles(&mut self, index: u32, first: u32, lights: &[M::Light]) {
         if lights.is_empty() {
             return;
         }
@@ -116,11 +121,11 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
     }
 
-    fn put_triangles(&mut self, index: u32, first: u32, lights: &[N::Light]) -> Range<u32> {
+    fn put_triangles(&mut self, index: u32, first: u32, lights: &[M::Light]) -> Range<u32> {
         let start = self.meshes[index as usize].lights.start + first;
         let range = start..start + lights.len() as u32;
         if self.lights.len() < range.end as usize {
-            self.lights.resize(range.end as usize, N::Light::DARK);
+            self.lights.resize(range.end as usize, M::Light::DARK);
             self.trails
                 .resize(range.end as usize * self.trail_words as usize, 0);
         }
@@ -140,7 +145,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// Replaces the tree of a mesh; the nodes' summaries are copied as they are. If the nodes exceed the reserved capacity, they
     /// move, and all instances get the new root.
-    fn place_tree(&mut self, index: u32, topology: &Topology<N>) {
+    fn place_tree(&mut self, index: u32, topology: &Topology<M::Node>) {
         let count = topology.nodes.len() as u32;
         let mesh = &self.meshes[index as usize];
         let (mut start, first) = (mesh.nodes.start, mesh.lights.start);
@@ -151,7 +156,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             start = room.start;
             self.meshes[index as usize].room = room.end;
             if self.nodes.len() < room.end as usize {
-                self.nodes.resize(room.end as usize, N::EMPTY);
+                self.nodes.resize(room.end as usize, M::Node::EMPTY);
             }
             for user in self.meshes[index as usize].users.clone() {
                 self.instances[user as usize].root = start;
@@ -196,7 +201,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         match mesh.root() {
             INVALID => {
                 let light = &self.lights[mesh.lights.start as usize];
-                BlasRoot::new(INVALID, &N::Summary::of_light(light))
+                BlasRoot::new(INVALID, &<SummaryOf<M, W>>::of_light(light))
             }
             root => refit::root(&self.nodes, root),
         }
@@ -210,7 +215,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
     }
 
-    fn place_trails(&mut self, index: u32, topology: &Topology<N>) {
+    fn place_trails(&mut self, index: u32, topology: &Topology<M::Node>) {
         let mesh = self.meshes[index as usize].lights.clone();
         if self.trail_words == 1 && trail_words(W, topology.depth) == 2 {
             self.trail_words = 2;
@@ -250,7 +255,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         for index in core::mem::take(&mut self.reshaped) {
             let mesh = &self.meshes[index as usize].lights;
             let own = &self.lights[mesh.start as usize..mesh.end as usize];
-            let topology = build_over::<N, W>(own, &self.params);
+            let topology = build_over::<M::Node, W>(own, &self.params);
             self.place_tree(index, &topology);
             self.sweep_mesh(index);
         }
@@ -269,13 +274,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let all = after.chain(self.reshaped.range(..first));
         all.map(|&mesh| {
             let count = self.meshes[mesh as usize].lights.len();
-            (mesh, count * size_of::<N::Light>())
+            (mesh, count * size_of::<M::Light>())
         })
     }
 
     /// A copy of the lights of a mesh, to build its tree from.
     #[cfg(feature = "std")]
-    pub(crate) fn copy_mesh(&self, mesh: u32) -> MeshTree<N> {
+    pub(crate) fn copy_mesh(&self, mesh: u32) -> MeshTree<M::Node> {
         let own = &self.meshes[mesh as usize];
         let range = own.lights.start as usize..own.lights.end as usize;
         MeshTree {
@@ -289,7 +294,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// Replaces the tree of its mesh; false if the mesh was removed.
     #[cfg(feature = "std")]
-    pub(crate) fn install_mesh(&mut self, tree: &MeshTree<N>) -> bool {
+    pub(crate) fn install_mesh(&mut self, tree: &MeshTree<M::Node>) -> bool {
         let index = tree.mesh;
         let own = self
             .meshes

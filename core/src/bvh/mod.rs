@@ -40,6 +40,7 @@ mod serial;
 mod top;
 mod validate;
 
+use crate::node::Node;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -67,28 +68,26 @@ use self::ranges::Ranges;
 use self::records::{InstanceState, Mesh, TreeId};
 use self::top::{Batch, Top};
 use crate::build::BuildParams;
-use crate::importance::{DefaultImportance, Leveled, Linked, Moments};
 use crate::instance::Instance;
-use crate::light::AnyLight;
-use crate::node::{DefaultNode, Holds, LinkedSpotMomentNode, Node, SpotMomentNode};
+use crate::model::{AnyKind, Masked, Model, SummaryOf, Triangles};
 use crate::refit::BlasRoot;
 use crate::tree::LightTree;
 
-/// A light BVH that owns its arrays: two levels over instances of emissive meshes, with nodes of layout `N` and width `W`, whose
-/// children are chosen by `I`. `W` is 2 to 16 for layouts of bounds, 4 to 16 for packed moments; another does not compile.
+/// A light BVH that owns its arrays: two levels over instances of emissive meshes, made as the model `M` says. `W` is 2 to 16 for layouts of
+/// bounds, 4 to 16 for packed moments; another does not compile.
 ///
 /// A clone is another light BVH: each refuses the other's ids. Get the clone's by index
 /// ([`mesh_id`](Self::mesh_id), [`instance_id`](Self::instance_id)).
 #[derive(Clone, Debug)]
-pub struct Bvh<N: Holds, I, const W: usize> {
+pub struct Bvh<M: Model<W> = Triangles, const W: usize = 8> {
     /// What its ids belong to.
     id: TreeId,
     params: BuildParams,
     /// Nodes of the bottom levels.
-    nodes: Vec<N>,
+    nodes: Vec<M::Node>,
     node_ranges: Ranges,
     /// In the space of their meshes, grouped by mesh.
-    lights: Vec<N::Light>,
+    lights: Vec<M::Light>,
     light_ranges: Ranges,
     trails: Vec<u32>,
     trail_words: u32,
@@ -102,7 +101,7 @@ pub struct Bvh<N: Holds, I, const W: usize> {
     /// Indices of the instances in use.
     live: Vec<u32>,
     numbers: Ranges,
-    top: Top<N>,
+    top: Top<M::Node>,
     /// Instances whose leaves are to be computed, each once.
     stale: Vec<u32>,
     /// Meshes whose lights changed since the last refit, and which; none for all.
@@ -126,7 +125,7 @@ pub struct Bvh<N: Holds, I, const W: usize> {
     bottom_depth: u32,
     /// Whether it is one mesh alone, walked from the root of its bottom level.
     single: bool,
-    importance: PhantomData<I>,
+    model: PhantomData<M>,
 }
 
 /// Batches that a rebuilder has not taken yet.
@@ -154,22 +153,22 @@ pub struct Parts<'a, N> {
 }
 
 /// The light BVH with what measured best for its time: moments on packed nodes of 8 children, 1/64 of uniform choice.
-pub type LightBvh = Bvh<DefaultNode, DefaultImportance, 8>;
+pub type LightBvh = Bvh<Triangles>;
 
 /// [`LightBvh`] over lights of every kind, whose nodes know cones and ranges.
-pub type AnyLights = Bvh<SpotMomentNode<8, AnyLight>, DefaultImportance, 8>;
+pub type AnyLights = Bvh<AnyKind>;
 
 /// [`AnyLights`] with masks: an instance lights the receivers, [`LinkedPoint`](crate::importance::LinkedPoint)s, of which its mask has a bit, and no
 /// others. In place of a share of uniform choice each child with such a light keeps about 1/2048 of its node.
-pub type MaskedLights = Bvh<LinkedSpotMomentNode<8, AnyLight>, Linked<Leveled<Moments, 11>>, 8>;
+pub type MaskedLights = Bvh<Masked>;
 
-impl<N: Node<W>, I, const W: usize> Default for Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Default for Bvh<M, W> {
     fn default() -> Self {
         Self::new(BuildParams::default())
     }
 }
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// A BVH without lights, whose trees will be built by `params`.
     #[must_use]
     pub fn new(params: BuildParams) -> Self {
@@ -203,7 +202,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             light_count: 0,
             bottom_depth: 0,
             single: false,
-            importance: PhantomData,
+            model: PhantomData,
         };
         scene.top.build(&scene.params);
         scene
@@ -211,13 +210,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// The same tree, walked by another importance.
     #[must_use]
-    pub fn by<J>(&self) -> LightTree<'_, N, J, W> {
+    pub fn by<J>(&self) -> LightTree<'_, M::Node, J, W> {
         self.tree().by()
     }
 
     /// The arrays that [`validate`](Self::validate) checks, for tests that put wrong words into them.
     #[doc(hidden)]
-    pub fn parts_mut(&mut self) -> Parts<'_, N> {
+    pub fn parts_mut(&mut self) -> Parts<'_, M::Node> {
         Parts {
             nodes: &mut self.nodes,
             top: &mut self.top.nodes,
@@ -230,7 +229,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// The arrays as traversal takes them.
     #[must_use]
-    pub fn tree(&self) -> LightTree<'_, N, I, W> {
+    pub fn tree(&self) -> LightTree<'_, M::Node, M::Importance, W> {
         let mut tree = LightTree {
             nodes: &self.nodes,
             top: &self.top.nodes,
@@ -256,13 +255,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// The nodes of the bottom levels, those not in use included.
     #[must_use]
-    pub fn nodes(&self) -> &[N] {
+    pub fn nodes(&self) -> &[M::Node] {
         &self.nodes
     }
 
     /// The nodes of the top level, those not in use included.
     #[must_use]
-    pub fn top_nodes(&self) -> &[N] {
+    pub fn top_nodes(&self) -> &[M::Node] {
         &self.top.nodes
     }
 
@@ -280,7 +279,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// The lights of all meshes, in their own spaces; the instances of a mesh say where its own begin.
     #[must_use]
-    pub fn lights(&self) -> &[N::Light] {
+    pub fn lights(&self) -> &[M::Light] {
         &self.lights
     }
 
@@ -339,8 +338,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// What is known of all lights together, as of the last refit.
     #[must_use]
-    pub fn summary(&self) -> N::Summary {
+    pub fn summary(&self) -> SummaryOf<M, W> {
         let tree = self.tree();
-        tree.top[tree.root as usize].merged()
+        Node::<W>::merged(&tree.top[tree.root as usize])
     }
 }

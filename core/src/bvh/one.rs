@@ -4,15 +4,15 @@ use alloc::vec::Vec;
 
 use super::edit::{Edit, EditReason, InstanceId, MeshId};
 use super::{Added, Bvh};
-use crate::node::Node;
+use crate::model::Model;
 use crate::transform::Transform;
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Adds a mesh of at least one triangle, in its own space; it lights nothing before an instance puts it into the world.
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.
-    pub fn add_mesh(&mut self, lights: Vec<N::Light>) -> Result<MeshId, EditReason> {
+    pub fn add_mesh(&mut self, lights: Vec<M::Light>) -> Result<MeshId, EditReason> {
         Ok(self.one(Edit::AddMesh { lights })?.meshes[0])
     }
 
@@ -35,7 +35,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.
-    pub fn add_light(&mut self, light: impl Into<N::Light>) -> Result<InstanceId, EditReason> {
+    pub fn add_light(&mut self, light: impl Into<M::Light>) -> Result<InstanceId, EditReason> {
         let light = light.into();
         let mask = u32::MAX;
         Ok(self.one(Edit::AddLight { light, mask })?.instances[0])
@@ -45,7 +45,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     ///
     /// # Errors
     /// [`EditReason`], [`EditReason::NoLight`] for an instance of a mesh; nothing is changed then.
-    pub fn set_light(&mut self, instance: InstanceId, light: impl Into<N::Light>) -> Result<(), EditReason> {
+    pub fn set_light(&mut self, instance: InstanceId, light: impl Into<M::Light>) -> Result<(), EditReason> {
         let light = light.into();
         self.one(Edit::SetLight { instance, light }).map(|_| ())
     }
@@ -82,7 +82,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.
-    pub fn set_lights(&mut self, mesh: MeshId, lights: Vec<N::Light>) -> Result<(), EditReason> {
+    pub fn set_lights(&mut self, mesh: MeshId, lights: Vec<M::Light>) -> Result<(), EditReason> {
         self.one(Edit::SetLights { mesh, lights }).map(|_| ())
     }
 
@@ -98,7 +98,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         &mut self,
         mesh: MeshId,
         first: u32,
-        lights: Vec<N::Light>,
+        lights: Vec<M::Light>,
     ) -> Result<(), EditReason> {
         let edit = Edit::SetLightRange { mesh, first, lights };
         self.one(edit).map(|_| ())
@@ -120,7 +120,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         self.one(Edit::RemoveMesh(mesh)).map(|_| ())
     }
 
-    fn one(&mut self, edit: Edit<N::Light>) -> Result<Added, EditReason> {
+    fn one(&mut self, edit: Edit<M::Light>) -> Result<Added, EditReason> {
         self.apply(alloc::vec![edit]).map_err(|error| error.reason)
     }
 }

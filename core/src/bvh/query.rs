@@ -3,19 +3,19 @@
 use super::Bvh;
 use super::edit::InstanceId;
 use crate::importance::ImportanceModel;
-use crate::node::Node;
+use crate::model::Model;
 use crate::point::Receiver;
 use crate::random::Random64;
 use crate::traverse::SampledLight;
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Chooses a light for a receiver, a [`ShadingPoint`](crate::ShadingPoint) within the domain of
     /// [`checked`](crate::ShadingPoint::checked) or one of which the importance knows more; see [`LightTree::sample`](crate::LightTree::sample). Without
     /// lights none is chosen.
     #[must_use]
     pub fn sample<P: Receiver>(&self, point: &P, random: impl Into<Random64>) -> SampledLight
     where
-        I: ImportanceModel<N, W, P>,
+        M::Importance: ImportanceModel<M::Node, W, P>,
     {
         point.assert_within_reach();
         self.tree().sample(point, random)
@@ -24,7 +24,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// Chooses a light for each of `points`, points as for [`sample`](Self::sample); see [`LightTree::sample_batch`](crate::LightTree::sample_batch).
     pub fn sample_batch<P: Receiver>(&self, points: &[P], randoms: &[Random64], sampled: &mut [SampledLight])
     where
-        I: ImportanceModel<N, W, P>,
+        M::Importance: ImportanceModel<M::Node, W, P>,
     {
         self.tree().sample_batch(points, randoms, sampled);
     }
@@ -37,7 +37,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         random: impl Into<Random64>,
     ) -> [SampledLight; COUNT]
     where
-        I: ImportanceModel<N, W, P>,
+        M::Importance: ImportanceModel<M::Node, W, P>,
     {
         self.tree().sample_many(point, random)
     }
@@ -48,7 +48,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     #[must_use]
     pub fn pmf<P: Receiver>(&self, point: &P, light: u32, instance: u32) -> f32
     where
-        I: ImportanceModel<N, W, P>,
+        M::Importance: ImportanceModel<M::Node, W, P>,
     {
         point.assert_within_reach();
         self.tree().pmf(point, light, instance)
@@ -59,7 +59,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     #[must_use]
     pub fn pmf_of<P: Receiver>(&self, point: &P, instance: InstanceId, triangle: u32) -> Option<f32>
     where
-        I: ImportanceModel<N, W, P>,
+        M::Importance: ImportanceModel<M::Node, W, P>,
     {
         let lights = self.lights_of(instance)?;
         let light = lights.start.checked_add(triangle)?;

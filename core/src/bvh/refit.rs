@@ -1,5 +1,6 @@
 //! Refit of what changed, on the CPU.
 
+use crate::model::{Model, SummaryOf};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -20,7 +21,7 @@ pub(super) const SWEPT: usize = 16;
 /// frames' edits.
 const BEHIND: usize = 16;
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Brings the trees in line with the edits since the last call, and touches no other node. Computes the nodes of meshes that
     /// changed. In the top level, removes and inserts leaves, inserts again those that moved far from their siblings, and computes
     /// all nodes above: in time in proportion to the changed instances times the depth, at most that of a whole build.
@@ -98,7 +99,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             let child = self.leaf_of(leaf(index, 0));
             whole = whole.and(&child.summary);
             batch.leaves.push(is_live.then(|| child.summary.to_words()));
-            if has_limits::<N, W>() {
+            if has_limits::<M::Node, W>() {
                 batch.limits.push(child.limits);
             }
         }
@@ -109,7 +110,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 if let Some(words) = words {
                     let known = self.top.opened.get(&index);
                     let is_open = known.is_some_and(|own| own.first != INVALID);
-                    if is_open || may_open(&N::Summary::from_words(words), cost) {
+                    if is_open || may_open(&<SummaryOf<M, W>>::from_words(words), cost) {
                         let parts = self.parts_of(index);
                         batch.parts.extend((parts.len() > 1).then_some((index, parts)));
                     }
@@ -155,7 +156,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     /// Summary and limits of a leaf of the top level.
-    pub(super) fn leaf_of(&self, link: u32) -> Child<N::Summary> {
+    pub(super) fn leaf_of(&self, link: u32) -> Child<SummaryOf<M, W>> {
         leaf_child(&self.nodes, &self.lights, &self.instances, &self.roots, link)
     }
 }

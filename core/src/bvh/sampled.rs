@@ -5,7 +5,7 @@ use super::edit::InstanceId;
 use crate::exact::{self, pow2};
 use crate::importance::ImportanceModel;
 use crate::light::{Light, LightPoint};
-use crate::node::Node;
+use crate::model::Model;
 use crate::point::{Receiver, ShadingPoint};
 use crate::random::Random64;
 use crate::vector::vector;
@@ -57,7 +57,7 @@ pub fn mis_weight(light: f32, scattering: f32) -> f32 {
     }
 }
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Chooses a light for a receiver by `number`, and a point on it by `uv`, two numbers in [0, 1). `None` where no light that it may take has
     /// flux as of the last [`refit`](Self::refit), and for a receiver that is none: NaN, beyond 2^60 m, or with a normal that is not of
     /// length 1.
@@ -75,9 +75,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         point: &P,
         number: impl Into<Random64>,
         uv: [f32; 2],
-    ) -> Option<Sampled<N::Light>>
+    ) -> Option<Sampled<M::Light>>
     where
-        I: ImportanceModel<N, W, P>,
+        M::Importance: ImportanceModel<M::Node, W, P>,
     {
         let at = point.as_ref();
         if !at.is_within_reach() {
@@ -116,7 +116,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         position: [f32; 3],
     ) -> Option<f32>
     where
-        I: ImportanceModel<N, W, P>,
+        M::Importance: ImportanceModel<M::Node, W, P>,
     {
         let at = point.as_ref();
         if !at.is_within_reach() {

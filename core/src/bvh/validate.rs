@@ -3,6 +3,7 @@
 mod violation;
 mod walk;
 
+use crate::model::Model;
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -19,7 +20,7 @@ use crate::summary::Summary;
 use crate::trail::{leaf_parts, place};
 use crate::tree::{INVALID, OPENED};
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Checks every invariant, after a [`refit`](Self::refit):
     /// - each node in use is reached once, through links that are in range, and knows its place above;
     /// - each live instance, or each of its parts, is a leaf of the top level exactly once, each triangle of a mesh a leaf of its
@@ -39,7 +40,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     pub fn validate(&self) -> Result<(), Violation> {
         let mut seen = alloc::vec![false; self.nodes.len()];
         let (mut used_nodes, mut used_lights, mut lights, mut depth) = (Vec::new(), Vec::new(), 0, 0);
-        let mut again = alloc::vec![N::EMPTY; self.nodes.len()];
+        let mut again = alloc::vec![M::Node::EMPTY; self.nodes.len()];
         for (index, mesh) in (0u32..).zip(&self.meshes).filter(|(_, mesh)| mesh.live) {
             let found = self.check_mesh(index, &mut seen, &mut again)?;
             depth = depth.max(found.depth);
@@ -74,7 +75,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// The tree of a mesh, its trails, and every word of its nodes. Each of its lights is in one leaf, and of this mesh: no two meshes
     /// have one.
-    fn check_mesh(&self, index: u32, seen: &mut [bool], again: &mut [N]) -> Result<Found, Violation> {
+    fn check_mesh(&self, index: u32, seen: &mut [bool], again: &mut [M::Node]) -> Result<Found, Violation> {
         let mesh = &self.meshes[index as usize];
         let root = self.roots[index as usize].node;
         equal(root, INVALID, "root", mesh.root(), root)?;
@@ -192,7 +193,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         // Those of meshes come first.
         let first = self.nodes.len();
         let mut again = self.nodes.clone();
-        again.resize(first + top.nodes.len(), N::EMPTY);
+        again.resize(first + top.nodes.len(), M::Node::EMPTY);
         bare(&mut again[first..], &top.nodes, &found);
         for node in found.upward() {
             let (first, at) = (first as u32, first + node as usize);

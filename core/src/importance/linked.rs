@@ -27,7 +27,7 @@ use crate::point::LinkedPoint;
 /// # use lightbvh::{Bvh, Moments, ShadingPoint};
 /// # let leaf = TransmissivePoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, front: 0.5, back: 0.5 };
 /// let receiver = LinkedPoint { point: leaf, mask: 1 };
-/// let lights = Bvh::<LinkedSpotMomentNode<8>, Linked<Leveled<Transmissive<Moments>, 9>>, 8>::default();
+/// let lights = Bvh::<(LinkedSpotMomentNode<8>, Linked<Leveled<Transmissive<Moments>, 9>>)>::default();
 /// let sampled = lights.sample(&receiver, 1_u32);
 /// ```
 /// ```compile_fail
@@ -35,14 +35,14 @@ use crate::point::LinkedPoint;
 /// # use lightbvh::node::LinkedSpotMomentNode;
 /// # use lightbvh::{Bvh, Moments, ShadingPoint};
 /// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
-/// let sampled = Bvh::<LinkedSpotMomentNode<8>, Linked<Defensive<Moments, 6>>, 8>::default().sample(&receiver, 1_u32);
+/// let sampled = Bvh::<(LinkedSpotMomentNode<8>, Linked<Defensive<Moments, 6>>)>::default().sample(&receiver, 1_u32);
 /// ```
 /// ```compile_fail
 /// # use lightbvh::importance::{Defensive, Linked, LinkedPoint};
 /// # use lightbvh::node::LinkedSpotMomentNode;
 /// # use lightbvh::{Bvh, Moments, ShadingPoint};
 /// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
-/// let sampled = Bvh::<LinkedSpotMomentNode<8>, Defensive<Linked<Moments>, 6>, 8>::default().sample(&receiver, 1_u32);
+/// let sampled = Bvh::<(LinkedSpotMomentNode<8>, Defensive<Linked<Moments>, 6>)>::default().sample(&receiver, 1_u32);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Linked<I>(PhantomData<I>);

@@ -1,5 +1,6 @@
 //! Random scenes, and checks of their samples.
 
+use crate::model::Model;
 use alloc::vec::Vec;
 
 use super::{Random, narrow, normalize, wide};
@@ -78,11 +79,11 @@ pub fn moved<L>(instance: InstanceId, at: [f32; 3]) -> Edit<L> {
 }
 
 /// `count` instances of a mesh, refitted.
-pub fn scattered<N: Node<W>, I, const W: usize>(
-    mesh: Vec<N::Light>,
+pub fn scattered<M: Model<W>, const W: usize>(
+    mesh: Vec<M::Light>,
     count: u32,
     mut place: impl FnMut(u32) -> [f32; 3],
-) -> (Bvh<N, I, W>, Vec<InstanceId>) {
+) -> (Bvh<M, W>, Vec<InstanceId>) {
     let mut bvh = Bvh::default();
     let mesh = bvh.add_mesh(mesh).expect("lights");
     let add = |k| Edit::AddInstance {
@@ -97,13 +98,13 @@ pub fn scattered<N: Node<W>, I, const W: usize>(
 }
 
 /// The ids of all instances.
-pub fn instances<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> Vec<InstanceId> {
+pub fn instances<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> Vec<InstanceId> {
     let all = 0..bvh.instances().len() as u32;
     all.filter_map(|k| bvh.instance_id(k)).collect()
 }
 
 /// All lights, each with its instance.
-pub fn lights<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> Vec<(u32, u32)> {
+pub fn lights<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> Vec<(u32, u32)> {
     let all = instances(bvh).into_iter();
     all.flat_map(|id| {
         bvh.lights_of(id)
@@ -114,14 +115,14 @@ pub fn lights<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> Vec<(u32, u3
 }
 
 /// Edits of every kind, of meshes of at most `most` lights. Now and then one of them is refused. Equal scenes get equal ones.
-pub fn edits<N: Node<W>, I, const W: usize>(
+pub fn edits<M: Model<W>, const W: usize>(
     random: &mut Random,
-    bvh: &Bvh<N, I, W>,
+    bvh: &Bvh<M, W>,
     count: u32,
     most: u32,
-) -> Vec<Edit<N::Light>>
+) -> Vec<Edit<M::Light>>
 where
-    N::Light: Lamp,
+    M::Light: Lamp,
 {
     let meshes = 0..bvh.roots().len() as u32;
     let mut meshes: Vec<_> = meshes.filter_map(|k| bvh.mesh_id(k)).collect();
@@ -147,12 +148,12 @@ where
                 radiance: [[0.0; 3], [1.0; 3], [100.0, 0.0, 2.0]][random.below(3) as usize],
             },
             (13, ..) => Edit::AddLight {
-                light: N::Light::any(random),
+                light: M::Light::any(random),
                 mask: 1 << random.below(20),
             },
             (12, _, Some(instance)) if bvh.is_light(instance) => Edit::SetLight {
                 instance,
-                light: N::Light::any(random),
+                light: M::Light::any(random),
             },
             (11, _, Some(instance)) => Edit::SetMask {
                 instance,
@@ -212,9 +213,10 @@ pub fn number(k: u32) -> u32 {
 }
 
 /// Checks that samples name existing lights, with the bits of their pmfs. Returns them.
-pub fn sound_samples<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &Bvh<N, I, W>,
-) -> Vec<SampledLight> {
+pub fn sound_samples<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> Vec<SampledLight>
+where
+    M::Importance: ImportanceModel<M::Node, W>,
+{
     let mut all = Vec::new();
     for (k, point) in (0..).zip(points(16)) {
         let sampled = bvh.sample(&point, number(k));
@@ -232,7 +234,10 @@ pub fn sound_samples<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(
 }
 
 /// Checks a refitted BVH: it is valid, samples are sound, and probabilities sum to one if a light has flux.
-pub fn sound<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(bvh: &Bvh<N, I, W>) {
+pub fn sound<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>)
+where
+    M::Importance: ImportanceModel<M::Node, W>,
+{
     bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
     sound_samples(bvh);
     if crate::Summary::phi(&bvh.summary()) == 0.0 {

@@ -11,6 +11,8 @@ mod moment;
 pub use compact::CompactNode;
 pub use moment::{LinkedSpotMomentNode, MomentNode, PackedMomentNode, SpotMomentNode, TwoSidedMomentNode};
 
+use core::fmt::Debug;
+
 use bytemuck::Pod;
 use glam::Vec3;
 
@@ -43,7 +45,7 @@ pub mod kind {
 }
 
 /// What the lights of a tree with such nodes are.
-pub trait Holds: Pod + Send + Sync {
+pub trait Holds: Pod + Debug + Send + Sync {
     /// The lights that leaves are: emissive triangles, unless the node's type names others.
     type Light: Light;
 }

@@ -41,7 +41,7 @@ const WORD_RANGE: f32 = EXTENT_RANGE * pow2(31);
 
 /// The default node, of 24 bytes per child, over lights `L`.
 ///
-/// `Bvh<MomentNode<8, PointLight>, Defensive<Moments, 6>, 8>` is `LightBvh` over points. [`crate::light`] says what instances
+/// `Bvh<(MomentNode<8, PointLight>, Defensive<Moments, 6>)>` is `LightBvh` over points. [`crate::light`] says what instances
 /// that scale make of flux, and what does not know other lights yet.
 pub type MomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, ORIENTED, L>;
 
@@ -57,7 +57,7 @@ pub type TwoSidedMomentNode<const W: usize, L = EmissiveTriangle> = PackedMoment
 /// whose cone it lies in for as much more as its light is gathered. Of lights without a range that are no spots, nor sets of spots that point about
 /// the same way, nothing is stored, and weights are those of [`MomentNode`], to the bit.
 ///
-/// `Bvh<SpotMomentNode<8, SpotLight>, DefaultImportance, 8>` is a tree over [`SpotLight`](crate::light::SpotLight)s.
+/// `Bvh<(SpotMomentNode<8, SpotLight>, DefaultImportance)>` is a tree over [`SpotLight`](crate::light::SpotLight)s.
 ///
 /// They count in instances whose maps are similarities alone, for others change angles.
 pub type SpotMomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, SPOT, L>;

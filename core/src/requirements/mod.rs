@@ -10,15 +10,16 @@
 //! Facts are counted in the words of the current lights; the caller [declares](Declared) the changes of later frames. An engine
 //! asks during development, or when a level is baked, and names the returned type; other models are then not compiled.
 
-mod model;
+mod choice;
 #[cfg(test)]
 mod tests;
 
 use crate::bvh::Bvh;
 use crate::instance::Instance;
-use crate::node::LightNode;
+use crate::light::EmissiveTriangle;
+use crate::model::Model;
 
-pub use model::{Layout, Model};
+pub use choice::{Choice, Layout};
 
 /// What the caller says of the frames to come, edit by edit. Nothing of it can be seen in a scene as it stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -61,7 +62,10 @@ pub struct Requirements {
 impl Requirements {
     /// Counts the lights of a light BVH's scene. Takes time in proportion to its triangles.
     #[must_use]
-    pub fn of<N: LightNode<W>, I, const W: usize>(bvh: &Bvh<N, I, W>, declared: Declared) -> Self {
+    pub fn of<M: Model<W, Light = EmissiveTriangle>, const W: usize>(
+        bvh: &Bvh<M, W>,
+        declared: Declared,
+    ) -> Self {
         let meshes = (0..bvh.roots().len() as u32).filter_map(|mesh| bvh.mesh_id(mesh));
         let meshes = meshes.filter_map(|mesh| bvh.mesh_lights(mesh));
         let one_sided = meshes.clone().flatten().filter(|own| !own.is_two_sided());

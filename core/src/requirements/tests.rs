@@ -5,7 +5,7 @@ extern crate std;
 use std::string::ToString;
 use std::vec::Vec;
 
-use super::{Declared, Layout, Model, Requirements};
+use super::{Choice, Declared, Layout, Requirements};
 use crate::bvh::LightBvh;
 use crate::kit::Random;
 use crate::kit::scenes::lamps;
@@ -45,21 +45,21 @@ fn counts_are_those_of_the_scene() {
 
 #[test]
 fn models_are_no_larger_than_scenes_need() {
-    let still = Model {
+    let still = Choice {
         layout: Layout::TwoSidedMoments,
         single_level: true,
-        ..Model::DEFAULT
+        ..Choice::DEFAULT
     };
     let of = |instances, change: fn(&mut Declared)| {
         let mut declared = Declared::default();
         change(&mut declared);
         Requirements::of(&scene(EmissiveTriangle::TWO_SIDED, instances), declared).model()
     };
-    let two_levels = Model {
+    let two_levels = Choice {
         single_level: false,
         ..still
     };
-    let growing = Model {
+    let growing = Choice {
         layout: Layout::Moments,
         ..two_levels
     };
@@ -77,7 +77,7 @@ fn models_are_no_larger_than_scenes_need() {
     let one_sided = Requirements::of(&scene(0, 2), Declared::default()).model();
     assert_eq!(one_sided.layout, Layout::Moments);
     assert_eq!(
-        Model::DEFAULT.to_string(),
-        "Bvh<MomentNode<8>, Defensive<Moments, 6>, 8>, two levels"
+        Choice::DEFAULT.to_string(),
+        "Bvh<(MomentNode<8>, Defensive<Moments, 6>)>, two levels"
     );
 }

@@ -6,7 +6,7 @@ use lightbvh::exact::hash;
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::{Bvh, Defensive, MomentNode, Moments, Random64, Rebuilder, ShadingPoint, Transform};
 
-type Tree = Bvh<MomentNode<8, AnyLight>, Defensive<Moments, 6>, 8>;
+type Tree = Bvh<(MomentNode<8, AnyLight>, Defensive<Moments, 6>)>;
 
 const PER_MESH: usize = 24;
 

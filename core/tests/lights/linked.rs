@@ -14,7 +14,7 @@ use lightbvh::{
     MomentNode, Moments, Random64, Rebuilder, Receiver, SampledLight, ShadingPoint, Transform,
 };
 
-type Tree = Bvh<LinkedSpotMomentNode<8, AnyLight>, Linked<Moments>, 8>;
+type Tree = Bvh<(LinkedSpotMomentNode<8, AnyLight>, Linked<Moments>)>;
 
 impl Random {
     /// Of few bits, so that some receivers have few lights; none for one in eight, all for one in eight.
@@ -267,7 +267,7 @@ fn two_levels_go_on_by_edits() {
         let read = Tree::from_words(&words).expect("the words just written");
         assert!(read.to_words() == words);
         check_all(&read, 4, random, &mut seen);
-        assert!(Bvh::<MomentNode<8, AnyLight>, Moments, 8>::from_words(&words).is_err());
+        assert!(Bvh::<(MomentNode<8, AnyLight>, Moments)>::from_words(&words).is_err());
     }
     assert!(
         seen.without > 30 && seen.partial > 100 && opened > 0,
@@ -281,8 +281,8 @@ fn masks_that_allow_all_change_nothing() {
     let random = &mut Random(9);
     let own: Vec<_> = (0..700).map(|_| random.triangle()).collect();
     let lights = Lights::new(own).expect("in the domain");
-    let plain: Bvh<SpotMomentNode<8>, Moments, 8> = Bvh::single_level(&lights, &BuildParams::default());
-    let masked: Bvh<LinkedSpotMomentNode<8>, Linked<Moments>, 8> =
+    let plain: Bvh<(SpotMomentNode<8>, Moments)> = Bvh::single_level(&lights, &BuildParams::default());
+    let masked: Bvh<(LinkedSpotMomentNode<8>, Linked<Moments>)> =
         Bvh::single_level(&lights, &BuildParams::default());
     // The words of a node but for the last row are those without masks.
     let row = size_of::<[u32; 8]>();

@@ -8,7 +8,7 @@ use lightbvh::{
     BuildParams, Bvh, Defensive, Edit, InstanceId, LightBvh, Lights, Moments, ShadingPoint, Transform,
 };
 
-type Tree = Bvh<SpotMomentNode<8, AnyLight>, Defensive<Moments, 6>, 8>;
+type Tree = Bvh<(SpotMomentNode<8, AnyLight>, Defensive<Moments, 6>)>;
 
 /// Four meshes of lights of every kind, each twice under maps that keep angles.
 fn scene(random: &mut Random) -> Tree {

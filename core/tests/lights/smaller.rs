@@ -10,7 +10,7 @@ use crate::kit::{Random, room};
 fn two_sided_moments_lose_no_light() {
     let random = &mut Random(3);
     let lights = room(random);
-    let bvh = Bvh::<TwoSidedMomentNode<8>, Moments, 8>::two_level(&lights, &BuildParams::default());
+    let bvh = Bvh::<(TwoSidedMomentNode<8>, Moments)>::two_level(&lights, &BuildParams::default());
     bvh.validate().expect("nodes are what refit makes");
     for _ in 0..100 {
         let point = random.point(8.0);

@@ -11,9 +11,9 @@ use lightbvh::node::{MomentNode, Node, SpotMomentNode, kind};
 use lightbvh::refit::world_light;
 use lightbvh::{BuildParams, Bvh, ImportanceModel, Instance, Lights, Moments, ShadingPoint, Transform};
 
-type Tree = Bvh<SpotMomentNode<8, AnyLight>, Moments, 8>;
+type Tree = Bvh<(SpotMomentNode<8, AnyLight>, Moments)>;
 
-type Plain = Bvh<MomentNode<8, AnyLight>, Moments, 8>;
+type Plain = Bvh<(MomentNode<8, AnyLight>, Moments)>;
 
 /// Spots of a quarter of a degree to nearly 90° within `reach`. In one of two sets all are of about the same direction: they
 /// keep to a beam at all levels. In one of two all have a range of that order.

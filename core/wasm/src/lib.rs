@@ -35,11 +35,14 @@ impl Random {
     }
 }
 
-fn run<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(frames: u32) -> u32 {
+fn run<M: Model<W, Light = EmissiveTriangle>, const W: usize>(frames: u32) -> u32
+where
+    M::Importance: ImportanceModel<M::Node, W>,
+{
     let random = &mut Random(1);
     let mut digest = 0;
-    let mut bvh = Bvh::<N, I, W>::default();
-    let mut rebuilder = Rebuilder::<N, W>::new(RebuilderParams {
+    let mut bvh = Bvh::<M, W>::default();
+    let mut rebuilder = Rebuilder::<M, W>::new(RebuilderParams {
         after: 2,
         swap: Swap::Deterministic,
         idle: 0.0,
@@ -74,7 +77,7 @@ fn run<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(frames: u32) -
     }
     let words = bvh.to_words();
     digest = words.iter().fold(digest, |all, &word| hash(all ^ word));
-    let again = Bvh::<N, I, W>::from_words(&words).expect("the words just written");
+    let again = Bvh::<M, W>::from_words(&words).expect("the words just written");
     queries(&again, random, digest)
 }
 
@@ -96,11 +99,14 @@ fn triangles(random: &mut Random, count: u32) -> Vec<EmissiveTriangle> {
 }
 
 /// Samples, with their pmfs.
-fn queries<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &Bvh<N, I, W>,
+fn queries<M: Model<W, Light = EmissiveTriangle>, const W: usize>(
+    bvh: &Bvh<M, W>,
     random: &mut Random,
     mut digest: u32,
-) -> u32 {
+) -> u32
+where
+    M::Importance: ImportanceModel<M::Node, W>,
+{
     for _ in 0..100 {
         let point = ShadingPoint {
             p: random.vector(10.0),

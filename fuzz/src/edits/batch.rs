@@ -47,7 +47,7 @@ struct Staged {
 pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
     u: &mut Unstructured<'_>,
     model: &mut Model,
-    scene: &mut Bvh<N, (), W>,
+    scene: &mut Bvh<(N, ()), W>,
     first: bool,
     thorough: bool,
 ) -> Result<bool> {
@@ -121,8 +121,8 @@ pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
 
 /// A refused batch changes nothing.
 fn assert_same<N: LightNode<W> + std::fmt::Debug, const W: usize>(
-    before: &Bvh<N, (), W>,
-    after: &Bvh<N, (), W>,
+    before: &Bvh<(N, ()), W>,
+    after: &Bvh<(N, ()), W>,
     thorough: bool,
 ) {
     fn words<T: bytemuck::NoUninit>(list: &[T]) -> &[u8] {

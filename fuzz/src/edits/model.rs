@@ -47,7 +47,7 @@ impl Model {
     }
 
     /// The scene's lights against the exact maps in `f64`.
-    pub fn check_lights<N: LightNode<W>, const W: usize>(&self, scene: &Bvh<N, (), W>) {
+    pub fn check_lights<N: LightNode<W>, const W: usize>(&self, scene: &Bvh<(N, ()), W>) {
         let world = scene.world_lights();
         for placed in &self.instances {
             let lights = scene.lights_of(placed.id).expect("it lives");

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 
 use glam::DAffine3;
 use lightbvh::light::TWO_SIDED;
-use lightbvh::node::{Holds, Node as Layout};
+use lightbvh::tree::Model;
 use lightbvh::{BuildParams, Edit, EditError, EmissiveTriangle, InstanceId, MeshId};
 
 use super::animate::Pose;
@@ -45,11 +45,11 @@ impl<L: SceneLight> Instances<L> {
     ///
     /// # Errors
     /// [`EditError`] for lights outside the domain.
-    pub fn new<N: Layout<W> + Holds<Light = L>, I, const W: usize>(
+    pub fn new<M: Model<W, Light = L>, const W: usize>(
         scene: &Scene,
         frame: u32,
         params: BuildParams,
-    ) -> Result<(lightbvh::Bvh<N, I, W>, Self), EditError> {
+    ) -> Result<(lightbvh::Bvh<M, W>, Self), EditError> {
         let data = scene.data();
         let pose = pose_at(scene, frame);
         let mut lights = lightbvh::Bvh::new(params);
@@ -176,7 +176,7 @@ mod tests {
         for name in BUILT_IN {
             let scene = Scene::open(name).expect("built in");
             let (mut lights, mut instances) =
-                Instances::new::<Node, (), WIDTH>(&scene, 3, BuildParams::default()).expect("sound");
+                Instances::new::<(Node, ()), WIDTH>(&scene, 3, BuildParams::default()).expect("sound");
             for frame in [3, 40] {
                 let edits = instances.edits(&scene, frame);
                 let (moved, all) = (edits.len(), instances.followed.len());

@@ -79,7 +79,7 @@ fn scales_do_not_turn_lights() {
         let scene = read_json(&root);
         let lit = scene.frame(30);
         let spot = SpotLight::try_from(lit.others[0]).expect("a spot");
-        let followed = Instances::<AnyLight>::new::<AnyNode, (), 8>(&scene, 0, BuildParams::default());
+        let followed = Instances::<AnyLight>::new::<(AnyNode, ()), 8>(&scene, 0, BuildParams::default());
         let (lights, mut instances) = followed.unwrap_or_else(|error| panic!("{scale:?}: {error}"));
         let world = lights.world_lights();
         let placed = world.iter().find_map(|&light| SpotLight::try_from(light).ok());

@@ -1,7 +1,7 @@
 //! The passes on the CPU, over all cores of the current rayon pool.
 
 use lightbvh::SampledLight;
-use lightbvh_kernels::bvh::{Choice, Standard, TreeOf, WIDTH};
+use lightbvh_kernels::bvh::{Compiled, TreeOf, Triangles, WIDTH};
 use lightbvh_kernels::query::{Query, pmf_query, sample_query};
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::camera::Camera;
@@ -17,11 +17,11 @@ use crate::scene::SceneLight;
 use crate::words::Record;
 
 /// The CPU as a backend: the reference that devices are compared with.
-pub struct CpuBackend<C: Choice<W> = Standard, const W: usize = WIDTH> {
+pub struct CpuBackend<C: Compiled<W> = Triangles, const W: usize = WIDTH> {
     bvh: Bvh<C, W>,
 }
 
-impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
+impl<C: Compiled<W>, const W: usize> CpuBackend<C, W> {
     /// Takes a BVH.
     pub fn new(bvh: Bvh<C, W>) -> Self {
         Self { bvh }
@@ -38,7 +38,7 @@ impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
     }
 }
 
-impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for CpuBackend<C, W> {
+impl<C: Compiled<W, Light: SceneLight>, const W: usize> Backend<C::Light> for CpuBackend<C, W> {
     fn node_record(&self) -> Record {
         node_record::<C::Node>()
     }
@@ -95,7 +95,7 @@ fn image<L: SceneLight, P: PickLight + Sync>(
     }
 }
 
-impl<C: Choice<W, Light: SceneLight>, const W: usize> Follow<C, W> for CpuBackend<C, W> {
+impl<C: Compiled<W, Light: SceneLight>, const W: usize> Follow<C, W> for CpuBackend<C, W> {
     fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError> {
         let mut own = bvh.clone();
         let refitted = Timed::of(|| own.refit());
@@ -104,7 +104,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Follow<C, W> for CpuBacken
     }
 }
 
-impl<C: Choice<W, Light: SceneLight>, const W: usize> CpuBackend<C, W> {
+impl<C: Compiled<W, Light: SceneLight>, const W: usize> CpuBackend<C, W> {
     /// A scene with the lights that `sampler` chooses among: a light BVH knows where its own are.
     fn view<'a>(&'a self, scene: &'a SceneArrays<C::Light>, sampler: Sampler) -> Scene<'a, C::Light> {
         scene.lit_by(match sampler.needs_bvh() {

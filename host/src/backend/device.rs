@@ -6,7 +6,7 @@ use bytemuck::{bytes_of, pod_collect_to_vec};
 use lightbvh::SampledLight;
 use lightbvh_gpu::{EQ4, KernelSet, MOMENTS};
 use lightbvh_kernels::WORKGROUP;
-use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Compiled, Triangles, WIDTH};
 use lightbvh_kernels::query::{Query, QueryPush};
 use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::direct::MAX_CANDIDATES;
@@ -28,11 +28,11 @@ const SAMPLES_PER_PASS: usize = 1 << 20;
 const SURFACES_PER_PASS: usize = 1 << 18;
 
 /// A light BVH on a device.
-pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
+pub struct DeviceBackend<'d, C: Compiled<W> = Triangles, const W: usize = WIDTH> {
     tree: Mirrored<'d, C::Node, W>,
 }
 
-impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
+impl<'d, C: Compiled<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// Uploads a BVH and refits all of it, for its own nodes may wait for that.
     pub fn new(device: &'d Device, bvh: &Bvh<C, W>) -> Result<Self, BackendError> {
         let kernels = match C::SUFFIX {
@@ -78,7 +78,7 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     }
 }
 
-impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for DeviceBackend<'_, C, W> {
+impl<C: Compiled<W, Light: SceneLight>, const W: usize> Backend<C::Light> for DeviceBackend<'_, C, W> {
     fn node_record(&self) -> Record {
         node_record::<C::Node>()
     }
@@ -151,7 +151,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
     }
 }
 
-impl<C: Choice<W, Light: SceneLight>, const W: usize> Follow<C, W> for DeviceBackend<'_, C, W> {
+impl<C: Compiled<W, Light: SceneLight>, const W: usize> Follow<C, W> for DeviceBackend<'_, C, W> {
     fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError> {
         let time = self.tree.follow(bvh)?;
         Ok(Timed { time, value: () })

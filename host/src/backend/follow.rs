@@ -1,5 +1,6 @@
 //! A BVH and its edits on a device: what changed is copied, the rest is computed there.
 
+use lightbvh::tree::Model;
 use std::ops::Range;
 use std::time::Duration;
 
@@ -118,7 +119,10 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
 
     /// Updates the arrays to `bvh` as of its last refit: the plan's copies, then the passes of a refit, whose time is returned.
     /// Nothing of `bvh` depends on what becomes of the device: if this fails, all is copied the next time, or to another device.
-    pub fn follow<I>(&mut self, bvh: &lightbvh::Bvh<N, I, W>) -> Result<Duration, BackendError> {
+    pub fn follow(
+        &mut self,
+        bvh: &lightbvh::Bvh<impl Model<W, Node = N>, W>,
+    ) -> Result<Duration, BackendError> {
         let frame = self.mirror.frame(bvh);
         self.used = [size_of_val(bvh.lights()), size_of_val(bvh.instances())];
         let followed = self.write(&frame).and_then(|()| self.refit(&frame));

@@ -1,6 +1,6 @@
 //! Backends, which run the passes: the CPU over all its cores, or a Vulkan device. Both run the same functions on the same arrays,
-//! so [`words`](crate::words) may ask for equal words. A [`Choice`] says over which node layout, by which importance;
-//! [`Standard`] where it is left out.
+//! so [`words`](crate::words) may ask for equal words. A [`Compiled`] says over which node layout, by which importance;
+//! [`Triangles`] where it is left out.
 
 mod batches;
 mod cpu;
@@ -15,16 +15,17 @@ pub(crate) use batches::mean_image;
 pub use cpu::CpuBackend;
 pub use device::DeviceBackend;
 pub use follow::Mirrored;
+use lightbvh::tree::Model;
 pub use record::{PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, node_record};
 pub use scene::{Sampler, SceneArrays};
 
 use std::time::{Duration, Instant};
 
 use bytemuck::cast_slice;
+pub use lightbvh::Bvh;
 use lightbvh::error::FollowError;
-use lightbvh::node::Node;
 use lightbvh::{EmissiveTriangle, SampledLight};
-use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Compiled, Triangles, WIDTH};
 use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::emitter::Emitter;
@@ -43,17 +44,17 @@ pub enum BackendError {
     Lights(#[from] FollowError),
 }
 
-/// The light BVH of a choice.
-pub type Bvh<C = Standard, const W: usize = WIDTH> =
-    lightbvh::Bvh<<C as Choice<W>>::Node, <C as Choice<W>>::Importance, W>;
-
 /// The words of all nodes: those of bottom levels, then those of the top level.
-pub fn node_words<N: Node<W>, I, const W: usize>(bvh: &lightbvh::Bvh<N, I, W>) -> Vec<u32> {
-    [cast_slice::<N, u32>(bvh.nodes()), cast_slice(bvh.top_nodes())].concat()
+pub fn node_words<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> Vec<u32> {
+    [
+        cast_slice::<M::Node, u32>(bvh.nodes()),
+        cast_slice(bvh.top_nodes()),
+    ]
+    .concat()
 }
 
 /// The nodes in use, by their order in [`node_words`].
-pub fn nodes_in_use<N: Node<W>, I, const W: usize>(bvh: &lightbvh::Bvh<N, I, W>) -> Vec<u32> {
+pub fn nodes_in_use<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> Vec<u32> {
     let plan = bvh.plan_of_everything();
     let top = bvh.nodes().len() as u32;
     let of_top = plan.top.nodes().iter().map(|node| node + top);
@@ -107,7 +108,7 @@ pub trait Backend<L: Emitter = EmissiveTriangle> {
 }
 
 /// A backend that follows a BVH through its edits.
-pub trait Follow<C: Choice<W> = Standard, const W: usize = WIDTH>: Backend<C::Light> {
+pub trait Follow<C: Compiled<W> = Triangles, const W: usize = WIDTH>: Backend<C::Light> {
     /// Copies the changes in `bvh` as of its last refit, and refits here.
     fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError>;
 }

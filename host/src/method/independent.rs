@@ -1,12 +1,13 @@
 //! Samples that know nothing of each other: lights chosen by a table, by a tree over all triangles, or by the paper's two
 //! levels.
 
+use lightbvh::tree::Model;
 use std::time::Instant;
 
 use lightbvh::bvh::Swap;
 use lightbvh::exact::hash;
 use lightbvh::{Rebuilder, RebuilderParams};
-use lightbvh_kernels::bvh::Choice;
+use lightbvh_kernels::bvh::Compiled;
 use lightbvh_kernels::render::RenderParams;
 
 use super::{Recipe, Runner, SampleBudget, Step, Target, TreeFacts, UpdateTimes};
@@ -21,13 +22,10 @@ use crate::workload::{build, words_in_use};
 const MAX_CAMERA_RAYS: u32 = 8;
 
 /// Where moving lights stand, and what builds their trees in the background.
-type Moving<C, const W: usize> = (
-    Instances<<C as Choice<W>>::Light>,
-    Rebuilder<<C as Choice<W>>::Node, W>,
-);
+type Moving<C, const W: usize> = (Instances<<C as Model<W>>::Light>, Rebuilder<C, W>);
 
 /// A method of independent samples.
-pub(super) struct Independent<'d, C: Choice<W, Light: SceneLight>, const W: usize> {
+pub(super) struct Independent<'d, C: Compiled<W, Light: SceneLight>, const W: usize> {
     recipe: Recipe,
     target: Target<'d>,
     backend: Box<dyn Follow<C, W> + 'd>,
@@ -37,7 +35,7 @@ pub(super) struct Independent<'d, C: Choice<W, Light: SceneLight>, const W: usiz
     moving: Option<Moving<C, W>>,
 }
 
-impl<'d, C: Choice<W, Light: SceneLight>, const W: usize> Independent<'d, C, W> {
+impl<'d, C: Compiled<W, Light: SceneLight>, const W: usize> Independent<'d, C, W> {
     pub fn new(recipe: Recipe, first: &Step<'_, C::Light>, target: Target<'d>) -> Result<Self, HostError> {
         let params = recipe.builder.params();
         let (bvh, moving) = match recipe.lights {
@@ -63,7 +61,7 @@ impl<'d, C: Choice<W, Light: SceneLight>, const W: usize> Independent<'d, C, W> 
     }
 }
 
-impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Independent<'_, C, W> {
+impl<C: Compiled<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Independent<'_, C, W> {
     /// Time of refit is all that the frame's thread does for it: swapping in trees built in the background (paper sections 3.4 and
     /// 3.5), the edits, and new summaries, and those of the backend.
     fn advance(&mut self, step: &Step<'_, C::Light>) -> Result<UpdateTimes, HostError> {

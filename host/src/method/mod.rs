@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use lightbvh::light::AnyLight;
 use lightbvh::{EditError, EmissiveTriangle, Lights};
-use lightbvh_kernels::bvh::{Choice, Kinds, Paper, Standard, WIDTH};
+use lightbvh_kernels::bvh::{AnyKind, Compiled, Paper, Triangles, WIDTH};
 use lightbvh_kernels::render::RenderParams;
 
 use self::independent::Independent;
@@ -119,7 +119,7 @@ impl<'d> Target<'d> {
     }
 
     /// A backend over `bvh`.
-    pub(crate) fn backend<C: Choice<W, Light: SceneLight>, const W: usize>(
+    pub(crate) fn backend<C: Compiled<W, Light: SceneLight>, const W: usize>(
         &self,
         bvh: Bvh<C, W>,
     ) -> Result<Box<dyn Follow<C, W> + 'd>, BackendError> {
@@ -140,7 +140,7 @@ impl Recipe {
         L::runner(self, first, target)
     }
 
-    fn runner_by<'d, C: Choice<W, Light: SceneLight>, const W: usize>(
+    fn runner_by<'d, C: Compiled<W, Light: SceneLight>, const W: usize>(
         &self,
         first: &Step<'_, C::Light>,
         target: Target<'d>,
@@ -171,7 +171,7 @@ impl MethodLight for EmissiveTriangle {
         target: Target<'d>,
     ) -> Result<Box<dyn Runner<Self> + 'd>, HostError> {
         match recipe.importance {
-            Importance::Moments => recipe.runner_by::<Standard, WIDTH>(first, target),
+            Importance::Moments => recipe.runner_by::<Triangles, WIDTH>(first, target),
             Importance::Eq4 => recipe.runner_by::<Paper, 4>(first, target),
         }
     }
@@ -186,7 +186,7 @@ impl MethodLight for AnyLight {
         target: Target<'d>,
     ) -> Result<Box<dyn Runner<Self> + 'd>, HostError> {
         match recipe.importance {
-            Importance::Moments => recipe.runner_by::<Kinds, WIDTH>(first, target),
+            Importance::Moments => recipe.runner_by::<AnyKind, WIDTH>(first, target),
             Importance::Eq4 => Err(HostError::Usage {
                 option: "a --sampler by the paper's importance",
                 needs: "a scene of emissive triangles alone; this one has other lights, or textures, which the renderer shows with moments only",

@@ -1,7 +1,7 @@
 //! The methods by name: the one table that every command reads.
 
 use lightbvh::{BuildParams, Heuristic};
-use lightbvh_kernels::bvh::{Choice, Paper, Standard};
+use lightbvh_kernels::bvh::{Compiled, Paper, Triangles};
 use serde::Serialize;
 use strum::{IntoStaticStr, VariantArray};
 
@@ -50,7 +50,7 @@ pub enum Method {
     TwoLevelMomentsResampled,
 }
 
-/// The importance of a light BVH: a [`Choice`].
+/// The importance of a light BVH: a [`Compiled`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Importance {
@@ -145,10 +145,10 @@ impl Importance {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Moments, Self::Eq4];
 
-    /// [`Choice::NAME`].
+    /// [`Compiled::NAME`].
     pub fn name(self) -> &'static str {
         match self {
-            Self::Moments => Standard::NAME,
+            Self::Moments => Triangles::NAME,
             Self::Eq4 => Paper::NAME,
         }
     }

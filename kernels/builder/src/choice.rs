@@ -4,7 +4,7 @@
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-use lightbvh::requirements::{Layout, Model};
+use lightbvh::requirements::{Choice, Layout};
 
 use crate::Error;
 use crate::files::{self, cannot};
@@ -16,14 +16,14 @@ const ENTRY_POINTS: &str = include_str!("choice/entry_points.txt");
 ///
 /// # Errors
 /// Names the first that means nothing.
-pub fn parse(layout: &str, width: &str, share: &str) -> Result<Model, Error> {
+pub fn parse(layout: &str, width: &str, share: &str) -> Result<Choice, Error> {
     let named = Layout::ALL.into_iter().find(|own| own.name() == layout);
     let number = |option: &str, text: &str, range: RangeInclusive<u32>, expected: &str| {
         let number = text.parse().ok().filter(|number| range.contains(number));
         let refused = || format!("--{option} {text} is out of range, expected {expected}");
         number.ok_or_else(|| Error(refused()))
     };
-    Ok(Model {
+    Ok(Choice {
         layout: named.ok_or_else(|| {
             Error(format!(
                 "--layout {layout} is not known, expected moments or two-sided"
@@ -31,7 +31,7 @@ pub fn parse(layout: &str, width: &str, share: &str) -> Result<Model, Error> {
         })?,
         width: number("width", width, 4..=16, "4 to 16")? as usize,
         uniform_halvings: number("share", share, 0..=20, "0 for none or up to 20 halvings of 1")?,
-        ..Model::DEFAULT
+        ..Choice::DEFAULT
     })
 }
 
@@ -39,7 +39,7 @@ pub fn parse(layout: &str, width: &str, share: &str) -> Result<Model, Error> {
 ///
 /// # Errors
 /// Names the file that cannot be written.
-pub fn write_crate(choice: &Model, root: &Path, out: &Path) -> Result<PathBuf, Error> {
+pub fn write_crate(choice: &Choice, root: &Path, out: &Path) -> Result<PathBuf, Error> {
     let folder = out.join("crate");
     let sources = folder.join("src");
     std::fs::create_dir_all(&sources).map_err(cannot("create", &sources))?;
@@ -50,7 +50,7 @@ pub fn write_crate(choice: &Model, root: &Path, out: &Path) -> Result<PathBuf, E
     Ok(folder)
 }
 
-fn entry_points(choice: &Model) -> String {
+fn entry_points(choice: &Choice) -> String {
     ENTRY_POINTS
         .replace("NODE", &choice.node_type())
         .replace("IMPORTANCE", &choice.importance_type())
@@ -87,7 +87,7 @@ mod tests {
     fn options_name_a_choice_or_say_what_would() {
         let choice = parse("two-sided", "16", "0").expect("a choice");
         assert_eq!((choice.width, choice.uniform_halvings), (16, 0));
-        assert_eq!(parse("moments", "8", "6"), Ok(Model::DEFAULT));
+        assert_eq!(parse("moments", "8", "6"), Ok(Choice::DEFAULT));
         for (layout, width, share, said) in [
             ("eq4", "8", "6", "--layout eq4"),
             ("two-sided", "17", "6", "--width 17"),

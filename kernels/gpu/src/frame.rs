@@ -2,10 +2,11 @@
 
 use alloc::vec::Vec;
 use core::ops::Range;
+use lightbvh::tree::Model;
 
 use bytemuck::cast_slice;
 use lightbvh::bvh::Cursor;
-use lightbvh::node::{Holds, Node};
+use lightbvh::node::Holds;
 use lightbvh::refit::BlasRoot;
 use lightbvh::{Bvh, Instance, TreeWords};
 
@@ -95,7 +96,7 @@ const LIST: usize = 9;
 const CHILDREN: usize = 10;
 
 /// The arrays of a light BVH, in the order of [`BUFFERS`].
-fn arrays<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> [&[u8]; LIST] {
+fn arrays<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> [&[u8]; LIST] {
     let tree = bvh.tree();
     [
         cast_slice(bvh.nodes()),
@@ -111,10 +112,10 @@ fn arrays<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> [&[u8]; LIST] {
 }
 
 /// Bytes of one element of each array, in the order of [`BUFFERS`].
-fn strides<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> [u64; LIST] {
+fn strides<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> [u64; LIST] {
     let word = size_of::<u32>();
     let trail = word * bvh.tree().trail_words as usize;
-    let [node, light] = [size_of::<N>(), size_of::<N::Light>()];
+    let [node, light] = [size_of::<M::Node>(), size_of::<M::Light>()];
     let [instance, root] = [size_of::<Instance>(), size_of::<BlasRoot>()];
     [node, node, light, instance, root, trail, word, word, word].map(|bytes| bytes as u64)
 }
@@ -144,7 +145,7 @@ impl Mirror {
     ///
     /// Everything is uploaded and computed if the light BVH is another than last time (a clone, or one that was read), or if its
     /// log has dropped changes since.
-    pub fn frame<'a, N: Node<W>, I, const W: usize>(&mut self, bvh: &'a Bvh<N, I, W>) -> Frame<'a> {
+    pub fn frame<'a, M: Model<W>, const W: usize>(&mut self, bvh: &'a Bvh<M, W>) -> Frame<'a> {
         let mut plan = bvh.plan(&mut self.cursor);
         let (arrays, strides) = (arrays(bvh), strides(bvh));
         // Arrays that share a buffer move if one of them needs more room.
@@ -190,7 +191,7 @@ impl Mirror {
             self.held[k] = bytes;
         }
         self.trail_words = trail_words;
-        let refit = Refit::new::<N, W>(&plan, self.top::<N>());
+        let refit = Refit::new::<M::Node, W>(&plan, self.top::<M::Node>());
         is_new[DeviceBuffer::List as usize] = self.reserve(LIST, size_of_val(&*refit.list) as u64, 4);
         is_new[DeviceBuffer::Children as usize] = self.reserve(CHILDREN, refit.children, 4);
         let resizes = DeviceBuffer::ALL
@@ -206,7 +207,7 @@ impl Mirror {
 
     /// Push constants of kernels that walk the tree, as of the last [`frame`](Self::frame).
     #[must_use]
-    pub fn words<N: Node<W>, I, const W: usize>(&self, bvh: &Bvh<N, I, W>) -> TreeWords {
+    pub fn words<M: Model<W>, const W: usize>(&self, bvh: &Bvh<M, W>) -> TreeWords {
         let tree = bvh.tree();
         let word = |array: usize| (self.start(array) / 4) as u32;
         TreeWords {
@@ -215,7 +216,11 @@ impl Mirror {
             live: tree.live,
             lights: tree.lights,
             depth: tree.depth,
-            top: if bvh.is_single_level() { 0 } else { self.top::<N>() },
+            top: if bvh.is_single_level() {
+                0
+            } else {
+                self.top::<M::Node>()
+            },
             above: word(ABOVE),
             places: word(PLACES),
             parts: word(PARTS),
@@ -231,12 +236,12 @@ impl Mirror {
     /// Compares the device's nodes with those of `bvh`, which were refitted since the last [`frame`](Self::frame): those in use
     /// alone, for others mean nothing. Returns how many words were compared, and which nodes of the buffer differ.
     #[must_use]
-    pub fn compare_nodes<N: Node<W>, I, const W: usize>(
+    pub fn compare_nodes<M: Model<W>, const W: usize>(
         &self,
-        bvh: &Bvh<N, I, W>,
+        bvh: &Bvh<M, W>,
         device: &[u8],
     ) -> (u64, Vec<u32>) {
-        let (all, top) = (bvh.plan_of_everything(), self.top::<N>());
+        let (all, top) = (bvh.plan_of_everything(), self.top::<M::Node>());
         let bottom = all
             .bottom
             .nodes()
@@ -246,9 +251,9 @@ impl Mirror {
         let above = above.map(|&node| (node + top, &bvh.top_nodes()[node as usize]));
         let (mut words, mut different) = (0, Vec::new());
         for (place, node) in bottom.chain(above) {
-            let at = place as usize * size_of::<N>();
-            words += size_of::<N>() as u64 / 4;
-            if device.get(at..at + size_of::<N>()) != Some(bytemuck::bytes_of(node)) {
+            let at = place as usize * size_of::<M::Node>();
+            words += size_of::<M::Node>() as u64 / 4;
+            if device.get(at..at + size_of::<M::Node>()) != Some(bytemuck::bytes_of(node)) {
                 different.push(place);
             }
         }

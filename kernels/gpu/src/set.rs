@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use lightbvh::requirements::{Layout, Model};
+use lightbvh::requirements::{Choice, Layout};
 
 use crate::kernel::Kernel;
 use crate::refit::Pass;
@@ -28,7 +28,7 @@ pub struct KernelSet {
     pub light_points: &'static Kernel,
 }
 
-/// The kernels of `LightBvh`: `Bvh<MomentNode<8>, Defensive<Moments, 6>, 8>`.
+/// The kernels of `LightBvh`: `Bvh<(MomentNode<8>, Defensive<Moments, 6>)>`.
 pub static MOMENTS: KernelSet = KernelSet {
     refit_bottom: &table::REFIT_BOTTOM,
     refit_roots: &table::REFIT_ROOTS,
@@ -39,7 +39,7 @@ pub static MOMENTS: KernelSet = KernelSet {
     light_points: &table::LIGHT_POINTS,
 };
 
-/// The kernels of `Bvh<CompactNode<4>, Eq4, 4>`, the paper's.
+/// The kernels of `Bvh<(CompactNode<4>, Eq4), 4>`, the paper's.
 pub static EQ4: KernelSet = KernelSet {
     refit_bottom: &table::REFIT_BOTTOM_EQ4,
     refit_roots: &table::REFIT_ROOTS_EQ4,
@@ -51,7 +51,7 @@ pub static EQ4: KernelSet = KernelSet {
 };
 
 impl KernelSet {
-    /// The kernels of `Bvh<SpotMomentNode<8, AnyLight>, Defensive<Moments, 6>, 8>`, over lights of any kind. A node is 256
+    /// The kernels of `Bvh<(SpotMomentNode<8, AnyLight>, Defensive<Moments, 6>)>`, over lights of any kind. A node is 256
     /// bytes where one of [`MOMENTS`] is 192; a scene of triangles alone takes that.
     ///
     /// Its [`light_points`](Self::light_points) reads `queries` besides, for a point on a light of some kinds depends on the
@@ -83,7 +83,7 @@ impl KernelSet {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotCompiled {
     /// The choice: its layout, width and share of uniform choice.
-    pub model: Model,
+    pub model: Choice,
 }
 
 impl NotCompiled {
@@ -118,8 +118,8 @@ impl KernelSet {
     ///
     /// # Errors
     /// [`NotCompiled`] for any but the default's.
-    pub fn of(model: &Model) -> Result<&'static Self, NotCompiled> {
-        let default = Model::DEFAULT;
+    pub fn of(model: &Choice) -> Result<&'static Self, NotCompiled> {
+        let default = Choice::DEFAULT;
         let is_compiled = model.layout == Layout::Moments
             && model.width == default.width
             && model.uniform_halvings == default.uniform_halvings;
@@ -148,15 +148,15 @@ mod tests {
 
     #[test]
     fn a_model_has_its_kernels_or_the_command_that_compiles_them() {
-        let with = |change: fn(&mut Model)| {
-            let mut model = Model::DEFAULT;
+        let with = |change: fn(&mut Choice)| {
+            let mut model = Choice::DEFAULT;
             change(&mut model);
             model
         };
-        let set = KernelSet::of(&Model::DEFAULT).expect("the default's kernels");
+        let set = KernelSet::of(&Choice::DEFAULT).expect("the default's kernels");
         assert!(core::ptr::eq(set, &MOMENTS));
         let two_sided = with(|own| own.layout = Layout::TwoSidedMoments);
-        let others: [fn(&mut Model); 2] = [|own| own.width = 16, |own| own.uniform_halvings = 0];
+        let others: [fn(&mut Choice); 2] = [|own| own.width = 16, |own| own.uniform_halvings = 0];
         for model in others.map(with).into_iter().chain([two_sided]) {
             assert_eq!(KernelSet::of(&model).err(), Some(NotCompiled { model }));
         }

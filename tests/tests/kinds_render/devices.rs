@@ -18,12 +18,12 @@ fn same_on(device: &Device, scene: &Scene) {
     let arrays = arrays(scene, &params);
     let (two_level, _) = Instances::<AnyLight>::new(scene, 0, BuildParams::default()).expect("sound");
     for sampler in Sampler::ALL {
-        let bvh: Bvh<Kinds, WIDTH> = match sampler {
+        let bvh: Bvh<AnyKind, WIDTH> = match sampler {
             Sampler::TwoLevel => two_level.clone(),
             _ => build(&arrays.lights, sampler, &BuildParams::default()),
         };
-        let mut cpu = CpuBackend::<Kinds, WIDTH>::new(bvh.clone());
-        let mut other = DeviceBackend::<Kinds, WIDTH>::new(device, &bvh).expect("a backend");
+        let mut cpu = CpuBackend::<AnyKind, WIDTH>::new(bvh.clone());
+        let mut other = DeviceBackend::<AnyKind, WIDTH>::new(device, &bvh).expect("a backend");
         let direct = [1, 6].map(|candidates| (Integrator::Direct, candidates));
         let paths = [1, 4].map(|bounces| (Integrator::Path { bounces }, 1));
         for (integrator, candidates) in direct.into_iter().chain(paths) {

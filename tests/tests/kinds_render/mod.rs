@@ -15,7 +15,7 @@ use lightbvh_host::scene::{
 use lightbvh_host::vulkan::{Device, Options};
 use lightbvh_host::words::compare_words;
 use lightbvh_host::workload::{arrays_lit_by, build, render_params};
-use lightbvh_kernels::bvh::{Kinds, WIDTH};
+use lightbvh_kernels::bvh::{AnyKind, WIDTH};
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_tests::devices::on_each_device;
 
@@ -152,8 +152,8 @@ fn samplers_agree_on_every_kind_and_paint() {
         let images: Vec<Vec<[f32; 3]>> = Sampler::ALL
             .iter()
             .map(|&sampler| {
-                let bvh: Bvh<Kinds, WIDTH> = build(&arrays.lights, sampler, &BuildParams::default());
-                let mut cpu = CpuBackend::<Kinds, WIDTH>::new(bvh);
+                let bvh: Bvh<AnyKind, WIDTH> = build(&arrays.lights, sampler, &BuildParams::default());
+                let mut cpu = CpuBackend::<AnyKind, WIDTH>::new(bvh);
                 cpu.render(&arrays, &params, sampler, integrator)
                     .expect("an image")
                     .value

@@ -10,7 +10,7 @@ use super::place;
 fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) {
     let mut random = Random::new(43);
     let mut digest = Digest::new();
-    let mut scene = Bvh::<N, (), W>::default();
+    let mut scene = Bvh::<(N, ()), W>::default();
     let mut meshes = Vec::new();
     for i in 0..6 {
         let triangles = generate::small_triangles(30 + i, 100, 2.0, 0.3, i % 2 == 0, i);

@@ -61,7 +61,7 @@ pub fn points() -> Vec<ShadingPoint> {
     points
 }
 
-fn tree<N: LightNode<W>, const W: usize>(digest: &mut Digest, bvh: &Bvh<N, (), W>) {
+fn tree<N: LightNode<W>, const W: usize>(digest: &mut Digest, bvh: &Bvh<(N, ()), W>) {
     let tree = bvh.tree();
     digest.words(tree.nodes);
     digest.words(bvh.top_nodes());
@@ -90,7 +90,7 @@ fn tree<N: LightNode<W>, const W: usize>(digest: &mut Digest, bvh: &Bvh<N, (), W
 
 fn picks<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     digest: &mut Digest,
-    bvh: &Bvh<N, (), W>,
+    bvh: &Bvh<(N, ()), W>,
     lights: &Lights,
 ) {
     let mut random = Random::new(29);
@@ -126,9 +126,9 @@ fn bvh<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: [u64; 3
             let params = split(heuristic, buckets);
             for two in [false, true] {
                 let mut bvh = if two {
-                    Bvh::<N, (), W>::two_level(&lights, &params)
+                    Bvh::<(N, ()), W>::two_level(&lights, &params)
                 } else {
-                    Bvh::<N, (), W>::single_level(&lights, &params)
+                    Bvh::<(N, ()), W>::single_level(&lights, &params)
                 };
                 tree(&mut built, &bvh);
                 if buckets != 16 {

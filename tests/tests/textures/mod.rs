@@ -18,7 +18,7 @@ use lightbvh_host::scene::{
     Primitive, Scene, SceneData, Texture, Transform, Wrap,
 };
 use lightbvh_host::workload::{build, render_params};
-use lightbvh_kernels::bvh::{Kinds, WIDTH};
+use lightbvh_kernels::bvh::{AnyKind, WIDTH};
 use lightbvh_kernels::shading::picture::{HEADER_WORDS, Picture as Words, PictureWords, SRGB_WORDS};
 
 use crate::kinds_render::{arrays, at, mean, node, room};
@@ -109,11 +109,11 @@ fn images(scene: &Scene) -> Vec<(String, [f64; 3], [f64; 3])> {
     let arrays = arrays(scene, &base);
     let mut found = Vec::new();
     for sampler in Sampler::ALL {
-        let bvh: Bvh<Kinds, WIDTH> = match sampler {
+        let bvh: Bvh<AnyKind, WIDTH> = match sampler {
             Sampler::TwoLevel => Instances::new(scene, 0, BuildParams::default()).expect("sound").0,
             _ => build(&arrays.lights, sampler, &BuildParams::default()),
         };
-        let mut cpu = CpuBackend::<Kinds, WIDTH>::new(bvh);
+        let mut cpu = CpuBackend::<AnyKind, WIDTH>::new(bvh);
         for (integrator, candidates) in [
             (Integrator::Direct, 1),
             (Integrator::Direct, 4),

@@ -4,12 +4,12 @@
 use lightbvh::{Edit, InstanceId, LightBvh, MeshId, ShadingPoint, Transform};
 use lightbvh_host::backend::{Backend, BackendError, CpuBackend, DeviceBackend, Follow};
 use lightbvh_host::vulkan::{Options, VulkanError};
-use lightbvh_kernels::bvh::Standard;
+use lightbvh_kernels::bvh::Triangles;
 use lightbvh_kernels::query::Query;
 use lightbvh_tests::devices::{devices, open};
 use lightbvh_tests::generate::small_triangles;
 
-type OnDevice<'d> = DeviceBackend<'d, Standard, 8>;
+type OnDevice<'d> = DeviceBackend<'d, Triangles, 8>;
 
 fn place(k: u32, time: u32) -> Transform {
     let at = |n: u32| (k.wrapping_mul(n) % 101) as f32 + 0.01 * time as f32;
@@ -57,7 +57,7 @@ fn queries(count: u32) -> Vec<Query> {
 /// Compares samples, which have the bits of the nodes in them.
 fn assert_follows(what: &str, bvh: &LightBvh, backend: &mut OnDevice<'_>) {
     let asked = queries(1000);
-    let expected = CpuBackend::<Standard, 8>::new(bvh.clone()).sample(&asked);
+    let expected = CpuBackend::<Triangles, 8>::new(bvh.clone()).sample(&asked);
     let found = backend.sample(&asked).expect("samples").value;
     assert!(found == expected.expect("samples").value, "{what}");
 }

@@ -2,6 +2,7 @@
 
 extern crate std;
 
+use crate::model::Model;
 use std::vec::Vec;
 
 use crate::bvh::Bvh;
@@ -16,8 +17,8 @@ use crate::node::{CompactNode, MomentNode, Node};
 use crate::summary::Summary;
 use crate::transform::Transform;
 
-type Tree<L> = Bvh<MomentNode<8, L>, Defensive<Moments, 6>, 8>;
-type BoundsTree<L> = Bvh<CompactNode<4, L>, Eq4, 4>;
+type Tree<L> = Bvh<(MomentNode<8, L>, Defensive<Moments, 6>)>;
+type BoundsTree<L> = Bvh<(CompactNode<4, L>, Eq4), 4>;
 
 const PER_MESH: usize = 5;
 
@@ -70,9 +71,13 @@ fn apart<L: Light>(lights: &[L], instance: &Instance) -> f64 {
 
 /// What an instance makes of its mesh's flux, as the top level takes it, is what it makes of the lights'. Nodes keep the mesh's
 /// coarsely.
-fn agrees<N: Node<W>, I, const W: usize>(name: &str, bvh: &Bvh<N, I, W>, index: usize, lights: &[N::Light]) {
+fn agrees<M: Model<W>, const W: usize>(name: &str, bvh: &Bvh<M, W>, index: usize, lights: &[M::Light]) {
     let instance = &bvh.instances[index];
-    let own = f64::from(bvh.roots[instance.blas as usize].summary::<N::Summary>().phi());
+    let own = f64::from(
+        bvh.roots[instance.blas as usize]
+            .summary::<<M::Node as Node<W>>::Summary>()
+            .phi(),
+    );
     let found = f64::from(bvh.leaf_of(index as u32).summary.phi()) / own;
     let expected = apart(lights, instance) / apart(lights, &Instance::IDENTITY);
     assert!(

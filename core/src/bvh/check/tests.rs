@@ -8,7 +8,7 @@ use crate::kit::scenes::{moved, scattered};
 use crate::kit::triangle;
 use crate::{CompactNode, InstanceId};
 
-type Tree = Bvh<CompactNode<4>, crate::Eq4, 4>;
+type Tree = Bvh<(CompactNode<4>, crate::Eq4), 4>;
 
 /// Lights of the one mesh.
 const COUNT: usize = 1 << 12;

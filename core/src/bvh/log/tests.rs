@@ -68,7 +68,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         }
     }
 
-    fn follow<I>(&mut self, bvh: &Bvh<N, I, W>) {
+    fn follow(&mut self, bvh: &Bvh<impl Model<W, Node = N, Light = N::Light>, W>) {
         let all = |length: usize| std::vec![0..length as u32];
         let mut plan = bvh.plan(&mut self.cursor);
         let (top, links) = (bvh.top_nodes(), bvh.tree().links);
@@ -127,7 +127,10 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
     }
 
     /// Compares all words in use; trails and links by samples and pmfs.
-    fn check<I: ImportanceModel<N, W>>(&self, bvh: &Bvh<N, I, W>) {
+    fn check<M: Model<W, Node = N, Light = N::Light>>(&self, bvh: &Bvh<M, W>)
+    where
+        M::Importance: ImportanceModel<N, W>,
+    {
         let (tree, all) = (bvh.tree(), bvh.plan_of_everything());
         for (first, list, known) in [(0, &all.bottom, tree.nodes), (TOP, &all.top, tree.top)] {
             for node in list.nodes().iter().map(|&node| node as usize) {
@@ -150,7 +153,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
             places: PLACES as u32,
             parts: PARTS as u32,
         };
-        let own = words.tree::<N, I, W>(&self.nodes, &self.instances, &self.trails);
+        let own = words.tree::<N, M::Importance, W>(&self.nodes, &self.instances, &self.trails);
         for (k, (point, known)) in (0..).zip(points(16).into_iter().zip(sound_samples(bvh))) {
             assert_eq!(own.sample(&point, number(k)), known);
         }
@@ -172,12 +175,13 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
 }
 
 /// Two mirrors follow edits and swaps, one of them in each frame.
-fn follows<N: Node<W>, I: ImportanceModel<N, W> + Clone, const W: usize>(seed: u32)
+fn follows<M: Model<W> + Clone, const W: usize>(seed: u32)
 where
-    N::Light: Lamp,
+    M::Importance: ImportanceModel<M::Node, W> + Clone,
+    M::Light: Lamp,
 {
     let random = &mut Random(seed);
-    let mut bvh = Bvh::<N, I, W>::default();
+    let mut bvh = Bvh::<M, W>::default();
     let rebuilder = || {
         Rebuilder::new(RebuilderParams {
             after: 2,
@@ -186,7 +190,7 @@ where
         })
     };
     let mut own = rebuilder();
-    let [mut often, mut seldom] = [0; 2].map(|_| Mirror::<N, W>::new());
+    let [mut often, mut seldom] = [0; 2].map(|_| Mirror::<M::Node, W>::new());
     let (mut swapped, mut opened) = (0, 0);
     for frame in 0..120 {
         let start = own.begin_frame(&mut bvh).expect("no panic");
@@ -231,8 +235,8 @@ where
 
 #[test]
 fn mirrors_follow_by_plans_alone() {
-    follows::<CompactNode<2>, Eq4, 2>(3);
-    follows::<LinkedSpotMomentNode<8, AnyLight>, Defensive<Moments, 6>, 8>(4);
+    follows::<(CompactNode<2>, Eq4), 2>(3);
+    follows::<(LinkedSpotMomentNode<8, AnyLight>, Defensive<Moments, 6>), 8>(4);
 }
 
 /// The log and the lists of changed lights are bounded.

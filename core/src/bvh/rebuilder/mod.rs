@@ -12,6 +12,7 @@ mod report;
 mod scene;
 mod worker;
 
+use crate::model::{Model, Triangles};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::time::Duration;
@@ -24,7 +25,7 @@ use super::Bvh;
 use super::mesh::MeshTree;
 use super::records::TreeId;
 use super::top::Top;
-use crate::node::{DefaultNode, Holds, Node};
+use crate::node::Holds;
 
 /// Builds the trees of one [`Bvh`] in the background (paper section 3.5). Call [`begin_frame`](Self::begin_frame) before the
 /// frame's edits and [`end_frame`](Self::end_frame) after its refit. One thread builds the top level after any change, and in
@@ -34,12 +35,12 @@ use crate::node::{DefaultNode, Holds, Node};
 /// builds run at the end of their frame. On `wasm32-unknown-unknown` there is no clock either, and all times are
 /// zero. If panics abort, a panic while building does too.
 #[derive(Debug)]
-pub struct Rebuilder<N: Holds = DefaultNode, const W: usize = 8> {
+pub struct Rebuilder<M: Model<W> = Triangles, const W: usize = 8> {
     params: RebuilderParams,
-    worker: Option<Worker<N>>,
-    flight: Option<Flight<N>>,
+    worker: Option<Worker<M::Node>>,
+    flight: Option<Flight<M::Node>>,
     /// A top level whose leaves are those of the scene as of batch `seen`, unless the thread has it.
-    spare: Option<Box<Top<N>>>,
+    spare: Option<Box<Top<M::Node>>>,
     id: TreeId,
     /// The light BVH that it belongs to, and the number of the first batch that was not seen.
     tree: u32,
@@ -54,7 +55,7 @@ pub struct Rebuilder<N: Holds = DefaultNode, const W: usize = 8> {
     /// Frames that are left of it under [`Swap::Deterministic`].
     pause_frames: u32,
     /// How a worker is started.
-    start: fn() -> std::io::Result<Worker<N>>,
+    start: fn() -> std::io::Result<Worker<M::Node>>,
 }
 
 /// A build under way.
@@ -70,13 +71,13 @@ struct Flight<N: Holds> {
     is_void: bool,
 }
 
-impl<N: Node<W>, const W: usize> Default for Rebuilder<N, W> {
+impl<M: Model<W>, const W: usize> Default for Rebuilder<M, W> {
     fn default() -> Self {
         Self::new(RebuilderParams::default())
     }
 }
 
-impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
+impl<M: Model<W>, const W: usize> Rebuilder<M, W> {
     /// A rebuilder without a build under way; its thread starts with the first build.
     #[must_use]
     pub fn new(params: RebuilderParams) -> Self {
@@ -109,7 +110,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     ///
     /// # Errors
     /// [`RebuildError`], once, if the build that was due failed. The frame can go on without it.
-    pub fn begin_frame<I>(&mut self, scene: &mut Bvh<N, I, W>) -> Result<FrameStart, RebuildError> {
+    pub fn begin_frame(&mut self, scene: &mut Bvh<M, W>) -> Result<FrameStart, RebuildError> {
         let mut start = FrameStart::default();
         let is_own = self.tree == scene.id.0;
         let first = self.flight.as_ref().and_then(|flight| flight.first);
@@ -160,7 +161,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     }
 
     /// Puts finished trees in place.
-    fn swap<I>(&mut self, scene: &mut Bvh<N, I, W>, built: Built<N>, first: u64, start: &mut FrameStart) {
+    fn swap(&mut self, scene: &mut Bvh<M, W>, built: Built<M::Node>, first: u64, start: &mut FrameStart) {
         match built.work {
             Work::Top(mut top) => {
                 let first = first + built.batches as u64;
@@ -211,7 +212,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     /// pause after the last one is not over. Call it after the frame's [`Bvh::refit`]. Takes time in proportion to the changes,
     /// and copies at most [`RebuilderParams::bytes`] of meshes. The first call, and the first with another scene, copies the top
     /// level.
-    pub fn end_frame<I>(&mut self, scene: &Bvh<N, I, W>) {
+    pub fn end_frame(&mut self, scene: &Bvh<M, W>) {
         if self.tree != scene.id.0 || scene.outbox.rebuilder != self.id.0 {
             self.lose();
             (self.tree, self.seen) = (scene.id.0, scene.next_batch());
@@ -260,7 +261,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     }
 
     /// The next work: the top level and meshes in turn.
-    fn next_work<I>(&mut self, scene: &Bvh<N, I, W>) -> Option<Work<N>> {
+    fn next_work(&mut self, scene: &Bvh<M, W>) -> Option<Work<M::Node>> {
         let has_top = self.is_due && !scene.single;
         if core::mem::take(&mut self.is_meshes_turn) || !has_top {
             let meshes = self.next_meshes(scene);
@@ -277,7 +278,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     }
 
     /// Copies of meshes that changed since they were built, as far as the frame may copy.
-    fn next_meshes<I>(&mut self, scene: &Bvh<N, I, W>) -> Vec<MeshTree<N>> {
+    fn next_meshes(&mut self, scene: &Bvh<M, W>) -> Vec<MeshTree<M::Node>> {
         let mut meshes = Vec::new();
         let mut left = self.params.bytes;
         for (mesh, bytes) in scene.reshaped_from(self.next_mesh) {

@@ -5,9 +5,9 @@ use alloc::vec::Vec;
 
 use crate::bvh::Bvh;
 use crate::bvh::top::{Batch, Top};
-use crate::node::Node;
+use crate::model::Model;
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Keeps batches for a rebuilder from now on, and drops those before number `seen`; false if some from there on are not kept,
     /// or another rebuilder took part since.
     pub(super) fn follow_batches(&mut self, rebuilder: u32, seen: u64) -> bool {
@@ -36,14 +36,14 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     /// A copy of the top level.
-    pub(super) fn copy_top(&self) -> Top<N> {
+    pub(super) fn copy_top(&self) -> Top<M::Node> {
         let mut top = self.top.clone();
         self.unapplied.iter().for_each(|batch| top.set(batch));
         top
     }
 
     /// Swaps the top level for another, to which the next refit applies `batches`.
-    pub(super) fn swap_top(&mut self, top: &mut Top<N>, batches: Vec<Arc<Batch>>) {
+    pub(super) fn swap_top(&mut self, top: &mut Top<M::Node>, batches: Vec<Arc<Batch>>) {
         core::mem::swap(&mut self.top, top);
         // If no refit came since the last swap.
         self.unapplied.iter().for_each(|batch| top.set(batch));

@@ -18,9 +18,9 @@ pub use words::ReadError;
 
 use self::words::{Words, damaged};
 use super::Bvh;
-use crate::node::Node;
+use crate::model::Model;
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Reads what [`to_words`](Self::to_words) wrote. The BVH goes on as the one that was written: the same samples and pmfs,
     /// and after the same edits, refits and rebuilds the same words if it was refitted when it was written. Places of its
     /// arrays that are not in use hold the words of nothing.

@@ -1,5 +1,6 @@
 //! From words to what they say. Every number is checked before anything is done by it.
 
+use crate::model::Model;
 use alloc::vec::Vec;
 
 use super::header::{FORGOTTEN, Header, SINGLE};
@@ -14,9 +15,9 @@ use crate::node::{Node, kind};
 use crate::transform::{Transform, reach_of};
 use crate::tree::INVALID;
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     pub(super) fn read(words: &mut Words<'_>) -> Result<Self, ReadError> {
-        let (header, params) = Header::read::<N, W>(words)?;
+        let (header, params) = Header::read::<M::Node, W>(words)?;
         let mut bvh = Self::new(params);
         bvh.single = header.has(SINGLE);
         bvh.forgotten = header.has(FORGOTTEN);
@@ -31,7 +32,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         words.expect(!bvh.forgotten || header.removed > 0, "removed lights")?;
         bvh.read_top(words, &header)?;
         let count = words.need(header.nodes)?;
-        bvh.nodes = alloc::vec![N::EMPTY; count];
+        bvh.nodes = alloc::vec![M::Node::EMPTY; count];
         for index in 0..count {
             bvh.nodes[index] = read_node(words)?;
         }
@@ -154,7 +155,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             words.expect(used == u32::from(!is_free), "whether a node is in use")?;
             let mut shape = Shape::default();
             if is_free {
-                top.nodes.push(N::EMPTY);
+                top.nodes.push(M::Node::EMPTY);
             } else {
                 shape.half = words.array()?.map(f32::from_bits);
                 shape.from = words.array()?.map(f32::from_bits);
@@ -169,7 +170,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     fn read_triangles(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
-        self.lights = alloc::vec![N::Light::DARK; words.need(header.lights)?];
+        self.lights = alloc::vec![M::Light::DARK; words.need(header.lights)?];
         for (index, mesh) in (0..).zip(&self.meshes) {
             for light in &mut self.lights[mesh.lights.start as usize..mesh.lights.end as usize] {
                 *light = light.of_mesh(index);
@@ -186,7 +187,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 .iter_mut()
                 .enumerate()
             {
-                if place != N::Light::MESH_WORD {
+                if place != M::Light::MESH_WORD {
                     *word = words.one()?;
                 }
             }

@@ -1,5 +1,6 @@
 //! What follows from the words that were read: links are walked before anything trusts them, then all is refitted.
 
+use crate::model::{Model, SummaryOf};
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -9,7 +10,7 @@ use crate::bvh::Bvh;
 use crate::bvh::apply::NO_INSTANCE;
 use crate::bvh::log::Log;
 use crate::bvh::validate::Found;
-use crate::node::{Node, kind};
+use crate::node::kind;
 use crate::refit::{BlasRoot, has_limits};
 use crate::summary::Summary;
 use crate::trail::{leaf, leaf_parts, trail_words};
@@ -19,7 +20,7 @@ use crate::tree::INVALID;
 const NODES: &str = "nodes";
 const LEAVES: &str = "leaves of the top level";
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     pub(super) fn restore(&mut self, header: &Header) -> Result<(), ReadError> {
         self.restore_lists()?;
         self.restore_lights(header)?;
@@ -79,7 +80,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     fn restore_meshes(&mut self) -> Result<(), ReadError> {
         self.trail_words = trail_words(W, self.bottom_depth);
         self.trails = alloc::vec![0; self.lights.len() * self.trail_words as usize];
-        self.roots = alloc::vec![BlasRoot::new(INVALID, &N::Summary::EMPTY); self.meshes.len()];
+        self.roots = alloc::vec![BlasRoot::new(INVALID, &<SummaryOf<M, W>>::EMPTY); self.meshes.len()];
         let mut seen = alloc::vec![false; self.nodes.len()];
         let mut leaves = alloc::vec![false; self.lights.len()];
         for index in 0..self.meshes.len() {
@@ -116,13 +117,13 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let length = self.placed.len();
         self.top.places = alloc::vec![INVALID; length];
         self.top.leaves = alloc::vec![None; length];
-        if has_limits::<N, W>() {
+        if has_limits::<M::Node, W>() {
             self.top.limits = alloc::vec![crate::beam::Limits::NONE; length];
         }
         for index in self.live.clone() {
             let child = self.leaf_of(leaf(index, 0));
             self.top.leaves[index as usize] = Some(child.summary.to_words());
-            if has_limits::<N, W>() {
+            if has_limits::<M::Node, W>() {
                 self.top.limits[index as usize] = child.limits;
             }
         }

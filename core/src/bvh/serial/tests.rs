@@ -4,6 +4,7 @@ extern crate std;
 
 mod hostile;
 
+use crate::model::Model;
 use std::string::ToString;
 
 use crate::build::BuildParams;
@@ -12,7 +13,7 @@ use crate::exact::pow2;
 use crate::importance::{Eq4, ImportanceModel, Moments};
 use crate::kit::Random;
 use crate::kit::scenes::{edits, lamps, sound, sound_samples};
-use crate::node::{CompactNode, LightNode, MomentNode, TwoSidedMomentNode};
+use crate::node::{CompactNode, MomentNode, TwoSidedMomentNode};
 use crate::tree::INVALID;
 use crate::{EmissiveTriangle, Lights, Rebuilder};
 
@@ -26,7 +27,10 @@ fn lights(seed: u32, count: u32) -> Lights {
 }
 
 /// Samples with pmfs, and all that later edits depend on; the nodes' words are those of a refit, as `validate` finds.
-fn alike<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(a: &Bvh<N, I, W>, b: &Bvh<N, I, W>) {
+fn alike<M: Model<W, Light = EmissiveTriangle>, const W: usize>(a: &Bvh<M, W>, b: &Bvh<M, W>)
+where
+    M::Importance: ImportanceModel<M::Node, W>,
+{
     assert_eq!(a.validate(), b.validate());
     assert_eq!((a.depth(), a.light_end()), (b.depth(), b.light_end()));
     assert_eq!(a.removed_lights(), b.removed_lights());
@@ -34,13 +38,16 @@ fn alike<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(a: &Bvh<N, I
     assert!(a.to_words() == b.to_words());
 }
 
-fn read<N: LightNode<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> Bvh<N, I, W> {
+fn read<M: Model<W, Light = EmissiveTriangle>, const W: usize>(bvh: &Bvh<M, W>) -> Bvh<M, W> {
     Bvh::from_words(&bvh.to_words()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Random edits of a BVH and of one that was read from its words, each with a rebuilder, while meshes are changed, built and
 /// waiting.
-fn goes_on<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32, params: BuildParams) {
+fn goes_on<M: Model<W, Light = EmissiveTriangle>, const W: usize>(seed: u32, params: BuildParams)
+where
+    M::Importance: ImportanceModel<M::Node, W>,
+{
     let random = &mut Random(seed);
     let rebuilder = || {
         Rebuilder::new(RebuilderParams {
@@ -49,7 +56,7 @@ fn goes_on<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32,
             ..RebuilderParams::default()
         })
     };
-    let mut first = Bvh::<N, I, W>::new(params);
+    let mut first = Bvh::<M, W>::new(params);
     let mut again = read(&first);
     let mut rebuilders = [rebuilder(), rebuilder()];
     let mut swapped = 0;
@@ -88,12 +95,12 @@ fn goes_on<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32,
 #[test]
 fn trees_of_all_layouts_go_on() {
     for (seed, params) in (0..).zip([BuildParams::BALANCED, BuildParams::paper(crate::Heuristic::Saoh)]) {
-        goes_on::<MomentNode<8>, Moments, 8>(seed, params);
-        goes_on::<CompactNode<4>, Eq4, 4>(10 + seed, params);
+        goes_on::<(MomentNode<8>, Moments), 8>(seed, params);
+        goes_on::<(CompactNode<4>, Eq4), 4>(10 + seed, params);
     }
-    goes_on::<MomentNode<16>, Moments, 16>(20, BuildParams::BALANCED);
-    goes_on::<TwoSidedMomentNode<8>, Moments, 8>(21, BuildParams::BALANCED);
-    goes_on::<CompactNode<2>, Eq4, 2>(23, BuildParams::BALANCED);
+    goes_on::<(MomentNode<16>, Moments), 16>(20, BuildParams::BALANCED);
+    goes_on::<(TwoSidedMomentNode<8>, Moments), 8>(21, BuildParams::BALANCED);
+    goes_on::<(CompactNode<2>, Eq4), 2>(23, BuildParams::BALANCED);
 }
 
 /// Trees deep enough for two words of trail, and large enough for several threads.
@@ -109,10 +116,10 @@ fn deep_trees_are_read() {
         crate::kit::triangle([[x, 0.0, 0.0], [x, size, 0.0], [x, 0.0, size]])
     };
     let lamps = Lights::new((0..90).map(light).collect()).expect("within the domain");
-    let bvh = Bvh::<CompactNode<2>, Eq4, 2>::single_level(&lamps, &params);
+    let bvh = Bvh::<(CompactNode<2>, Eq4), 2>::single_level(&lamps, &params);
     assert_eq!(bvh.tree().trail_words, 2);
     alike(&bvh, &read(&bvh));
-    let mut bvh = Bvh::<CompactNode<2>, Eq4, 2>::two_level(&lights(3, 5000), &BuildParams::BALANCED);
+    let mut bvh = Bvh::<(CompactNode<2>, Eq4), 2>::two_level(&lights(3, 5000), &BuildParams::BALANCED);
     let mut again = read(&bvh);
     alike(&bvh, &again);
     for bvh in [&mut bvh, &mut again] {
@@ -123,7 +130,7 @@ fn deep_trees_are_read() {
 
 #[test]
 fn ids_are_given_by_index() {
-    let bvh = Bvh::<MomentNode<8>, Moments, 8>::two_level(&lights(1, 20), &BuildParams::BALANCED);
+    let bvh = Bvh::<(MomentNode<8>, Moments)>::two_level(&lights(1, 20), &BuildParams::BALANCED);
     let again = read(&bvh);
     let (old, new) = (
         bvh.instance_id(0).expect("one"),
@@ -142,14 +149,14 @@ fn ids_are_given_by_index() {
 
 #[test]
 fn another_type_is_refused() {
-    let words = Bvh::<MomentNode<8>, Moments, 8>::default().to_words();
-    let two_sided = Bvh::<TwoSidedMomentNode<8>, Moments, 8>::from_words(&words);
+    let words = Bvh::<(MomentNode<8>, Moments)>::default().to_words();
+    let two_sided = Bvh::<(TwoSidedMomentNode<8>, Moments)>::from_words(&words);
     let error = two_sided.expect_err("another layout").to_string();
     assert!(
         error.contains("\"two-sided moments\" over lights of kind \"emissive triangle\""),
         "{error}"
     );
-    let wide = Bvh::<MomentNode<16>, Moments, 16>::from_words(&words);
+    let wide = Bvh::<(MomentNode<16>, Moments), 16>::from_words(&words);
     let error = wide.expect_err("another width").to_string();
     assert!(error.contains("nodes of 8 children, expected 16"), "{error}");
 }

@@ -1,5 +1,6 @@
 //! From a light BVH to words.
 
+use crate::model::Model;
 use alloc::vec::Vec;
 use core::mem::offset_of;
 
@@ -9,7 +10,7 @@ use crate::light::Light;
 use crate::node::{Node, kind};
 use crate::tree::INVALID;
 
-impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// The BVH as words, which [`from_words`](Self::from_words) reads; a file holds them in little-endian order. They name the
     /// layout `N` and the width `W`, not the importance `I`, of which no word depends. Takes time and memory in proportion to
     /// the arrays.
@@ -24,7 +25,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             magic: MAGIC,
             format: FORMAT,
             length: 0,
-            layout: layout::<N, W>(),
+            layout: layout::<M::Node, W>(),
             width: W as u32,
             flags: flag(self.single, SINGLE)
                 | flag(self.forgotten, FORGOTTEN)
@@ -107,7 +108,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         for range in self.meshes.iter().map(|mesh| &mesh.nodes) {
             used[range.start as usize..range.end as usize].fill(true);
         }
-        let nothing = N::EMPTY;
+        let nothing = M::Node::EMPTY;
         for (node, &used) in self.nodes.iter().zip(&used) {
             write_node(words, if used { node } else { &nothing });
         }
@@ -125,7 +126,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 let places = own.iter().enumerate();
                 words.extend(
                     places
-                        .filter(|&(place, _)| place != N::Light::MESH_WORD)
+                        .filter(|&(place, _)| place != M::Light::MESH_WORD)
                         .map(|(_, word)| word),
                 );
             } else {

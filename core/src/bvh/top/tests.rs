@@ -2,6 +2,8 @@
 
 extern crate std;
 
+use crate::light::EmissiveTriangle;
+use crate::model::Model;
 use std::vec::Vec;
 
 use super::*;
@@ -10,15 +12,15 @@ use crate::exact::pow2;
 use crate::importance::{Eq4, Moments};
 use crate::kit::scenes::{lamps, moved, scattered, sound, with_one_far};
 use crate::kit::{Random, triangle};
-use crate::node::{CompactNode, LightNode, MomentNode};
+use crate::node::{CompactNode, MomentNode};
 use crate::trail::max_levels;
 use crate::{InstanceId, LightBvh, Transform};
 
 /// Small lamps at places.
-fn small<N: LightNode<W>, I, const W: usize>(
+fn small<M: Model<W, Light = EmissiveTriangle>, const W: usize>(
     count: u32,
     place: impl FnMut(u32) -> [f32; 3],
-) -> (Bvh<N, I, W>, Vec<InstanceId>) {
+) -> (Bvh<M, W>, Vec<InstanceId>) {
     scattered(
         std::vec![triangle([[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0]])],
         count,
@@ -31,13 +33,14 @@ fn within(random: &mut Random, reach: f32) -> [f32; 3] {
 }
 
 /// Cost of the nodes below the root by Ward's criterion.
-fn cost<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> f64 {
+fn cost<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> f64 {
     let below = bvh
         .top
         .by_height()
         .into_iter()
         .filter(|&(_, node)| node != bvh.top.root);
-    let sets = below.map(|(_, node)| N::Summary::from_words(&bvh.top.shapes[node as usize].words));
+    let sets = below
+        .map(|(_, node)| <M::Node as Node<W>>::Summary::from_words(&bvh.top.shapes[node as usize].words));
     sets.map(|own| f64::from(own.phi()) * f64::from(own.spread()))
         .sum()
 }
@@ -50,7 +53,7 @@ fn to_fresh(bvh: &LightBvh) -> f64 {
 }
 
 /// Nodes whose children the edits since the last call changed; none after a whole build.
-fn edited<N: Node<W>, I, const W: usize>(bvh: &Bvh<N, I, W>, cursor: &mut Cursor) -> Option<usize> {
+fn edited<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>, cursor: &mut Cursor) -> Option<usize> {
     let plan = bvh.plan(cursor);
     (!plan.whole_top).then(|| plan.written_top.iter().map(ExactSizeIterator::len).sum())
 }
@@ -134,7 +137,7 @@ fn a_batch_of_more_than_a_quarter_is_a_fresh_build() {
 /// Each lamp at half the distance of the one before goes one level further down.
 #[test]
 fn a_tree_too_deep_for_its_trails_is_built_whole() {
-    let (mut bvh, ids): (Bvh<CompactNode<2>, Eq4, 2>, _) = small(8, |k| [1e9 + 1e8 * k as f32, 0.0, 0.0]);
+    let (mut bvh, ids): (Bvh<(CompactNode<2>, Eq4), 2>, _) = small(8, |k| [1e9 + 1e8 * k as f32, 0.0, 0.0]);
     let mesh = bvh.mesh_of(ids[0]).expect("a mesh");
     let (mut cursor, mut wholes, mut deepest) = (Cursor::default(), 0, 0);
     edited(&bvh, &mut cursor);
@@ -156,10 +159,10 @@ fn a_tree_too_deep_for_its_trails_is_built_whole() {
 }
 
 /// Lamps have zero flux while the tree is built and while they move: one of 50, or all but one.
-fn stand_among_neighbours<N: LightNode<W>, I, const W: usize>() {
+fn stand_among_neighbours<M: Model<W, Light = EmissiveTriangle>, const W: usize>() {
     for (first, step, most) in [(0, 50, 1.05), (1, 1, 1.3)] {
         let random = &mut Random(9);
-        let (mut bvh, ids): (Bvh<N, I, W>, _) = small(2000, |_| within(random, 50.0));
+        let (mut bvh, ids): (Bvh<M, W>, _) = small(2000, |_| within(random, 50.0));
         for radiance in [0.0, 1.0] {
             let some = ids.iter().skip(first).step_by(step);
             some.for_each(|&id| bvh.set_radiance(id, [radiance; 3]).expect("a factor"));
@@ -183,8 +186,8 @@ fn stand_among_neighbours<N: LightNode<W>, I, const W: usize>() {
 
 #[test]
 fn lamps_that_are_off_stand_among_their_neighbours() {
-    stand_among_neighbours::<MomentNode<8>, Moments, 8>();
-    stand_among_neighbours::<CompactNode<4>, Eq4, 4>();
+    stand_among_neighbours::<(MomentNode<8>, Moments), 8>();
+    stand_among_neighbours::<(CompactNode<4>, Eq4), 4>();
 }
 
 #[test]

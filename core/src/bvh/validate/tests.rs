@@ -9,7 +9,7 @@ use crate::kit::triangle;
 use crate::trail::max_levels;
 use crate::{BuildParams, CompactNode, Edit, Transform};
 
-type Tree = Bvh<CompactNode<2>, crate::Eq4, 2>;
+type Tree = Bvh<(CompactNode<2>, crate::Eq4), 2>;
 
 /// Two meshes of 5 and 4 lights; three instances of each, one of them stretched; levels to spare.
 fn scene() -> Tree {

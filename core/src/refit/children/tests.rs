@@ -12,7 +12,7 @@ use crate::node::{CompactNode, LinkedSpotMomentNode, MomentNode, SpotMomentNode,
 use crate::{Bvh, Transform};
 
 /// Two meshes, a small and a large one, each twice, one of the instances of the larger turned and scaled.
-fn scene<N: Node<W>, const W: usize>(random: &mut Random) -> Bvh<N, (), W>
+fn scene<N: Node<W>, const W: usize>(random: &mut Random) -> Bvh<(N, ()), W>
 where
     N::Light: Lamp,
 {
@@ -37,7 +37,7 @@ where
 }
 
 /// All nodes in one array, as on a device, those of the top level last, and where they begin.
-fn flat<N: Node<W>, const W: usize>(bvh: &Bvh<N, (), W>) -> (Vec<N>, u32) {
+fn flat<N: Node<W>, const W: usize>(bvh: &Bvh<(N, ()), W>) -> (Vec<N>, u32) {
     ([bvh.nodes(), bvh.top_nodes()].concat(), bvh.nodes().len() as u32)
 }
 

@@ -160,7 +160,7 @@ impl Staged {
     }
 
     /// The model, once the scene has given the new ones their ids.
-    pub fn done<N: LightNode<W>, const W: usize>(self, updated: &Added, scene: &Bvh<N, (), W>) -> Model {
+    pub fn done<N: LightNode<W>, const W: usize>(self, updated: &Added, scene: &Bvh<(N, ()), W>) -> Model {
         let mut model = self.model;
         assert_eq!(updated.meshes.len(), self.meshes.len());
         assert_eq!(updated.instances.len(), self.added.len());

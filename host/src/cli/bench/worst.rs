@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use lightbvh::importance::Space;
 use lightbvh::{BuildParams, INVALID, ImportanceModel, LightNode, LightTree, Random64, ShadingPoint};
-use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice};
+use lightbvh_kernels::bvh::{Paper, TriangleModel, Triangles};
 use serde::Serialize;
 use serde_json::json;
 
@@ -57,7 +57,7 @@ struct Case {
 pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
     let mut cases = Vec::new();
     for scene in scenes() {
-        cases.extend(measure::<Standard, 8>(&scene));
+        cases.extend(measure::<Triangles, 8>(&scene));
         cases.extend(measure::<Paper, 4>(&scene));
     }
     let bounded = cases
@@ -76,7 +76,7 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
     Ok(Outcome::good_if(bounded))
 }
 
-fn measure<C: TriangleChoice<W>, const W: usize>(scene: &Scene) -> Vec<Case> {
+fn measure<C: TriangleModel<W>, const W: usize>(scene: &Scene) -> Vec<Case> {
     let bvh = Bvh::<C, W>::single_level(&scene.lights, &BuildParams::default());
     let tree = bvh.tree();
     let lights = scene.lights.all().len() as u32;

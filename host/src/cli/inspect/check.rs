@@ -2,7 +2,7 @@
 
 use lightbvh::importance::DefaultImportance;
 use lightbvh::refit::Instance;
-use lightbvh::requirements::{Layout, Model, Requirements};
+use lightbvh::requirements::{Choice, Layout, Requirements};
 use lightbvh::{
     BuildParams, Bvh, ImportanceModel, LightNode, Lights, MomentNode, ShadingPoint, TwoSidedMomentNode,
 };
@@ -64,7 +64,7 @@ pub(super) struct Cost {
 
 pub(super) struct Checked {
     /// The model without what was put back, and its row.
-    pub model: Model,
+    pub model: Choice,
     pub last: usize,
     pub rows: Vec<Row>,
 }
@@ -125,14 +125,14 @@ struct Source<'a> {
 }
 
 impl Source<'_> {
-    fn build(&self, model: &Model, points: &[ShadingPoint]) -> Result<Subject, HostError> {
+    fn build(&self, model: &Choice, points: &[ShadingPoint]) -> Result<Subject, HostError> {
         match model.layout {
             Layout::TwoSidedMoments => self.of::<TwoSidedMomentNode<WIDTH>, DefaultImportance>(model, points),
             _ => self.of::<MomentNode<WIDTH>, DefaultImportance>(model, points),
         }
     }
 
-    fn of<N, I>(&self, model: &Model, points: &[ShadingPoint]) -> Result<Subject, HostError>
+    fn of<N, I>(&self, model: &Choice, points: &[ShadingPoint]) -> Result<Subject, HostError>
     where
         N: LightNode<WIDTH>,
         I: ImportanceModel<N, WIDTH> + Sync,
@@ -161,7 +161,7 @@ impl Source<'_> {
     }
 
     /// A light BVH, moved and refitted if its lights move.
-    fn bvh<N: LightNode<WIDTH>, I>(&self, model: &Model) -> Result<Bvh<N, I, WIDTH>, HostError> {
+    fn bvh<N: LightNode<WIDTH>, I>(&self, model: &Choice) -> Result<Bvh<(N, I), WIDTH>, HostError> {
         let params = BuildParams::default();
         if model.single_level {
             return Ok(Bvh::single_level(self.lights, &params));
@@ -176,7 +176,7 @@ impl Source<'_> {
 }
 
 /// A part of a model, and how one model takes it from another.
-type Part = (&'static str, fn(&mut Model, &Model));
+type Part = (&'static str, fn(&mut Choice, &Choice));
 
 /// Each is taken after those before it.
 const PARTS: [Part; 2] = [
@@ -184,7 +184,7 @@ const PARTS: [Part; 2] = [
     ("levels", |to, from| to.single_level = from.single_level),
 ];
 
-fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
+fn promise(part: &str, model: &Choice, requirements: &Requirements) -> Promise {
     let is_identity = requirements.is_one_mesh() && requirements.placed == 0;
     match part {
         "layout" if model.layout == Layout::TwoSidedMoments && requirements.one_sided == 0 => Promise::Bits,
@@ -207,7 +207,7 @@ pub(super) fn check(
         frames,
         lights,
     };
-    let mut model = Model::DEFAULT;
+    let mut model = Choice::DEFAULT;
     let mut subject = source.build(&model, points)?;
     let mut rows = vec![Row {
         part: "default",

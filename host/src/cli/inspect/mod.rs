@@ -6,11 +6,10 @@ mod kinds;
 use std::ffi::OsString;
 
 use lightbvh::BuildParams;
-use lightbvh::importance::DefaultImportance;
 use lightbvh::light::AnyLight;
-use lightbvh::requirements::{Declared, Layout, Model, Requirements};
+use lightbvh::requirements::{Choice, Declared, Layout, Requirements};
 use lightbvh_gpu::KernelSet;
-use lightbvh_kernels::bvh::{Node, WIDTH};
+use lightbvh_kernels::bvh::{Triangles, WIDTH};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -89,9 +88,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     if let Some(left_out) = scene.unknown_lights() {
         news!("{}: {left_out}", scene.name());
     }
-    let (bvh, _) =
-        Instances::new::<Node, DefaultImportance, WIDTH>(&scene, args.frame, BuildParams::default())
-            .map_err(|error| HostError::in_frame(scene.name(), args.frame, error))?;
+    let (bvh, _) = Instances::new::<Triangles, WIDTH>(&scene, args.frame, BuildParams::default())
+        .map_err(|error| HostError::in_frame(scene.name(), args.frame, error))?;
     let requirements = Requirements::of(&bvh, declared);
     let chosen = requirements.model();
     let lights = lights_at(&scene, frames[1])?;
@@ -367,7 +365,7 @@ const COLUMNS: &[table::Column<Row>] = &[
     ("all arrays", |r| format!("{:.1}", r.cost.memory_per_light)),
 ];
 
-fn model_json(model: &Model) -> Value {
+fn model_json(model: &Choice) -> Value {
     json!({
         "type": model.type_name(),
         "layout": model.layout.name(),

@@ -1,6 +1,7 @@
 //! A configuration: a light BVH that follows the animation, and an importance by which lights are chosen. Trees are of two
 //! types, the default's and the paper's: other importances choose from the same nodes.
 
+use lightbvh::tree::Model;
 use std::fmt;
 use std::hint::black_box;
 use std::marker::PhantomData;
@@ -9,7 +10,7 @@ use std::time::{Duration, Instant};
 use lightbvh::exact::hash;
 use lightbvh::node::Node as _;
 use lightbvh::{ImportanceModel, Lights, SampledLight, ShadingPoint};
-use lightbvh_kernels::bvh::{Choice, Paper, Standard, TreeOf, TriangleChoice, WIDTH};
+use lightbvh_kernels::bvh::{Paper, TreeOf, TriangleModel, Triangles, WIDTH};
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::emitters::Emitters;
 use serde::Serialize;
@@ -89,7 +90,7 @@ impl Config {
             axis,
             levels: Sampler::TwoLevel,
             importance: "moments+1/64",
-            layout: <Standard as Choice<WIDTH>>::Node::NAME,
+            layout: <Triangles as Model<WIDTH>>::Node::NAME,
             width: WIDTH,
             builder: Builder::Ward,
             update: Update::TopRebuild,
@@ -100,9 +101,9 @@ impl Config {
     /// Over the default's nodes, by an importance of this name.
     pub fn of<I>(self, importance: &'static str, first: &Step<'_>) -> Result<Box<dyn Subject>, HostError>
     where
-        I: ImportanceModel<<Standard as Choice<WIDTH>>::Node, WIDTH> + Sync + 'static,
+        I: ImportanceModel<<Triangles as Model<WIDTH>>::Node, WIDTH> + Sync + 'static,
     {
-        self.built::<Standard, I, WIDTH>(importance, first)
+        self.built::<Triangles, I, WIDTH>(importance, first)
     }
 
     /// Over the paper's nodes, built by SAOH.
@@ -112,7 +113,7 @@ impl Config {
         first: &Step<'_>,
     ) -> Result<Box<dyn Subject>, HostError>
     where
-        I: ImportanceModel<<Paper as Choice<4>>::Node, 4> + Sync + 'static,
+        I: ImportanceModel<<Paper as Model<4>>::Node, 4> + Sync + 'static,
     {
         let builder = Builder::Saoh;
         Self { builder, ..self }.built::<Paper, I, 4>(importance, first)
@@ -124,7 +125,7 @@ impl Config {
         first: &Step<'_>,
     ) -> Result<Box<dyn Subject>, HostError>
     where
-        C: TriangleChoice<W> + 'static,
+        C: TriangleModel<W> + 'static,
         I: ImportanceModel<C::Node, W> + Sync + 'static,
     {
         let (layout, width) = (C::Node::NAME, W);
@@ -187,7 +188,7 @@ pub(super) trait Subject: Sync {
 }
 
 /// A tree that follows the animation, and an importance `I` by which lights are chosen.
-struct Followed<C: TriangleChoice<W>, I, const W: usize> {
+struct Followed<C: TriangleModel<W>, I, const W: usize> {
     config: Config,
     bvh: Bvh<C, W>,
     /// Of two levels.
@@ -196,7 +197,7 @@ struct Followed<C: TriangleChoice<W>, I, const W: usize> {
     importance: PhantomData<I>,
 }
 
-impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W>, const W: usize> Followed<C, I, W> {
+impl<C: TriangleModel<W>, I: ImportanceModel<C::Node, W>, const W: usize> Followed<C, I, W> {
     /// The probability of a sample, the last of its candidates.
     fn draw(&self, tree: &TreeOf<'_, C, W>, point: &ShadingPoint, number: u32) -> f32 {
         let tree = tree.by::<I>();
@@ -211,7 +212,7 @@ impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W>, const W: usize> Follo
     }
 }
 
-impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize> Subject
+impl<C: TriangleModel<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize> Subject
     for Followed<C, I, W>
 {
     fn config(&self) -> Config {
@@ -293,7 +294,7 @@ impl<C: TriangleChoice<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize
 }
 
 /// The tree of a frame, and where the lights of one of two levels are.
-fn tree<C: TriangleChoice<W>, const W: usize>(
+fn tree<C: TriangleModel<W>, const W: usize>(
     config: &Config,
     frame: &Step<'_>,
 ) -> Result<(Bvh<C, W>, Option<Instances>), HostError> {

@@ -6,7 +6,7 @@ use lightbvh::{Edit, EmissiveTriangle, InstanceId, LightNode, MomentNode, Transf
 
 use super::*;
 
-type Tree = Bvh<MomentNode<8>, (), 8>;
+type Tree = Bvh<(MomentNode<8>, ())>;
 
 fn lamp(x: f32) -> EmissiveTriangle {
     EmissiveTriangle {
@@ -18,7 +18,7 @@ fn lamp(x: f32) -> EmissiveTriangle {
 }
 
 /// Twenty instances of each of two meshes, refitted.
-pub(crate) fn scene<N: LightNode<W>, const W: usize>() -> (Bvh<N, (), W>, Vec<InstanceId>) {
+pub(crate) fn scene<N: LightNode<W>, const W: usize>() -> (Bvh<(N, ()), W>, Vec<InstanceId>) {
     let mut scene = Bvh::default();
     let mut all = Vec::new();
     for count in [3_u16, 300] {

@@ -1,5 +1,7 @@
 //! Malformed input.
 
+use crate::light::EmissiveTriangle;
+use crate::model::Model;
 use alloc::vec::Vec;
 
 use alloc::string::ToString;
@@ -9,12 +11,12 @@ use crate::bvh::Bvh;
 use crate::importance::{Eq4, Moments};
 use crate::kit::Random;
 use crate::kit::scenes::{edits, lamps, placed};
-use crate::node::{CompactNode, LightNode, MomentNode, Node};
+use crate::node::{CompactNode, MomentNode, Node};
 
 /// A small BVH with an opened instance, and places not in use.
-fn small<N: LightNode<W>, I, const W: usize>() -> Bvh<N, I, W> {
+fn small<M: Model<W, Light = EmissiveTriangle>, const W: usize>() -> Bvh<M, W> {
     let random = &mut Random(5);
-    let mut bvh = Bvh::<N, I, W>::default();
+    let mut bvh = Bvh::<M, W>::default();
     let mut ids = Vec::new();
     for count in [64, 1, 5] {
         let mesh = bvh.add_mesh(lamps(random, count)).expect("lights");
@@ -34,7 +36,7 @@ fn small<N: LightNode<W>, I, const W: usize>() -> Bvh<N, I, W> {
 
 /// What is read, if it is, is valid, and edits do not break it.
 fn harmless(words: &[u32], seed: u32) {
-    let Ok(mut bvh) = Bvh::<CompactNode<4>, Eq4, 4>::from_words(words) else {
+    let Ok(mut bvh) = Bvh::<(CompactNode<4>, Eq4), 4>::from_words(words) else {
         return;
     };
     alike(&bvh, &read(&bvh));
@@ -52,7 +54,7 @@ fn harmless(words: &[u32], seed: u32) {
 /// fuzz target `read_words`.
 #[test]
 fn wrong_numbers_are_refused_or_harmless() {
-    let words = small::<CompactNode<4>, Eq4, 4>().to_words();
+    let words = small::<(CompactNode<4>, Eq4), 4>().to_words();
     for at in 0..words.len() {
         for value in [
             0,
@@ -73,28 +75,28 @@ fn wrong_numbers_are_refused_or_harmless() {
 
 #[test]
 fn cut_words_are_refused() {
-    let words = small::<MomentNode<8>, Moments, 8>().to_words();
+    let words = small::<(MomentNode<8>, Moments), 8>().to_words();
     for length in 0..words.len() {
         let mut cut = words[..length].to_vec();
-        let error = Bvh::<MomentNode<8>, Moments, 8>::from_words(&cut).expect_err("words are missing");
+        let error = Bvh::<(MomentNode<8>, Moments)>::from_words(&cut).expect_err("words are missing");
         assert!(error.to_string().contains("cut or damaged"), "{error}");
         // As long as it says.
         if length > 2 {
             cut[2] = length as u32;
-            assert!(Bvh::<MomentNode<8>, Moments, 8>::from_words(&cut).is_err());
+            assert!(Bvh::<(MomentNode<8>, Moments)>::from_words(&cut).is_err());
         }
     }
     let mut more = words.clone();
     more.push(0);
     more[2] += 1;
-    let error = Bvh::<MomentNode<8>, Moments, 8>::from_words(&more).expect_err("one too many");
+    let error = Bvh::<(MomentNode<8>, Moments)>::from_words(&more).expect_err("one too many");
     assert!(error.to_string().contains("cut or damaged"), "{error}");
 }
 
 /// A node of a bottom level comes before those below it, and what is below one is together.
 #[test]
 fn nodes_in_another_order_are_refused() {
-    type Deep = Bvh<CompactNode<2>, Eq4, 2>;
+    type Deep = Bvh<(CompactNode<2>, Eq4), 2>;
     let lights = super::lights(1, 6);
     let bvh = Deep::single_level(&lights, &crate::BuildParams::default());
     let count = bvh.meshes[0].nodes.len();
@@ -134,7 +136,7 @@ fn nodes_in_another_order_are_refused() {
 /// One word said that there are numbers up to 2^30, and asking for all lights by number then asked for 60 GB.
 #[test]
 fn numbers_that_nobody_has_are_refused() {
-    type Small = Bvh<MomentNode<8>, Moments, 8>;
+    type Small = Bvh<(MomentNode<8>, Moments)>;
     let mut bvh: Small = small();
     assert!(bvh.take_removed_lights().iter().len() > 0);
     let mut words = bvh.to_words();

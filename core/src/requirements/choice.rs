@@ -29,7 +29,7 @@ impl Layout {
 
 /// A light BVH's parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Model {
+pub struct Choice {
     /// What nodes store.
     pub layout: Layout,
     /// One tree over triangles that stand in the world ([`Bvh::single_level`](crate::Bvh::single_level)), instead of one over instances
@@ -41,7 +41,7 @@ pub struct Model {
     pub uniform_halvings: u32,
 }
 
-impl Model {
+impl Choice {
     /// What serves any scene: [`LightBvh`](crate::LightBvh) in two levels.
     pub const DEFAULT: Self = Self {
         layout: Layout::Moments,
@@ -71,13 +71,17 @@ impl Model {
     /// The type of the light BVH, as Rust has it.
     #[must_use]
     pub fn type_name(&self) -> String {
-        let (node, importance, width) = (self.node_type(), self.importance_type(), self.width);
-        format!("Bvh<{node}, {importance}, {width}>")
+        let (node, importance) = (self.node_type(), self.importance_type());
+        let width = match self.width {
+            8 => String::new(),
+            width => format!(", {width}"),
+        };
+        format!("Bvh<({node}, {importance}){width}>")
     }
 }
 
 /// The type, and how it is built.
-impl fmt::Display for Model {
+impl fmt::Display for Choice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let levels = if self.single_level {
             "one level"
@@ -93,9 +97,9 @@ impl Requirements {
     /// several, or of a mesh that stands elsewhere than at the identity, is another tree: what that does to the variance
     /// depends on the scene, and `lightbvh inspect` measures it.
     #[must_use]
-    pub fn model(&self) -> Model {
+    pub fn model(&self) -> Choice {
         let d = self.declared;
-        Model {
+        Choice {
             layout: if self.one_sided == 0 && !d.meshes {
                 Layout::TwoSidedMoments
             } else {
@@ -105,7 +109,7 @@ impl Requirements {
             single_level: !(d.transforms || d.radiance || d.instances || d.meshes)
                 && (!d.triangles || self.meshes.max(self.instances) < 2)
                 && self.most_instances < 2,
-            ..Model::DEFAULT
+            ..Choice::DEFAULT
         }
     }
 }

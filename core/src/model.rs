@@ -1,0 +1,70 @@
+//! What a light BVH is made of.
+
+use crate::importance::{DefaultImportance, Eq4, Leveled, Linked, Moments};
+use crate::light::{AnyLight, EmissiveTriangle, Light};
+use crate::node::{CompactNode, DefaultNode, Holds, LinkedSpotMomentNode, Node, SpotMomentNode};
+
+/// What a light BVH is made of, named once: lights, the layout of nodes of width `W`, and what children are chosen by. A pair of a
+/// layout and an importance is a model, too: `Bvh<(MomentNode<8>, Moments)>`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no model of width {W}",
+    note = "`LightBvh`, `AnyLights` and `MaskedLights` are 8 wide; a pair of a layout and an importance is as wide as its layout: \
+            `Bvh<(CompactNode<4>, Eq4), 4>`"
+)]
+pub trait Model<const W: usize> {
+    /// What the lights are.
+    type Light: Light;
+    /// The layout of nodes.
+    type Node: Node<W> + Holds<Light = Self::Light>;
+    /// What children are chosen by.
+    type Importance;
+}
+
+/// What its nodes store of each child.
+pub(crate) type SummaryOf<M, const W: usize> = <<M as Model<W>>::Node as Node<W>>::Summary;
+
+impl<N: Node<W>, I, const W: usize> Model<W> for (N, I) {
+    type Light = N::Light;
+    type Node = N;
+    type Importance = I;
+}
+
+/// [`LightBvh`](crate::LightBvh)'s: emissive triangles, moments on packed nodes of 8 children, 1/64 of uniform choice.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangles;
+
+impl Model<8> for Triangles {
+    type Light = EmissiveTriangle;
+    type Node = DefaultNode;
+    type Importance = DefaultImportance;
+}
+
+/// [`AnyLights`](crate::AnyLights)'s: [`Triangles`] over lights of every kind, whose nodes know cones and ranges.
+#[derive(Clone, Copy, Debug)]
+pub struct AnyKind;
+
+impl Model<8> for AnyKind {
+    type Light = AnyLight;
+    type Node = SpotMomentNode<8, AnyLight>;
+    type Importance = DefaultImportance;
+}
+
+/// [`MaskedLights`](crate::MaskedLights)'s: [`AnyKind`] with masks.
+#[derive(Clone, Copy, Debug)]
+pub struct Masked;
+
+impl Model<8> for Masked {
+    type Light = AnyLight;
+    type Node = LinkedSpotMomentNode<8, AnyLight>;
+    type Importance = Linked<Leveled<Moments, 11>>;
+}
+
+/// The paper's: Eq. 4 on quantised bounds, 4 children to a node.
+#[derive(Clone, Copy, Debug)]
+pub struct Paper;
+
+impl Model<4> for Paper {
+    type Light = EmissiveTriangle;
+    type Node = CompactNode<4>;
+    type Importance = Eq4;
+}
