@@ -188,7 +188,7 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
     )?;
     print_devices(&report.devices)?;
     say!(
-        "cpu: {} words computed by one thread and by all, {} different",
+        "cpu: {} probabilities of samples against `pmf`, {} different",
         report.cpu_compared,
         report.cpu_different
     )?;
