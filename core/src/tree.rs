@@ -134,7 +134,7 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
         if _is_top { self.top } else { self.nodes }
     }
 
-    /// Node `index` of the top level, or of a bottom level. An index out of range (hostile words) reads node 0.
+    /// Node `index` of the top level, or of a bottom level. An index out of range (malformed words) reads node 0.
     #[inline(always)]
     pub(crate) fn node(&self, is_top: bool, index: u32) -> &'a N {
         let nodes = self.nodes_of(is_top);
