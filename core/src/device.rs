@@ -9,6 +9,10 @@ pub mod bounds {
 pub mod cone {
     pub use crate::cone::*;
 }
+/// Luminance of colours.
+pub mod emission {
+    pub use crate::emission::luminance_of;
+}
 /// The levels of a tree, in the order of a refit.
 #[cfg(feature = "alloc")]
 pub mod levels {
@@ -22,7 +26,11 @@ pub mod moments {
 pub mod point {
     pub use crate::point::*;
 }
-/// What nodes summarise.
+/// Distances of children's centres, for importances.
+pub mod sight {
+    pub use crate::importance::sight::*;
+}
+/// Summaries of lights.
 pub mod summary {
     pub use crate::summary::*;
 }

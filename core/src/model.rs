@@ -1,10 +1,10 @@
-//! What a light BVH is made of.
+//! Models of a light BVH.
 
 use crate::importance::{DefaultImportance, Eq4, Leveled, Linked, Moments};
 use crate::light::{AnyLight, EmissiveTriangle, Light};
 use crate::node::{CompactNode, DefaultNode, Holds, LinkedSpotMomentNode, Node, SpotMomentNode};
 
-/// What a light BVH is made of, named once: lights, the layout of nodes of width `W`, and what children are chosen by. A pair of a
+/// A model of a light BVH: light type, layout of nodes of width `W`, and importance. A pair of a
 /// layout and an importance is a model, too: `Bvh<(MomentNode<8>, Moments)>`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no model of width {W}",
@@ -12,15 +12,15 @@ use crate::node::{CompactNode, DefaultNode, Holds, LinkedSpotMomentNode, Node, S
             `Bvh<(CompactNode<4>, Eq4), 4>`"
 )]
 pub trait Model<const W: usize> {
-    /// What the lights are.
+    /// The light type.
     type Light: Light;
     /// The layout of nodes.
     type Node: Node<W> + Holds<Light = Self::Light>;
-    /// What children are chosen by.
+    /// The importance.
     type Importance;
 }
 
-/// What its nodes store of each child.
+/// The summary that its nodes store of each child.
 pub(crate) type SummaryOf<M, const W: usize> = <<M as Model<W>>::Node as Node<W>>::Summary;
 
 impl<N: Node<W>, I, const W: usize> Model<W> for (N, I) {

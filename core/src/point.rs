@@ -104,7 +104,7 @@ impl Instance {
             dot(self.column(2), n),
         ));
         let length = length_squared(back);
-        // A normal that the map loses is that of a volume.
+        // If the map makes the normal zero, the point counts as in a volume.
         let scale = if length >= pow2(-119) {
             exact::rsqrt(length)
         } else {
@@ -125,8 +125,8 @@ impl Instance {
     }
 }
 
-/// What a walk may be told of a receiver, to be brought into the space of each instance that it enters: a [`ShadingPoint`], or a type that
-/// says more to an importance that asks for it.
+/// A receiver type: a [`ShadingPoint`], or one with more data for an importance that uses it. A walk transforms it into the space of each
+/// instance.
 pub trait Receiver: Copy {
     /// The receiver in the space of the instance's mesh.
     fn to_local(&self, instance: &Instance) -> Self;

@@ -30,7 +30,7 @@ const AHEAD: usize = 4;
 
 /// Asks for the lights that a node's refit will read.
 #[inline(always)]
-fn fetch_triangles<N: Node<W>, const W: usize>(node: &N, lights: &[N::Light]) {
+fn fetch_lights<N: Node<W>, const W: usize>(node: &N, lights: &[N::Light]) {
     if cfg!(feature = "prefetch") {
         for slot in 0..W {
             if node.kind(slot) == kind::LIGHT {
@@ -48,7 +48,7 @@ fn one_by_one<N: Node<W>, const W: usize>(nodes: &mut [N], count: usize, first: 
             let mut room = Room::<N::Light, W>::new();
             for index in (0..count).rev() {
                 if let Some(soon) = index.checked_sub(AHEAD) {
-                    fetch_triangles(&nodes[soon], lights);
+                    fetch_lights(&nodes[soon], lights);
                 }
                 refit::below(nodes, first, lights, &nodes[index], &mut room);
                 let limits = refit::limits_below(nodes, first, lights, &nodes[index], &room.children);

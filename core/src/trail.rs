@@ -189,6 +189,35 @@ impl Path {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kit::Random;
+
+    /// `with` sets one slot, `behind` moves all by a level, `slot` reads each.
+    fn slots_are_kept<const W: usize>() {
+        let (random, levels) = (&mut Random(W as u32), max_levels(W) as usize);
+        let (mut trail, mut slots) = (BitTrail::default(), [0; 64]);
+        for _ in 0..200 {
+            let (level, slot) = (random.below(levels as u32), random.below(W as u32));
+            if random.below(3) == 0 {
+                trail = trail.behind::<W>(slot);
+                slots[..levels].rotate_right(1);
+                slots[0] = slot;
+            } else {
+                trail = trail.with::<W>(level, slot);
+                slots[level as usize] = slot;
+            }
+            for (level, slot) in (0..).zip(&slots[..levels]) {
+                assert_eq!(trail.slot::<W>(level), *slot, "{W} {level}");
+            }
+        }
+    }
+
+    #[test]
+    fn trails_keep_slots_at_every_width() {
+        macro_rules! widths {
+            ($($w:literal)*) => { $(slots_are_kept::<$w>();)* };
+        }
+        widths!(2 3 4 5 6 7 8 9 10 11 12 13 14 15 16);
+    }
 
     #[test]
     fn levels_fill_the_words() {

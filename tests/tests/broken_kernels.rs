@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use bytemuck::cast_slice;
 use lightbvh::BuildParams;
 use lightbvh_host::backend::{
-    Backend, Bvh, CpuBackend, DeviceBackend, Follow, PMF_RECORD, SAMPLED_RECORD, Sampler,
+    Backend, Bvh, CpuBackend, DeviceBackend, Follow, PMF_RECORD, SAMPLED_RECORD, Sampler, held,
 };
 use lightbvh_host::scene::Scene;
 use lightbvh_host::vulkan::{Device, DeviceInfo, Exactness, Options};
@@ -68,10 +68,10 @@ fn different(device: &Device) -> [u64; 3] {
     let mut cpu = CpuBackend::<Paper, 4>::new(bvh.clone());
     let mut other = DeviceBackend::<Paper, 4>::new(device, &bvh).expect("an upload");
     cpu.bvh_mut().follow(&lights[1]).expect("the same lights");
-    let nodes = cpu.nodes().expect("nodes");
+    let nodes = &held(cpu.bvh())[0];
     other.follow(cpu.bvh()).expect("copies and a refit");
-    let found = other.nodes().expect("nodes");
-    let of_nodes = compare_words(&cpu.node_record(), &nodes, &found).expect("whole records");
+    let found = &other.held(cpu.bvh()).expect("a read")[0];
+    let of_nodes = compare_words(&nodes.record, &nodes.words, &found.words).expect("whole records");
     // Each kernel by itself: samples are of the right nodes.
     let own = cpu.bvh();
     other

@@ -14,7 +14,7 @@ use lightbvh::{
     ShadingPoint,
 };
 use lightbvh_gpu::{EQ4, Kernel, KernelSet, LinkedQuery, MOMENTS, Query, query_push};
-use lightbvh_host::backend::{Mirrored, nodes_in_use};
+use lightbvh_host::backend::{Mirrored, held};
 use lightbvh_host::vulkan::{Device, Options};
 use lightbvh_kernels::bvh::{AnyNode, Node as MomentsNode, PaperNode};
 use lightbvh_kernels::query::PointsPush;
@@ -92,18 +92,8 @@ impl<'d, N: Node<W>, const W: usize> Held<'d, N, W> {
     ) -> Vec<(P, SampledLight)> {
         self.arrays.follow(bvh).expect("a frame");
         let (device, tree) = (self.arrays.device(), bvh.by::<I>());
-        let (nodes, own) = (
-            self.arrays.nodes().expect("a read"),
-            [bvh.nodes(), bvh.top_nodes()].concat(),
-        );
-        for node in nodes_in_use(bvh) {
-            let node = node as usize..node as usize + 1;
-            same(device, "node", &nodes[node.clone()], &own[node]);
-        }
-        let roots = self.arrays.roots().expect("a read");
-        for root in bvh.plan_of_everything().roots {
-            let root = root as usize..root as usize + 1;
-            same(device, "root", &roots[root.clone()], &bvh.roots()[root]);
+        for (own, found) in held(bvh).iter().zip(self.arrays.held(bvh).expect("a read")) {
+            same(device, own.record.name, &found.words, &own.words);
         }
 
         let receivers: Vec<P> = points.iter().map(|&point| P::at(point, random)).collect();

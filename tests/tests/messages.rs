@@ -63,13 +63,9 @@ fn lights() {
         change(&mut lamps);
         says(&Lights::new(lamps).expect_err("wrong"), words);
     };
-    let nan = ["emissive triangle 2", "coordinate x", "NaN"];
+    let nan = ["light 2", "coordinate x", "NaN"];
     refused(&|lamps| lamps[2].p[0][0] = f32::NAN, &nan);
-    let gap = [
-        "emissive triangle 3",
-        "mesh light 7",
-        "expected 1 or the one before",
-    ];
+    let gap = ["light 3", "mesh light 7", "expected 1 or the one before"];
     refused(&|lamps| lamps[3].mesh = 7, &gap);
 }
 

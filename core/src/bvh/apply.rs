@@ -11,7 +11,7 @@ use crate::instance::Instance;
 use crate::model::Model;
 use crate::transform::Transform;
 
-/// What a batch of edits made.
+/// Ids that a batch of edits made.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Added {
@@ -28,7 +28,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     ///
     /// Time is in proportion to the edits, to the lights in them, and to the instances of each mesh that is deformed as a
     /// whole, reaches farther than before, or gets its first [surface](crate::light::Light::is_surface) or loses its
-    /// last, as often as it is. A mesh is built within the call that adds it: 0.2 to 0.4 µs for each triangle. The top level
+    /// last, as often as it is. A mesh is built within the call that adds it: 0.2 to 0.4 µs for each light. The top level
     /// is edited by the next refit (measured: `docs/dynamics.md`).
     ///
     /// # Errors
@@ -73,9 +73,9 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                 }
                 Edit::SetLight { instance, light } => {
                     let mesh = self.placed[instance.index as usize].mesh;
-                    self.write_triangles(mesh, 0, &[light]);
+                    self.write_lights(mesh, 0, &[light]);
                 }
-                // Engines send all their transforms in every frame: what is set as it was is no change.
+                // Skip edits that change nothing.
                 Edit::SetTransform { instance, transform } => self.set_place(instance.index, transform),
                 Edit::SetRadiance { instance, radiance } => {
                     let own = &mut self.placed[instance.index as usize].radiance;
@@ -89,10 +89,8 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                         self.place(instance.index);
                     }
                 }
-                Edit::SetLights { mesh, lights } => self.write_triangles(mesh.index, 0, &lights),
-                Edit::SetLightRange { mesh, first, lights } => {
-                    self.write_triangles(mesh.index, first, &lights)
-                }
+                Edit::SetLights { mesh, lights } => self.write_lights(mesh.index, 0, &lights),
+                Edit::SetLightRange { mesh, first, lights } => self.write_lights(mesh.index, first, &lights),
                 Edit::RemoveInstance(id) => self.take_instance(id.index),
                 Edit::RemoveMesh(id) => self.take_mesh(id.index),
             }

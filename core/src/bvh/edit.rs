@@ -1,4 +1,4 @@
-//! What may change in a scene, and why a change may be refused.
+//! Edits of a scene, and reasons to refuse them.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -61,7 +61,7 @@ id!(
 #[non_exhaustive]
 pub enum Edit<L = EmissiveTriangle> {
     /// A new mesh, not in the world yet. Lights are in the mesh's own space; their `mesh` is ignored. Its bottom level is
-    /// built within the call, 0.2 to 0.4 µs for each triangle.
+    /// built within the call, 0.2 to 0.4 µs for each light.
     AddMesh {
         /// At least one.
         lights: Vec<L>,
@@ -148,7 +148,7 @@ pub struct EditError {
     pub reason: EditReason,
 }
 
-/// What is wrong with an edit: the error of single ones.
+/// Reason to refuse an edit: the error of single ones.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EditReason {
@@ -158,9 +158,9 @@ pub enum EditReason {
     UnknownInstance(InstanceId),
     /// An instance is of a mesh, no light by itself.
     NoLight(InstanceId),
-    /// A mesh has no triangle.
+    /// A mesh has no light.
     EmptyMesh,
-    /// A triangle of a mesh is outside the domain.
+    /// A light is outside the domain.
     Light {
         /// Its index in the edit.
         index: usize,
@@ -195,7 +195,7 @@ pub enum EditReason {
         /// Their number.
         instances: usize,
     },
-    /// More than 2^30 numbers of lights or lights, free ones below the greatest included, or 2^27 instances.
+    /// More than 2^30 lights of meshes, 2^30 numbers of lights, free ones below the greatest included, or 2^27 instances.
     TooMany,
     /// A single-level BVH has one mesh and one instance, which stay.
     SingleLevel,
@@ -233,7 +233,7 @@ impl fmt::Display for EditReason {
                 f,
                 "factor on radiance {}, expected 0 or a number from 2^-60 to 2^60 (8.7e-19 to 1.2e18){}",
                 Number(*value),
-                // A greater or smaller one is told in two; no factor makes light negative.
+                // A larger factor can be split between mesh and instance.
                 if *value > 0.0 {
                     "; put the rest into the mesh"
                 } else if *value < 0.0 {
@@ -262,7 +262,7 @@ impl fmt::Display for EditReason {
             }
             Self::TooMany => write!(
                 f,
-                "more than 2^30 lights or lights, or 2^27 instances; numbers of removed lights count until `take_removed_lights`; or split the scene"
+                "more than 2^30 lights, or 2^27 instances; numbers of removed lights count until `take_removed_lights`; or split the scene"
             ),
             Self::SingleLevel => write!(
                 f,

@@ -44,7 +44,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         }
         for (mesh, lights, reach) in changes {
             self.meshes[mesh as usize].reach = reach;
-            self.write_triangles(mesh, 0, lights);
+            self.write_lights(mesh, 0, lights);
         }
         self.refit();
         Ok(())
@@ -66,7 +66,7 @@ impl fmt::Display for FollowError {
             EditReason::Count { expected, found } => write!(
                 f,
                 "mesh light {}: {found} lights, expected {expected}; these are not the lights that the light BVH was built over: \
-                 build it anew",
+                 rebuild it",
                 self.mesh
             ),
             ref reason => write!(f, "mesh light {}: {reason}", self.mesh),

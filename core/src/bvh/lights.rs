@@ -9,11 +9,11 @@ use crate::light::Light;
 use crate::lights::MAX_LIGHTS;
 use crate::model::Model;
 
-/// So many numbers of removed lights wait to be taken, and as many as there are lights.
+/// Least number of removed lights that may wait to be taken.
 const LEAST_WAITING: usize = 1 << 16;
 
 impl<M: Model<W>, const W: usize> Bvh<M, W> {
-    /// The lights of an instance: numbered without gaps, the same as long as the instance lives; that of triangle
+    /// The lights of an instance: numbered without gaps, the same as long as the instance lives; that of light
     /// `k`, as the mesh was given, is `start + k`.
     #[must_use]
     pub fn lights_of(&self, instance: InstanceId) -> Option<Range<u32>> {
@@ -98,8 +98,8 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             let range = self.meshes[placed.mesh as usize].lights.clone();
             let local = &self.lights[range.start as usize..range.end as usize];
             let lights = placed.numbers.start as usize..placed.numbers.end as usize;
-            for (light, triangle) in out[lights].iter_mut().zip(local) {
-                *light = triangle.in_world(own, index as u32);
+            for (light, own_light) in out[lights].iter_mut().zip(local) {
+                *light = own_light.in_world(own, index as u32);
             }
         }
         out
@@ -111,22 +111,18 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         self.light_count
     }
 
-    /// Numbers of lights that are no more, until [`take_removed_lights`](Self::take_removed_lights), in the order in which they
-    /// went; ranges do not overlap, except the first one in the last paragraph. Every other light keeps its number. A temporal method
-    /// sets the weight of each reservoir of such a light to 0 and keeps its count: the light sends nothing any more, but the samples
-    /// that it stands for still count; an empty reservoir in its place is biased where the balance heuristic merges them. Its sample
-    /// still names the light: a weight of 0 says not to look it up. In a frame: [`apply`](Self::apply), take the removed lights, replace all that is
-    /// kept of them, then resample; old surfaces are asked for old lights, so copies of the last frame's
-    /// [`lights`](Self::lights) and [`instances`](Self::instances) are kept for
-    /// [`world_light`](crate::refit::world_light).
+    /// Numbers of removed lights since the last [`take_removed_lights`](Self::take_removed_lights), oldest first. Other lights keep their
+    /// numbers. Engines that keep an [`InstanceId`] and a light's place in its mesh need none of this: an id is never reused.
     ///
-    /// What keeps an [`InstanceId`] and a triangle's place in its mesh needs none of this: an id is never another's.
-    ///
-    /// No new light gets such a number before it is taken. The exception keeps numbers from running out where they never are:
-    /// once more of them wait than 65,536 and than there are lights (or than half of what is left of 2^30, where that is less),
-    /// all of them are free, and the first range is that of every number there was, from 0, lights that are still there included: make
-    /// every reservoir empty then. The edit at which that happens takes time
-    /// in proportion to all that waited.
+    /// - In a frame: [`apply`](Self::apply), take the removed lights, replace everything kept of them, then resample.
+    /// - A reservoir of a removed light keeps its count and gets weight 0. Its sample still names the light: do not look it up. An empty
+    ///   reservoir is biased if the balance heuristic merges it.
+    /// - Old surfaces need old lights: keep copies of the last frame's [`lights`](Self::lights) and [`instances`](Self::instances) for
+    ///   [`world_light`](crate::refit::world_light).
+    /// - No new light gets such a number before it is taken, with one exception: if more than 65,536 wait and more than there are lights
+    ///   (or than half of what is left of 2^30, if that is less), all become free. The first range is then that of all numbers from 0 on,
+    ///   of present lights too: empty every reservoir. That edit takes time in proportion to the numbers that waited.
+    /// - Ranges do not overlap, except that first one.
     #[must_use]
     pub fn removed_lights(&self) -> &[Range<u32>] {
         &self.removed_lights
@@ -155,7 +151,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             .light_count
             .min(MAX_LIGHTS.saturating_sub(self.light_count) / 2);
         if self.waiting_lights > LEAST_WAITING.max(most) {
-            // Those that wait are in use until they are taken, and what was forgotten before has not been told.
+            // Waiting numbers count as used; earlier forgotten ones were not reported yet.
             let end = self.light_end();
             self.take_removed_lights();
             self.removed_lights.push(0..end);

@@ -295,8 +295,8 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     pub(super) fn path_nodes(&self, mesh: u32, lights: Range<u32>) -> Vec<(u32, u32)> {
         let own = &self.meshes[mesh as usize];
         let mut pairs = Vec::new();
-        for triangle in lights {
-            let trail = self.trail_of(triangle);
+        for light in lights {
+            let trail = self.trail_of(light);
             let mut node = own.nodes.start;
             for level in 0..own.depth {
                 pairs.push((own.depth - level, node));

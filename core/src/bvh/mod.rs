@@ -80,7 +80,7 @@ use crate::tree::LightTree;
 /// ([`mesh_id`](Self::mesh_id), [`instance_id`](Self::instance_id)).
 #[derive(Clone, Debug)]
 pub struct Bvh<M: Model<W> = Triangles, const W: usize = 8> {
-    /// What its ids belong to.
+    /// Owner of its ids.
     id: TreeId,
     params: BuildParams,
     /// Nodes of the bottom levels.
@@ -336,7 +336,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         self.single
     }
 
-    /// What is known of all lights together, as of the last refit.
+    /// The merged summary of all lights, as of the last refit.
     #[must_use]
     pub fn summary(&self) -> SummaryOf<M, W> {
         let tree = self.tree();

@@ -1,4 +1,4 @@
-//! Edits one at a time. There is no batch to name a place in: what is refused is returned by itself.
+//! Single edits; the error is the reason alone.
 
 use alloc::vec::Vec;
 
@@ -8,7 +8,7 @@ use crate::model::Model;
 use crate::transform::Transform;
 
 impl<M: Model<W>, const W: usize> Bvh<M, W> {
-    /// Adds a mesh of at least one triangle, in its own space; it lights nothing before an instance puts it into the world.
+    /// Adds a mesh of at least one light, in its own space; it lights nothing before an instance puts it into the world.
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.
@@ -89,7 +89,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Changes the lights of a mesh from index `first` on, as many as are given. Takes time in proportion to them and to the
     /// depth of the mesh's tree, of which a [`refit`](Self::refit) then computes the paths to them; all of it where they are
     /// more than a sixteenth of the mesh. If they reach farther from
-    /// the mesh's origin than any triangle did since the mesh was set as a whole, each instance of the mesh is looked at.
+    /// the mesh's origin than any light did since the mesh was set as a whole, each instance of the mesh is looked at.
     /// A mesh of points and spots alone is looked at as a whole.
     ///
     /// # Errors

@@ -65,7 +65,7 @@ impl Ranges {
         if length > count {
             self.insert(start + count, length - count);
         }
-        // What is free at the end is part of a new range.
+        // Free indices at the end become part of a new range.
         self.end = self.end.max(start + count);
         start..start + count
     }

@@ -23,11 +23,11 @@ use crate::tree::{INVALID, OPENED};
 impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Checks every invariant, after a [`refit`](Self::refit):
     /// - each node in use is reached once, through links that are in range, and knows its place above;
-    /// - each live instance, or each of its parts, is a leaf of the top level exactly once, each triangle of a mesh a leaf of its
+    /// - each live instance, or each of its parts, is a leaf of the top level exactly once, each light of a mesh a leaf of its
     ///   tree exactly once, and their trails lead there;
     /// - the nodes of a mesh are in depth-first order; heights are those of what is below;
     /// - every node of the top level but its root has two children or more;
-    /// - ranges of nodes, lights and lights in use do not overlap;
+    /// - ranges of nodes and of numbers of lights do not overlap;
     /// - no path is longer than [`depth`](Self::depth), and [`light_count`](Self::light_count) counts the lights;
     /// - an instance's words are those of its transform and mesh, and its leaf in the top level is that of a refit;
     /// - every word of every node is what refit makes of lights and instances from scratch.
@@ -44,7 +44,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         for (index, mesh) in (0u32..).zip(&self.meshes).filter(|(_, mesh)| mesh.live) {
             let found = self.check_mesh(index, &mut seen, &mut again)?;
             depth = depth.max(found.depth);
-            used_nodes.push(mesh.nodes.start..mesh.room);
+            used_nodes.push(mesh.nodes.start..mesh.capacity);
         }
         disjoint(used_nodes)?;
         for (index, placed) in (0u32..).zip(&self.placed) {

@@ -6,7 +6,7 @@ use glam::Vec3;
 use super::{MIN_OFFSET, TWO_SIDED};
 use crate::exact;
 use crate::point::ShadingPoint;
-use crate::vector::{dot, flush3, greatest_exponent, length_squared, vector};
+use crate::vector::{dot, flush3, greatest_exponent, is_zero, length_squared, vector};
 
 /// A point on a light, and the density with which it was chosen. Plain words, the same on devices.
 #[repr(C)]
@@ -71,9 +71,12 @@ impl LightPoint {
             per_distance,
         } = self.seen_from(receiver.position());
         let n = receiver.normal();
-        let in_volume = (n.x == 0.0) & (n.y == 0.0) & (n.z == 0.0);
         let incident = dot(d, n) * per_distance;
-        let incident = if in_volume { 1.0 } else { exact::max(incident, 0.0) };
+        let incident = if is_zero(n) {
+            1.0
+        } else {
+            exact::max(incident, 0.0)
+        };
         let emitted = self.emitted(d, per_distance);
         let cosines = exact::flush(incident * emitted, exact::pow2(-40));
         let is_near = (squared < 0.25) | (self.density <= 0.0);
@@ -103,7 +106,7 @@ impl LightPoint {
     }
 }
 
-/// What lies between a receiver and a point on a light.
+/// The segment from a receiver to a point on a light.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
     /// From the receiver to the point, in units of 2^`exponent` metres, its squared length, and the inverse of its length.

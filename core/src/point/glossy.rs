@@ -12,7 +12,7 @@ use crate::vector::vector;
 const MAX_EXPONENT: f32 = 65_536.0;
 
 /// A [`ShadingPoint`] and how its surface reflects towards the viewer: a diffuse part, and a lobe about the direction in which a mirror
-/// would send the view. What [`Glossy`](crate::importance::Glossy) is told; walks that are not told it carry none of it.
+/// would send the view. The receiver of [`Glossy`](crate::importance::Glossy).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct GlossyPoint {

@@ -7,8 +7,8 @@ use crate::domain::{DomainError, MIN_OFFSET};
 use crate::instance::Instance;
 use crate::vector::{flush3, vector};
 
-/// A piece of a ray through a volume, from one point to another: light reaches it everywhere. What
-/// [`Subtended`](crate::importance::Subtended) is told to choose a light by.
+/// A piece of a ray through a volume, from one point to another: light reaches it everywhere. The receiver of
+/// [`Subtended`](crate::importance::Subtended).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RaySegment {

@@ -8,7 +8,7 @@ use crate::exact;
 use crate::instance::Instance;
 
 /// A point of a surface that light reaches from both sides: a leaf, a lampshade, a sheet of glass. The viewer takes a part of what comes from
-/// the side of the normal, and a part of what comes from the other. What [`Transmissive`](crate::importance::Transmissive) is told.
+/// the side of the normal, and a part of what comes from the other. The receiver of [`Transmissive`](crate::importance::Transmissive).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct TransmissivePoint {

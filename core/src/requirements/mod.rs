@@ -21,7 +21,7 @@ use crate::model::Model;
 
 pub use choice::{Choice, Layout};
 
-/// What the caller says of the frames to come, edit by edit. Nothing of it can be seen in a scene as it stands.
+/// Edits that the caller will make. A scene does not show them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Declared {
     /// Instances move ([`Edit::SetTransform`](crate::Edit::SetTransform)).

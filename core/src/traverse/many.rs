@@ -34,7 +34,7 @@ pub(super) fn sample_spaced<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver
 ) {
     let mut first = first;
     for together in sampled.chunks_mut(TOGETHER) {
-        // What is on the stack is written first, which few walks would not be worth.
+        // Few walks are not worth writing the stack.
         match together {
             [one] => *one = sample(tree, point, random.spaced(first, count)),
             few if few.len() <= 8 => by_rows::<N, I, P, W, 8>(tree, point, random, first, count, few),

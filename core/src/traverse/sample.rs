@@ -84,7 +84,7 @@ pub(super) fn begin<'a, N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, co
         // The numbers below `taken` are all numbers halved so often.
         let stretched = random.shifted(I::UNIFORM_HALVINGS);
         (light, instance) = uniform(tree, stretched);
-        path = tree.path_of(triangle_of(tree, light, instance), instance);
+        path = tree.path_of(mesh_light_of(tree, light, instance), instance);
     }
     Started {
         walk: Walk::start(tree, point, random, taken, light != INVALID, path),
@@ -133,7 +133,7 @@ pub(super) fn pmf<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W:
 ) -> f32 {
     // A single level has one instance, whichever is named.
     let instance = if tree.live > 0 { instance } else { INVALID };
-    let triangle = triangle_of(tree, light, instance);
+    let triangle = mesh_light_of(tree, light, instance);
     let path = tree.path_of(triangle, instance);
     let number = Random64 { high: 0, low: 0 };
     let taken = uniform_numbers::<N, I, P, W>();
@@ -197,7 +197,7 @@ fn uniform_probability<N: Node<W>, I: ImportanceModel<N, W, P>, P, const W: usiz
     probability
 }
 
-/// A count to divide by. It stays below 2^31, also in hostile words: conversions from `u32` above are wrong on one device.
+/// A count to divide by. It stays below 2^31, also in malformed words: conversions from `u32` above are wrong on one device.
 #[inline(always)]
 fn at_least_one(count: u32) -> f32 {
     let bounded = count & 0x7fff_ffff;
@@ -205,7 +205,7 @@ fn at_least_one(count: u32) -> f32 {
 }
 
 #[inline(always)]
-fn triangle_of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, light: u32, instance: u32) -> u32 {
+fn mesh_light_of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, light: u32, instance: u32) -> u32 {
     if instance < tree.instances.len() as u32 && tree.live > 0 {
         tree.instances[instance as usize].triangle_of(light)
     } else {

@@ -107,7 +107,7 @@ impl<'a, N, P: Receiver> Walk<'a, N, P> {
         self.descend(tree, world, node, share);
     }
 
-    /// The node to look at. An index out of range (hostile words) reads node 0.
+    /// The node to look at. An index out of range (malformed words) reads node 0.
     #[inline(always)]
     pub fn node<I, const W: usize>(&self, tree: &LightTree<'a, N, I, W>) -> &'a N {
         let nodes = self.nodes(tree);
@@ -167,7 +167,7 @@ impl<'a, N, P: Receiver> Walk<'a, N, P> {
         let doublings = self.narrow(share.first, count);
 
         let levels = max_levels(W);
-        // Running off the end of a tree's levels (hostile words only) must not look like the next tree's first level.
+        // Running off the end of a tree's levels (malformed words only) must not look like the next tree's first level.
         let last_of_tree = self.position + 1 == levels || self.position + 1 == 2 * levels;
         let (leaf, part) = leaf_parts(link);
         let enters = passes & (to == kind::MESH) & is_above & (leaf < tree.instances.len() as u32);

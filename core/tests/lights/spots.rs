@@ -217,7 +217,7 @@ fn put(bvh: &mut Tree, own: Vec<AnyLight>, place: Transform) {
 }
 
 #[test]
-fn no_light_that_reaches_a_point_is_told_not_to() {
+fn lit_points_keep_weight() {
     let mut seen = Seen::default();
     for seed in 0..40 {
         let random = &mut Random(1000 * seed + 3);

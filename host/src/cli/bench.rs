@@ -42,11 +42,11 @@ pub(super) struct Args {
 #[derive(Clone, Debug, Serialize)]
 struct Case {
     what: &'static str,
-    /// Of a refit: `levels`, one after the other.
+    /// `levels` of a refit.
     passes: Option<&'static str>,
-    /// Of samples: `one` by one, or in a `batch`.
+    /// `one` sample at a time, or a `batch`.
     variant: Option<&'static str>,
-    /// Of a build: `balanced`, the default.
+    /// `balanced` of a build.
     preset: Option<&'static str>,
     structure: &'static str,
     lights: u32,

@@ -12,11 +12,11 @@ use lightbvh_kernels::render::RenderParams;
 
 use super::{Recipe, Runner, SampleBudget, Step, Target, TreeFacts, UpdateTimes};
 use crate::backend::{
-    Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, mean_image,
+    Backend, BackendError, Bvh, Follow, Held, Integrator, Sampler, SceneArrays, Timed, mean_image,
 };
 use crate::error::HostError;
 use crate::scene::{Instances, SceneLight};
-use crate::workload::{build, words_in_use};
+use crate::workload::build;
 
 /// Camera rays per pixel that make edges smooth; the light samples of a pixel are shared out among them.
 const MAX_CAMERA_RAYS: u32 = 8;
@@ -152,8 +152,8 @@ impl<C: Compiled<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Ind
         &mut *self.backend
     }
 
-    fn nodes(&mut self) -> Result<Vec<u32>, HostError> {
-        Ok(words_in_use(&self.bvh, &self.backend.nodes()?))
+    fn held(&mut self) -> Result<Vec<Held>, HostError> {
+        Ok(self.backend.held(&self.bvh)?)
     }
 
     fn tree(&self) -> Option<TreeFacts> {

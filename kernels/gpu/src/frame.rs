@@ -1,14 +1,15 @@
 //! The work of a device that follows a light BVH from one frame to the next.
 
+use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
-use lightbvh::tree::Model;
 
 use bytemuck::cast_slice;
 use lightbvh::bvh::Cursor;
-use lightbvh::node::Holds;
+use lightbvh::node::{Holds, Node, kind};
 use lightbvh::refit::BlasRoot;
-use lightbvh::{Bvh, Instance, TreeWords};
+use lightbvh::tree::{Model, OPENED};
+use lightbvh::{Bvh, INVALID, Instance, TreeWords};
 
 use crate::buffer::DeviceBuffer;
 use crate::refit::{Pass, Refit};
@@ -177,17 +178,10 @@ impl Mirror {
                 || is_new[BUFFERS[k] as usize]
                 || (plan.whole_top && [TOP, ABOVE, PLACES, PARTS].contains(&k))
                 || (k == TRAILS && trail_words != self.trail_words);
-            let written = written
-                .iter()
-                .map(|range| stride * u64::from(range.start)..stride * u64::from(range.end));
             // Elements by which an array grows are new too.
             let grown = if is_all { 0 } else { self.held[k].min(bytes) }..bytes;
-            let ranges = written.chain(core::iter::once(grown)).collect();
-            let start = self.start(k);
-            uploads.extend(joined(ranges, bytes).into_iter().map(|range| {
-                let own = &own[range.start as usize..range.end as usize];
-                (BUFFERS[k], start + range.start, own)
-            }));
+            let ranges = in_bytes(written, stride).chain(core::iter::once(grown));
+            uploads.extend(self.pieces(k, own, ranges.collect()));
             self.held[k] = bytes;
         }
         self.trail_words = trail_words;
@@ -233,31 +227,56 @@ impl Mirror {
         (self.start(TOP) / size_of::<N>() as u64) as u32
     }
 
-    /// Compares the device's nodes with those of `bvh`, which were refitted since the last [`frame`](Self::frame): those in use
-    /// alone, for others mean nothing. Returns how many words were compared, and which nodes of the buffer differ.
+    /// The words of `bvh` in use, as a device has them once the steps of the last [`frame`](Self::frame) are done: by buffer, with
+    /// the byte at which they begin. Other words of a device mean nothing.
     #[must_use]
-    pub fn compare_nodes<M: Model<W>, const W: usize>(
+    pub fn in_use<'a, M: Model<W>, const W: usize>(
         &self,
-        bvh: &Bvh<M, W>,
-        device: &[u8],
-    ) -> (u64, Vec<u32>) {
-        let (all, top) = (bvh.plan_of_everything(), self.top::<M::Node>());
-        let bottom = all
-            .bottom
-            .nodes()
-            .iter()
-            .map(|&node| (node, &bvh.nodes()[node as usize]));
-        let above = all.top.nodes().iter();
-        let above = above.map(|&node| (node + top, &bvh.top_nodes()[node as usize]));
-        let (mut words, mut different) = (0, Vec::new());
-        for (place, node) in bottom.chain(above) {
-            let at = place as usize * size_of::<M::Node>();
-            words += size_of::<M::Node>() as u64 / 4;
-            if device.get(at..at + size_of::<M::Node>()) != Some(bytemuck::bytes_of(node)) {
-                different.push(place);
-            }
-        }
-        (words, different)
+        bvh: &'a Bvh<M, W>,
+    ) -> Vec<(DeviceBuffer, u64, &'a [u8])> {
+        let (all, tree, instances) = (bvh.plan_of_everything(), bvh.tree(), bvh.instances());
+        let one = |index: u32| index..index + 1;
+        let ones = |indices: &[u32]| indices.iter().copied().map(one).collect();
+        let live = (0..).zip(instances).filter(|(_, own)| own.count > 0);
+        let trails = live
+            .clone()
+            .map(|(_, own)| own.first_light..own.first_light + own.count);
+        let opened = instances.iter().zip(tree.links.places);
+        let opened = opened.filter(|(own, place)| own.count > 0 && (OPENED..INVALID).contains(place));
+        // A part is a child of the mesh's root.
+        let parts = opened.map(|(own, place)| {
+            let (root, first) = (&bvh.nodes()[own.root as usize], place - OPENED);
+            first..first + (0..W).filter(|&slot| root.kind(slot) == kind::INNER).count() as u32
+        });
+        let used: [Vec<Range<u32>>; LIST] = [
+            ones(all.bottom.nodes()),
+            ones(all.top.nodes()),
+            vec![0..bvh.lights().len() as u32],
+            vec![0..instances.len() as u32],
+            ones(&all.roots),
+            trails.collect(),
+            ones(all.top.nodes()),
+            live.map(|(index, _)| one(index)).collect(),
+            parts.collect(),
+        ];
+        let (arrays, strides) = (arrays(bvh), strides(bvh));
+        let used = used.iter().enumerate();
+        used.flat_map(|(k, ranges)| self.pieces(k, arrays[k], in_bytes(ranges, strides[k]).collect()))
+            .collect()
+    }
+
+    /// Ranges of the bytes of an array, in order, with their places in its buffer.
+    fn pieces<'a>(
+        &self,
+        array: usize,
+        own: &'a [u8],
+        ranges: Vec<Range<u64>>,
+    ) -> impl Iterator<Item = (DeviceBuffer, u64, &'a [u8])> {
+        let start = self.start(array);
+        joined(ranges, own.len() as u64).into_iter().map(move |range| {
+            let bytes = &own[range.start as usize..range.end as usize];
+            (BUFFERS[array], start + range.start, bytes)
+        })
     }
 
     /// Offset of an array in its buffer, bytes.
@@ -283,6 +302,12 @@ impl Mirror {
         }
         is_larger
     }
+}
+
+/// Ranges of elements of `stride` bytes.
+fn in_bytes(ranges: &[Range<u32>], stride: u64) -> impl Iterator<Item = Range<u64>> {
+    let bytes = move |range: &Range<u32>| stride * u64::from(range.start)..stride * u64::from(range.end);
+    ranges.iter().map(bytes)
 }
 
 /// The ranges below `end`, in order, those that touch made one.

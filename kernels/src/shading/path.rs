@@ -2,12 +2,12 @@
 //! (pbrt-v4, sections 13.2 to 13.4; weights by [`mis`](super::mis)).
 
 use glam::Vec3;
-use lightbvh::device::vector::{dot, length_squared};
+use lightbvh::device::vector::{dot, flush3, length_squared};
 use lightbvh::exact::{floor_u32, flush, hash, max, min, unit_f32};
 use lightbvh::{Random64, ShadingPoint};
 
 use super::emitter::Emitter;
-use super::grid::{STEP, TINY, bounded_product, div, flush_vector};
+use super::grid::{STEP, TINY, bounded_product, div};
 use super::mis::power_heuristic;
 use super::pick::PickLight;
 use super::pixel::{Scene, arriving, encounter};
@@ -75,7 +75,7 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
         }
         radiance += bounded(throughput, seen.direct * weight);
 
-        let n = flush_vector(seen.point.normal(), STEP);
+        let n = flush3(seen.point.normal(), STEP);
         alive = bounce < bounces && length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32;
         if alive {
             let material = scene.material(&seen);

@@ -8,7 +8,7 @@ use crate::model::Model;
 use std::string::ToString;
 
 use crate::build::BuildParams;
-use crate::bvh::{Bvh, RebuilderParams, Swap};
+use crate::bvh::{Bvh, EditReason, RebuilderParams, Swap};
 use crate::exact::pow2;
 use crate::importance::{Eq4, ImportanceModel, Moments};
 use crate::kit::Random;
@@ -145,6 +145,22 @@ fn ids_are_given_by_index() {
     assert_eq!((old.index(), new.index()), (1, 1));
     assert_ne!(old, new);
     assert_eq!((again.mesh_id(99), again.instance_id(INVALID)), (None, None));
+}
+
+#[test]
+fn read_bvh_follows_as_many_lights() {
+    let mut bvh = read(&Bvh::<(MomentNode<8>, Moments)>::two_level(
+        &lights(1, 20),
+        &BuildParams::BALANCED,
+    ));
+    let before = bvh.to_words();
+    let error = bvh.follow(&lights(1, 21)).expect_err("another number");
+    let (expected, found) = (2, 3);
+    assert_eq!(error.mesh, 6);
+    assert_eq!(error.reason, EditReason::Count { expected, found });
+    assert!(bvh.to_words() == before);
+    bvh.follow(&lights(2, 20)).expect("as many");
+    sound(&bvh);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::point::RaySegment;
 use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, length_squared, max3, vector};
 use crate::weight::recip;
 
-/// What the arc of the tangent x is taken as, up to 1: x/(1 + BEND x²).
+/// Approximation of the arc of the tangent x, up to 1: x/(1 + BEND x²).
 const BEND: f32 = 0.28;
 /// Least exponent of the scale: about the least difference of coordinates.
 const LEAST_EXPONENT: i32 = -100;

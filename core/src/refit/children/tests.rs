@@ -106,9 +106,9 @@ fn limits_go_by_way_of_children_too() {
     assert!(all().any(|(_, beam, _)| beam.is_narrow()) && all().any(|(.., end)| end < 100.0));
 }
 
-/// Links to what is just beyond the end, and to what is of the other level.
+/// Links just beyond the end of an array, and to the other level.
 #[test]
-fn what_is_not_there_is_no_child() {
+fn dangling_links_are_empty_children() {
     type Layout = LinkedSpotMomentNode<8, AnyLight>;
     let bvh = scene::<Layout, 8>(&mut Random(5));
     let (lights, instances, roots) = (bvh.lights(), bvh.instances(), bvh.roots());

@@ -247,7 +247,7 @@ impl<C: TriangleModel<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize>
         }
         if self.config.update == Update::TopRebuild {
             self.bvh.rebuild();
-            self.updates.beside.push(ms(start.elapsed()));
+            self.updates.background.push(ms(start.elapsed()));
         }
         // Where nodes of the scene stand is the animation's business, not the tree's.
         let edits = self.instances.as_mut().map(|i| i.edits(frame.scene, frame.frame));
@@ -315,7 +315,7 @@ pub(super) struct Updates {
     /// New trees, for which frames wait.
     rebuild: Vec<f64>,
     /// New top levels, for which no frame waits.
-    beside: Vec<f64>,
+    background: Vec<f64>,
 }
 
 impl Updates {
@@ -331,8 +331,8 @@ impl Updates {
     }
 
     /// The median of what is built in the background.
-    pub fn beside_ms(&self) -> f64 {
-        median_or_zero(&self.beside)
+    pub fn background_ms(&self) -> f64 {
+        median_or_zero(&self.background)
     }
 }
 

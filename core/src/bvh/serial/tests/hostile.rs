@@ -133,7 +133,7 @@ fn nodes_in_another_order_are_refused() {
     assert!(refused > 0);
 }
 
-/// One word said that there are numbers up to 2^30, and asking for all lights by number then asked for 60 GB.
+/// A count of numbers beyond those in use would make `world_lights` allocate for all of them.
 #[test]
 fn numbers_that_nobody_has_are_refused() {
     type Small = Bvh<(MomentNode<8>, Moments)>;
