@@ -59,11 +59,15 @@ fn deepest(lights: &Lights) -> u32 {
             Bvh::<(N, ()), W>::two_level(lights, params),
             Bvh::single_level(lights, params),
         ] {
-            bvh.validate().unwrap_or_else(|v| panic!("{v}"));
-            let levels = if bvh.is_single_level() { 1 } else { 2 };
-            assert!(bvh.depth() <= levels * max_levels(W), "depth {}", bvh.depth());
-            if bvh.is_single_level() {
-                *deepest = bvh.depth().max(*deepest);
+            bvh.view().validate().unwrap_or_else(|v| panic!("{v}"));
+            let levels = if bvh.view().is_single_level() { 1 } else { 2 };
+            assert!(
+                bvh.view().depth() <= levels * max_levels(W),
+                "depth {}",
+                bvh.view().depth()
+            );
+            if bvh.view().is_single_level() {
+                *deepest = bvh.view().depth().max(*deepest);
             }
         }
     }
@@ -93,8 +97,8 @@ fn trees_stay_within_the_levels_of_a_trail() {
     }
     let lights = deep_in_both(48, 48);
     let bvh = Bvh::<(CompactNode<2>, ()), 2>::two_level(&lights, &split(Heuristic::Sah, 2));
-    bvh.validate().unwrap_or_else(|v| panic!("{v}"));
-    assert!(bvh.depth() > 2 * 33, "only {} levels", bvh.depth());
+    bvh.view().validate().unwrap_or_else(|v| panic!("{v}"));
+    assert!(bvh.view().depth() > 2 * 33, "only {} levels", bvh.view().depth());
     assert_eq!(bvh.tree().trail_words, 2);
 }
 
@@ -115,16 +119,22 @@ where
         let at = Transform::at([0.0, 0.0, count as f32]);
         instances.push(scene.add_instance(mesh, at).expect("an instance"));
         scene.refit();
-        scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
+        scene
+            .view()
+            .validate()
+            .unwrap_or_else(|violation| panic!("{violation}"));
         assert_eq!(scene.tree().trail_words, words, "{count} lights");
-        assert_eq!(scene.tree().trails.len(), scene.lights().len() * words as usize);
+        assert_eq!(
+            scene.tree().trails.len(),
+            scene.view().lights().len() * words as usize
+        );
         for _ in 0..20 {
             let d = exact::pow2(38 - random.below(100) as i32);
             let point = ShadingPoint {
                 p: random.direction().map(|x| x * d),
                 n: [0.0; 3],
             };
-            let tree = scene.by::<Eq4>();
+            let tree = scene.tree().by::<Eq4>();
             let sampled = tree.sample(&point, random.bits());
             assert_eq!(
                 tree.pmf(&point, sampled.light, sampled.instance).to_bits(),
@@ -132,7 +142,7 @@ where
             );
             let mut pmfs = Vec::new();
             for &id in &instances {
-                let lights = scene.lights_of(id).expect("there");
+                let lights = scene.view().lights_of(id).expect("there");
                 pmfs.extend(lights.map(|light| tree.pmf(&point, light, id.index())));
             }
             sum_is_one(&pmfs, 0, &point);

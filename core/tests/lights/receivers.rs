@@ -5,9 +5,11 @@ use glam::Vec3;
 use lightbvh::error::DomainError;
 use lightbvh::exact::{self, hash, pow2};
 use lightbvh::importance::{
-    Flux, Glossy, ImportanceModel, RaySegment, Receiver, Subtended, Transmissive, TransmissivePoint,
+    Flux, Glossy, ImportanceModel, Linked, LinkedPoint, RaySegment, Receiver, Subtended, Transmissive,
+    TransmissivePoint,
 };
-use lightbvh::node::kind;
+use lightbvh::node::{LinkedSpotMomentNode, kind};
+use lightbvh::tree::Model;
 use lightbvh::{
     BuildParams, Bvh, CompactNode, EmissiveTriangle, Eq4, GlossyPoint, LightMoments, LightNode, MomentNode,
     Moments, Node, ShadingPoint, Transform,
@@ -121,11 +123,11 @@ where
             bvh
         };
         let turned = placed(mesh, map);
-        let world = placed(turned.world_lights(), Transform::IDENTITY);
+        let world = placed(turned.view().world_lights(), Transform::IDENTITY);
         for _ in 0..8 {
             let receiver = receiver(random);
             for light in 0..8 {
-                let [a, b] = [&turned, &world].map(|bvh| bvh.by::<I>().pmf(&receiver, light, 0));
+                let [a, b] = [&turned, &world].map(|bvh| bvh.tree().by::<I>().pmf(&receiver, light, 0));
                 off += f64::from(exact::abs(a - b));
                 count += 1.0;
                 sharp += u32::from(b > 0.7);
@@ -186,7 +188,7 @@ fn weights_are_sums<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>()
             _ => f64::from(part) / f64::from(greatest),
         });
         let rounding = if front * back == 0.0 { 0.0 } else { 4e-7 };
-        for node in bvh.nodes() {
+        for node in bvh.view().nodes() {
             let found = Transmissive::<I>::weights(node, &receiver);
             let (w, v) = (I::weights(node, &receiver.point), I::weights(node, &turned));
             for slot in 0..W {
@@ -413,6 +415,92 @@ fn receivers_are_checked() {
                 RaySegment { from, to }.checked(),
                 "coordinate y of the shading point",
             );
+        }
+    }
+}
+
+/// Whether a light is chosen for the receiver: samples and probabilities agree.
+fn has_light<M: Model<8, Light = EmissiveTriangle>, P: Receiver>(receiver: &P) -> bool
+where
+    M::Importance: ImportanceModel<M::Node, 8, P>,
+{
+    let mut bvh = Bvh::<M>::default();
+    let lamp = EmissiveTriangle {
+        p: [[0.0, 3.0, 0.0], [0.0, 3.0, 1.0], [1.0, 3.0, 0.0]],
+        radiance: [1.0; 3],
+        mesh: 0,
+        flags: 1,
+    };
+    let id = bvh.add_light(lamp).expect("in the domain");
+    bvh.refit();
+    let sampled = bvh.sample(receiver, 7_u32);
+    let pmf = bvh.pmf(receiver, id, 0);
+    assert_eq!(sampled.map(|own| own.pmf), pmf);
+    assert_eq!(bvh.pmf(receiver, id, 1), None);
+    pmf.is_some()
+}
+
+/// A light for each sound receiver, and none for one that is not finite, not normalized, or beyond its ranges.
+#[test]
+fn wrong_receivers_get_no_light() {
+    type Of<I> = (MomentNode<8>, I);
+    type WithMasks = (LinkedSpotMomentNode<8>, Linked<Moments>);
+    let of = |p, n| ShadingPoint { p, n };
+    let (here, up) = ([0.0, 1.0, 0.0], [0.0, 1.0, 0.0]);
+    let wrong = [
+        of([f32::NAN, 0.0, 0.0], up),
+        of([0.0, f32::INFINITY, 0.0], up),
+        of([0.0, 0.0, -1.0e19], up),
+        of(here, [0.0, 1.1, 0.0]),
+        of(here, [f32::NAN; 3]),
+    ];
+    let sound = of(here, up);
+    let mirror = up;
+    let glossy = |point, mirror, diffuse, specular, exponent| GlossyPoint {
+        point,
+        mirror,
+        diffuse,
+        specular,
+        exponent,
+    };
+    let leaf = |point, front, back| TransmissivePoint { point, front, back };
+    for (point, is_sound) in wrong
+        .map(|point| (point, false))
+        .into_iter()
+        .chain([(sound, true)])
+    {
+        assert_eq!(has_light::<Of<Moments>, _>(&point), is_sound, "{point:?}");
+        let masked = LinkedPoint { point, mask: 1 };
+        assert_eq!(has_light::<WithMasks, _>(&masked), is_sound, "{point:?}");
+        let glossy = glossy(point, mirror, 0.5, 0.5, 8.0);
+        assert_eq!(
+            has_light::<Of<Glossy<Moments>>, _>(&glossy),
+            is_sound,
+            "{point:?}"
+        );
+        let leaf = leaf(point, 0.5, 0.5);
+        assert_eq!(
+            has_light::<Of<Transmissive<Moments>>, _>(&leaf),
+            is_sound,
+            "{point:?}"
+        );
+        // A segment has no normal.
+        let is_sound = is_sound || point.p == here;
+        for segment in [[point.p, here], [here, point.p]].map(|[from, to]| RaySegment { from, to }) {
+            assert_eq!(has_light::<Of<Subtended>, _>(&segment), is_sound, "{segment:?}");
+        }
+    }
+    for wrong in [f32::NAN, -1.0, f32::INFINITY] {
+        for wrong in [
+            glossy(sound, [wrong; 3], 0.5, 0.5, 8.0),
+            glossy(sound, mirror, wrong, 0.5, 8.0),
+            glossy(sound, mirror, 0.5, wrong, 8.0),
+            glossy(sound, mirror, 0.5, 0.5, wrong),
+        ] {
+            assert!(!has_light::<Of<Glossy<Moments>>, _>(&wrong), "{wrong:?}");
+        }
+        for wrong in [leaf(sound, wrong, 0.5), leaf(sound, 0.5, wrong)] {
+            assert!(!has_light::<Of<Transmissive<Moments>>, _>(&wrong), "{wrong:?}");
         }
     }
 }

@@ -15,6 +15,7 @@ pub(crate) use batches::mean_image;
 pub use cpu::CpuBackend;
 pub use device::DeviceBackend;
 pub use follow::Mirrored;
+use lightbvh::bvh::Cursor;
 use lightbvh::tree::Model;
 pub use record::{PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, node_record};
 pub use scene::{Sampler, SceneArrays};
@@ -47,16 +48,16 @@ pub enum BackendError {
 /// The words of all nodes: those of bottom levels, then those of the top level.
 pub fn node_words<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> Vec<u32> {
     [
-        cast_slice::<M::Node, u32>(bvh.nodes()),
-        cast_slice(bvh.top_nodes()),
+        cast_slice::<M::Node, u32>(bvh.view().nodes()),
+        cast_slice(bvh.view().top_nodes()),
     ]
     .concat()
 }
 
 /// The nodes in use, by their order in [`node_words`].
 pub fn nodes_in_use<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> Vec<u32> {
-    let plan = bvh.plan_of_everything();
-    let top = bvh.nodes().len() as u32;
+    let plan = Cursor::default().plan(bvh);
+    let top = bvh.view().nodes().len() as u32;
     let of_top = plan.top.nodes().iter().map(|node| node + top);
     plan.bottom.nodes().iter().copied().chain(of_top).collect()
 }

@@ -99,11 +99,11 @@ const CHILDREN: usize = 10;
 fn arrays<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> [&[u8]; LIST] {
     let tree = bvh.tree();
     [
-        cast_slice(bvh.nodes()),
-        cast_slice(bvh.top_nodes()),
-        cast_slice(bvh.lights()),
+        cast_slice(bvh.view().nodes()),
+        cast_slice(bvh.view().top_nodes()),
+        cast_slice(bvh.view().lights()),
         cast_slice(tree.instances),
-        cast_slice(bvh.roots()),
+        cast_slice(bvh.view().roots()),
         cast_slice(tree.trails),
         cast_slice(tree.links.above),
         cast_slice(tree.links.places),
@@ -146,7 +146,7 @@ impl Mirror {
     /// Everything is uploaded and computed if the light BVH is another than last time (a clone, or one that was read), or if its
     /// log has dropped changes since.
     pub fn frame<'a, M: Model<W>, const W: usize>(&mut self, bvh: &'a Bvh<M, W>) -> Frame<'a> {
-        let mut plan = bvh.plan(&mut self.cursor);
+        let mut plan = self.cursor.plan(bvh);
         let (arrays, strides) = (arrays(bvh), strides(bvh));
         // Arrays that share a buffer move if one of them needs more room.
         let mut is_new = [false; DeviceBuffer::ALL.len()];
@@ -154,7 +154,7 @@ impl Mirror {
             is_new[BUFFERS[k] as usize] |= self.reserve(k, own.len() as u64, strides[k]);
         }
         if is_new[DeviceBuffer::Nodes as usize] && !plan.everything {
-            let all = bvh.plan_of_everything();
+            let all = Cursor::default().plan(bvh);
             (plan.bottom, plan.roots, plan.top) = (all.bottom, all.roots, all.top);
         }
         let roots: Vec<_> = plan.roots.iter().map(|&root| root..root + 1).collect();
@@ -216,7 +216,7 @@ impl Mirror {
             live: tree.live,
             lights: tree.lights,
             depth: tree.depth,
-            top: if bvh.is_single_level() {
+            top: if bvh.view().is_single_level() {
                 0
             } else {
                 self.top::<M::Node>()
@@ -241,14 +241,14 @@ impl Mirror {
         bvh: &Bvh<M, W>,
         device: &[u8],
     ) -> (u64, Vec<u32>) {
-        let (all, top) = (bvh.plan_of_everything(), self.top::<M::Node>());
+        let (all, top) = (Cursor::default().plan(bvh), self.top::<M::Node>());
         let bottom = all
             .bottom
             .nodes()
             .iter()
-            .map(|&node| (node, &bvh.nodes()[node as usize]));
+            .map(|&node| (node, &bvh.view().nodes()[node as usize]));
         let above = all.top.nodes().iter();
-        let above = above.map(|&node| (node + top, &bvh.top_nodes()[node as usize]));
+        let above = above.map(|&node| (node + top, &bvh.view().top_nodes()[node as usize]));
         let (mut words, mut different) = (0, Vec::new());
         for (place, node) in bottom.chain(above) {
             let at = place as usize * size_of::<M::Node>();

@@ -57,11 +57,18 @@ fn follow(held: &mut [Vec<u8>], scene: &Tree, mirror: &mut Mirror) -> usize {
                 let list: &[u32] = cast_slice(&list);
                 for &entry in &list[first as usize..][..count as usize] {
                     let (buffer, computed): (_, &[u8]) = match entry.checked_sub(top) {
-                        _ if pass == Pass::Roots => {
-                            (DeviceBuffer::Roots, bytes_of(&scene.roots()[entry as usize]))
-                        }
-                        None => (DeviceBuffer::Nodes, bytes_of(&scene.nodes()[entry as usize])),
-                        Some(above) => (DeviceBuffer::Nodes, bytes_of(&scene.top_nodes()[above as usize])),
+                        _ if pass == Pass::Roots => (
+                            DeviceBuffer::Roots,
+                            bytes_of(&scene.view().roots()[entry as usize]),
+                        ),
+                        None => (
+                            DeviceBuffer::Nodes,
+                            bytes_of(&scene.view().nodes()[entry as usize]),
+                        ),
+                        Some(above) => (
+                            DeviceBuffer::Nodes,
+                            bytes_of(&scene.view().top_nodes()[above as usize]),
+                        ),
                     };
                     let at = entry as usize * computed.len();
                     held[buffer as usize][at..][..computed.len()].copy_from_slice(computed);
@@ -76,7 +83,7 @@ fn follow(held: &mut [Vec<u8>], scene: &Tree, mirror: &mut Mirror) -> usize {
 #[test]
 fn buffers_that_follow_are_those_of_a_new_device() {
     let (mut scene, mut all): (Tree, _) = scene();
-    let mesh = scene.mesh_id(0).expect("a mesh");
+    let mesh = scene.view().mesh_id(0).expect("a mesh");
     let mut mirror = Mirror::default();
     let mut held = vec![Vec::new(); DeviceBuffer::ALL.len()];
     for k in 0..40_u8 {

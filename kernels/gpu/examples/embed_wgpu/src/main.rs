@@ -62,7 +62,7 @@ fn run(engine: &Engine) -> Result<(u64, u64)> {
         let (compared, nodes) = lights.mirror.compare_nodes(&world.bvh, &nodes);
         let samples: Vec<SampledLight> = asked
             .iter()
-            .map(|(point, random)| world.bvh.sample(point, *random))
+            .map(|(point, random)| world.bvh.tree().sample(point, *random))
             .collect();
         let device = engine.read(&results)?;
         all += compared + size_of_val(&*samples) as u64 / 4;
