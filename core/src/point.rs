@@ -124,7 +124,7 @@ impl Instance {
 /// says more to an importance that asks for it.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no receiver of light",
-    note = "receivers are `ShadingPoint`, `TransmissivePoint`, `GlossyPoint` and `RaySegment`, and `LinkedPoint` around one of them"
+    note = "take a `ShadingPoint`, a `LinkedPoint` for `MaskedLights`, or another of `lightbvh::importance`"
 )]
 pub trait Receiver: Copy {
     /// The receiver in the space of the instance's mesh.

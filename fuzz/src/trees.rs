@@ -66,7 +66,7 @@ fn tree<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         0 => Bvh::<(N, ()), W>::two_level(lights, params),
         _ => Bvh::single_level(lights, params),
     };
-    bvh.view().validate().unwrap_or_else(|violation| panic!("{violation}"));
+    bvh.view().validate().expect("valid");
     assert!(bvh.view().bytes() > 0 && bvh.view().depth() > 0);
     if let Some((points, random)) = &rest.points {
         distributions::<N, I, W>(&bvh, lights, points, *random);
@@ -77,7 +77,7 @@ fn tree<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         assert!(first == words(&bvh), "refit of unchanged lights changes a word");
         let first = bvh.view().nodes().to_vec();
         follow(&mut bvh, moved).expect("as many lights");
-        bvh.view().validate().unwrap_or_else(|violation| panic!("{violation}"));
+        bvh.view().validate().expect("valid");
         follow(&mut bvh, lights).expect("as many lights");
         // The top level may differ: instances that moved far were inserted elsewhere.
         assert!(

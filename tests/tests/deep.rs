@@ -59,15 +59,12 @@ fn deepest(lights: &Lights) -> u32 {
             Bvh::<(N, ()), W>::two_level(lights, params),
             Bvh::single_level(lights, params),
         ] {
-            bvh.view().validate().unwrap_or_else(|v| panic!("{v}"));
-            let levels = if bvh.view().is_single_level() { 1 } else { 2 };
-            assert!(
-                bvh.view().depth() <= levels * max_levels(W),
-                "depth {}",
-                bvh.view().depth()
-            );
-            if bvh.view().is_single_level() {
-                *deepest = bvh.view().depth().max(*deepest);
+            bvh.view().validate().expect("valid");
+            let (depth, is_single) = (bvh.view().depth(), bvh.view().is_single_level());
+            let levels = if is_single { 1 } else { 2 };
+            assert!(depth <= levels * max_levels(W), "depth {depth}");
+            if is_single {
+                *deepest = depth.max(*deepest);
             }
         }
     }
@@ -97,7 +94,7 @@ fn trees_stay_within_the_levels_of_a_trail() {
     }
     let lights = deep_in_both(48, 48);
     let bvh = Bvh::<(CompactNode<2>, ()), 2>::two_level(&lights, &split(Heuristic::Sah, 2));
-    bvh.view().validate().unwrap_or_else(|v| panic!("{v}"));
+    bvh.view().validate().expect("valid");
     assert!(bvh.view().depth() > 2 * 33, "only {} levels", bvh.view().depth());
     assert_eq!(bvh.tree().trail_words, 2);
 }
@@ -119,15 +116,10 @@ where
         let at = Transform::at([0.0, 0.0, count as f32]);
         instances.push(scene.add_instance(mesh, at).expect("an instance"));
         scene.refit();
-        scene
-            .view()
-            .validate()
-            .unwrap_or_else(|violation| panic!("{violation}"));
+        scene.view().validate().expect("valid");
         assert_eq!(scene.tree().trail_words, words, "{count} lights");
-        assert_eq!(
-            scene.tree().trails.len(),
-            scene.view().lights().len() * words as usize
-        );
+        let lights = scene.view().lights().len();
+        assert_eq!(scene.tree().trails.len(), lights * words as usize);
         for _ in 0..20 {
             let d = exact::pow2(38 - random.below(100) as i32);
             let point = ShadingPoint {

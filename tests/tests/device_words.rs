@@ -103,7 +103,7 @@ impl<'d, N: Node<W>, const W: usize> Held<'d, N, W> {
             same(device, "node", &nodes[node.clone()], &own[node]);
         }
         let roots = self.arrays.roots().expect("a read");
-        for root in Cursor::default().plan(&bvh).roots {
+        for root in Cursor::default().plan(bvh).roots {
             let root = root as usize..root as usize + 1;
             same(device, "root", &roots[root.clone()], &bvh.view().roots()[root]);
         }

@@ -45,16 +45,10 @@ fn words<T: Pod>(values: &[T]) -> Vec<u32> {
 /// All nodes and roots, computed anew in the order of the passes, child by child.
 #[inline(never)]
 fn refitted<N: Node<W>, const W: usize, const ROWS: usize>(bvh: &Bvh<(N, ()), W>) -> (Vec<u32>, Vec<u32>) {
-    let (plan, triangles, instances) = (
-        Cursor::default().plan(&bvh),
-        bvh.view().lights(),
-        bvh.tree().instances,
-    );
-    let (mut nodes, mut roots) = (
-        [bvh.view().nodes(), bvh.view().top_nodes()].concat(),
-        bvh.view().roots().to_vec(),
-    );
-    let first = bvh.view().nodes().len() as u32;
+    let (plan, view) = (Cursor::default().plan(bvh), bvh.view());
+    let (triangles, instances) = (view.lights(), view.instances());
+    let (mut nodes, mut roots) = ([view.nodes(), view.top_nodes()].concat(), view.roots().to_vec());
+    let first = view.nodes().len() as u32;
     let mut children = [[[0; W]; ROWS]];
     for &index in plan.bottom.nodes() {
         for slot in 0..W {

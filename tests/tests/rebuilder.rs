@@ -94,8 +94,7 @@ fn town(seed: u32) -> (Tree, MeshId) {
 /// Moves, adds and removes instances: alike in equal scenes.
 fn edit(seed: u32, scene: &mut Tree) {
     let random = &mut Random::new(seed);
-    let all = 0..scene.view().instances().len() as u32;
-    let ids: Vec<_> = all.filter_map(|k| scene.view().instance_id(k)).collect();
+    let ids: Vec<_> = scene.view().instance_ids().collect();
     let count = ids.len() as u32;
     let mesh = scene.view().mesh_of(ids[0]).expect("its mesh");
     let mut at = || placing::transform(random, Kind::Similar, REACH);
@@ -106,10 +105,7 @@ fn edit(seed: u32, scene: &mut Tree) {
     scene.remove(ids[random.below(count) as usize]).expect("there");
     scene.take_removed_lights();
     scene.refit();
-    scene
-        .view()
-        .validate()
-        .unwrap_or_else(|violation| panic!("{violation}"));
+    scene.view().validate().expect("valid");
 }
 
 /// The words of the scene with rebuilt trees.
@@ -173,12 +169,11 @@ fn a_panic_is_reported_once_and_the_next_build_is_sound() {
         for _ in 0..4 {
             let mut triangles = scene.view().mesh_lights(mesh).expect("there").to_vec();
             triangles.rotate_left(7);
-            scene
-                .apply(vec![Edit::SetLights {
-                    mesh,
-                    lights: triangles,
-                }])
-                .expect("as many");
+            let edit = Edit::SetLights {
+                mesh,
+                lights: triangles,
+            };
+            scene.apply(vec![edit]).expect("as many");
             scene.refit();
             let before = scene.to_words();
             *lock(&GATE) = true;
@@ -203,9 +198,6 @@ fn a_panic_is_reported_once_and_the_next_build_is_sound() {
         *lock(&GATE) = false;
         converge(&mut rebuilder, &mut scene);
         assert!(scene.to_words() == rebuilt(&scene));
-        scene
-            .view()
-            .validate()
-            .unwrap_or_else(|violation| panic!("{violation}"));
+        scene.view().validate().expect("valid");
     }
 }

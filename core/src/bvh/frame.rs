@@ -15,11 +15,10 @@ use super::top::Top;
 use super::{Added, Bvh, Outbox, View};
 use crate::build::{BuildParams, Topology, build_each, build_over};
 use crate::exact::{self, pow2};
-use crate::importance::ImportanceModel;
 use crate::light::Light;
 use crate::lights::Lights;
-use crate::model::Model;
-use crate::point::{Receiver, ShadingPoint};
+use crate::model::{Model, ReceiverOf};
+use crate::point::ShadingPoint;
 use crate::random::Random64;
 use crate::transform::Transform;
 use crate::traverse::SampledLight;
@@ -293,15 +292,12 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// }
     /// ```
     #[must_use]
-    pub fn sample_light<P: Receiver + AsRef<ShadingPoint>>(
+    pub fn sample_light<P: ReceiverOf<M, W> + AsRef<ShadingPoint>>(
         &self,
         point: &P,
         number: impl Into<Random64>,
         uv: [f32; 2],
-    ) -> Option<Sampled<M::Light>>
-    where
-        M::Importance: ImportanceModel<M::Node, W, P>,
-    {
+    ) -> Option<Sampled<M::Light>> {
         let at = point.as_ref();
         let found = self.sample(point, number)?;
         let Owner {
@@ -331,16 +327,13 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// there is no such instance or part, and for a receiver that is none. Near the rim of a sphere it differs from that of the
     /// sample, for `position` has fewer digits than the angle.
     #[must_use]
-    pub fn pdf_of_hit<P: Receiver + AsRef<ShadingPoint>>(
+    pub fn pdf_of_hit<P: ReceiverOf<M, W> + AsRef<ShadingPoint>>(
         &self,
         point: &P,
         instance: InstanceId,
         part: u32,
         position: [f32; 3],
-    ) -> Option<f32>
-    where
-        M::Importance: ImportanceModel<M::Node, W, P>,
-    {
+    ) -> Option<f32> {
         let (at, pmf) = (point.as_ref(), self.pmf(point, instance, part)?);
         let number = self.view().lights_of(instance)?.start + part;
         let light = self.view().light(number, instance.index)?;
@@ -352,13 +345,14 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// [`LightTree::sample`]. `None` where no light that it may take has flux as of the last [`refit`](Self::refit), and for a receiver
     /// that is none: NaN, beyond 2^60 m, or with a normal that is not of length 1.
     #[must_use]
-    pub fn sample<P: Receiver>(&self, point: &P, number: impl Into<Random64>) -> Option<SampledLight>
-    where
-        M::Importance: ImportanceModel<M::Node, W, P>,
-    {
+    pub fn sample<P: ReceiverOf<M, W>>(
+        &self,
+        point: &P,
+        number: impl Into<Random64>,
+    ) -> Option<SampledLight> {
         let sampled = point
             .is_within_reach()
-            .then(|| self.tree().sample(point, number))?;
+            .then(|| point.choose(&self.tree(), number.into()))?;
         (sampled.light != SampledLight::INVALID).then_some(sampled)
     }
 
@@ -366,14 +360,11 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// sample; [`LightTree::pmf`] takes a [`SampledLight`]'s numbers. `None` where there is no such instance or part, and for a receiver
     /// that is none.
     #[must_use]
-    pub fn pmf<P: Receiver>(&self, point: &P, instance: InstanceId, part: u32) -> Option<f32>
-    where
-        M::Importance: ImportanceModel<M::Node, W, P>,
-    {
+    pub fn pmf<P: ReceiverOf<M, W>>(&self, point: &P, instance: InstanceId, part: u32) -> Option<f32> {
         let lights = self.view().lights_of(instance)?;
         let light = lights.start.checked_add(part)?;
         let is_known = lights.contains(&light) && point.is_within_reach();
-        is_known.then(|| self.tree().pmf(point, light, instance.index))
+        is_known.then(|| point.probability(&self.tree(), light, instance.index))
     }
 
     /// Whose light a sample is. `None` where there is no such light, as after its removal.

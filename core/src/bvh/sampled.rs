@@ -1,7 +1,7 @@
 //! A light sample with all that shading needs, and whose light it is.
 
 use super::edit::{InstanceId, MeshId};
-use crate::light::{LightPoint, mis_weight};
+use crate::light::LightPoint;
 
 /// A light sample: the light, a point on it, and its irradiance. The estimate is [`irradiance`](Self::irradiance) over [`pmf`](Self::pmf).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,20 +21,11 @@ pub struct Sampled<L> {
     pub direction: [f32; 3],
     /// Distance to the point, metres.
     pub distance: f32,
-    /// Density over solid angle, `pmf` included, 1/sr; 0 where no ray meets the light, as of points and spots.
+    /// Density over solid angle, `pmf` included, 1/sr; 0 where no ray meets the light, as of points and spots. See
+    /// [`mis_weight`](crate::light::mis_weight).
     pub pdf: f32,
     /// Irradiance at the front of the receiver from the point, visibility apart, W/m², linear RGB: [`LightPoint::irradiance`].
     pub irradiance: [f32; 3],
-}
-
-impl<L> Sampled<L> {
-    /// The weight of this sample beside a ray whose direction the surface chose with density `scattering`, 1/sr, by the power heuristic
-    /// (Veach & Guibas 1995); 1 where no ray meets the light. The ray's weight is 1 − [`mis_weight`](fn@mis_weight) of
-    /// [`Bvh::pdf_of_hit`](super::Bvh::pdf_of_hit).
-    #[must_use]
-    pub fn mis_weight(&self, scattering: f32) -> f32 {
-        mis_weight(self.pdf, scattering)
-    }
 }
 
 /// Whose light a [`SampledLight`](crate::SampledLight) is.

@@ -114,6 +114,20 @@ impl<'a, M: Model<W>, const W: usize> View<'a, M, W> {
         self.0.numbers.used_end().max(forgotten.map_or(0, |all| all.end))
     }
 
+    /// The ids of all instances, lights by themselves among them, in the order of their indices.
+    pub fn instance_ids(&self) -> impl Iterator<Item = InstanceId> + Clone + use<'a, M, W> {
+        let bvh = self.0;
+        let live = (0..).zip(&bvh.placed).filter(|(_, placed)| placed.live);
+        live.map(|(index, _)| bvh.id_of_instance(index))
+    }
+
+    /// The ids of all meshes, those of lights by themselves among them, in the order of their indices.
+    pub fn mesh_ids(&self) -> impl Iterator<Item = MeshId> + Clone + use<'a, M, W> {
+        let bvh = self.0;
+        let live = (0..).zip(&bvh.meshes).filter(|(_, mesh)| mesh.live);
+        live.map(|(index, _)| bvh.id_of_mesh(index))
+    }
+
     /// The id of the instance of index `instance`, as a [`SampledLight`](crate::SampledLight) names it; `None` where there is
     /// no such.
     #[must_use]

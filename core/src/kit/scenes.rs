@@ -99,8 +99,7 @@ pub fn scattered<M: Model<W>, const W: usize>(
 
 /// The ids of all instances.
 pub fn instances<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> Vec<InstanceId> {
-    let all = 0..bvh.view().instances().len() as u32;
-    all.filter_map(|k| bvh.view().instance_id(k)).collect()
+    bvh.view().instance_ids().collect()
 }
 
 /// All lights, each with its instance.
@@ -125,8 +124,7 @@ pub fn edits<M: Model<W>, const W: usize>(
 where
     M::Light: Lamp,
 {
-    let meshes = 0..bvh.view().roots().len() as u32;
-    let mut meshes: Vec<_> = meshes.filter_map(|k| bvh.view().mesh_id(k)).collect();
+    let mut meshes: Vec<_> = bvh.view().mesh_ids().collect();
     let mut all = instances(bvh);
     let mut out = Vec::new();
     for _ in 0..count {
@@ -239,9 +237,7 @@ pub fn sound<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>)
 where
     M::Importance: ImportanceModel<M::Node, W>,
 {
-    bvh.view()
-        .validate()
-        .unwrap_or_else(|violation| panic!("{violation}"));
+    bvh.view().validate().expect("valid");
     sound_samples(bvh);
     if crate::Summary::phi(&bvh.view().summary()) == 0.0 {
         return;

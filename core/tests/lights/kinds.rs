@@ -45,9 +45,7 @@ fn sent(light: &AnyLight, point: &ShadingPoint, random: &mut Random) -> f64 {
 }
 
 fn check_sampling(name: &str, bvh: &Tree, random: &mut Random) {
-    bvh.view()
-        .validate()
-        .unwrap_or_else(|error| panic!("{name}: {error}"));
+    bvh.view().validate().expect(name);
     let world = bvh.view().world_lights();
     for _ in 0..6 {
         let point = random.point(22.0);
@@ -73,10 +71,7 @@ fn check_sampling(name: &str, bvh: &Tree, random: &mut Random) {
             let sampled = bvh.tree().sample(&point, Random64::from(random.word()));
             let pmf = bvh.tree().pmf(&point, sampled.light, sampled.instance);
             assert_eq!(sampled.pmf.to_bits(), pmf.to_bits(), "{name}");
-            let light = bvh
-                .view()
-                .light(sampled.light, sampled.instance)
-                .expect("a light");
+            let light = bvh.owner(&sampled).expect("a light").light;
             mean += sent(&light, &point, random) / f64::from(pmf) / f64::from(SAMPLES);
         }
         let deviation = (squares / f64::from(SAMPLES)).sqrt();
@@ -103,21 +98,15 @@ fn each_kind_alone_and_all_in_one_tree() {
         let mut rebuilder = Rebuilder::default();
         for _ in 0..12 {
             rebuilder.begin_frame(&mut bvh).expect("no panic");
-            let ids: Vec<_> = (0..bvh.view().instances().len() as u32)
-                .filter_map(|k| bvh.view().instance_id(k))
-                .collect();
+            let ids: Vec<_> = bvh.view().instance_ids().collect();
             let id = ids[random.below(ids.len() as u32) as usize];
             bvh.set_transform(id, place(random)).expect("in the domain");
             let mesh = bvh.view().mesh_of(id).expect("a mesh");
             let new = (0..PER_MESH).map(|_| light(random)).collect();
-            bvh.apply(vec![Edit::SetLights { mesh, lights: new }])
-                .expect("as many");
-            bvh.apply(vec![Edit::SetLightRange {
-                mesh,
-                first: 3,
-                lights: vec![light(random)],
-            }])
-            .expect("in the mesh");
+            let (first, lights) = (3, vec![light(random)]);
+            let some = Edit::SetLightRange { mesh, first, lights };
+            bvh.apply(vec![Edit::SetLights { mesh, lights: new }, some])
+                .expect("in the mesh");
             bvh.remove(id).expect("it is there");
             bvh.add_instance(mesh, place(random)).expect("in the domain");
             bvh.refit();
@@ -154,11 +143,9 @@ fn any_light_is_its_kind() {
         let mut bvh = Tree::default();
         let mesh = bvh.add_mesh(vec![any]).expect("in the domain");
         bvh.add_instance(mesh, place(random)).expect("in the domain");
-        let world = any.in_world(&bvh.view().instances()[0], 5);
-        assert_eq!(
-            L::try_from(world),
-            Ok(own.in_world(&bvh.view().instances()[0], 5))
-        );
+        let instance = &bvh.view().instances()[0];
+        let world = any.in_world(instance, 5);
+        assert_eq!(L::try_from(world), Ok(own.in_world(instance, 5)));
     }
     let random = &mut Random(hash(3));
     for _ in 0..200 {

@@ -78,12 +78,13 @@ struct Known {
 
 fn known(bvh: &Tree) -> Vec<Known> {
     let mut all = Vec::new();
-    for id in (0..bvh.view().instances().len() as u32).filter_map(|k| bvh.view().instance_id(k)) {
-        let mesh = bvh.view().mesh_of(id).expect("of an instance");
-        let own = bvh.view().mesh_lights(mesh).expect("of a mesh");
-        let Instance { radiance, mask, .. } = bvh.view().instances()[id.index() as usize];
+    let view = bvh.view();
+    for id in view.instance_ids() {
+        let mesh = view.mesh_of(id).expect("of an instance");
+        let own = view.mesh_lights(mesh).expect("of a mesh");
+        let Instance { radiance, mask, .. } = view.instances()[id.index() as usize];
         let is_on = radiance.iter().any(|&x| x > 0.0);
-        let numbers = bvh.view().lights_of(id).expect("of an instance");
+        let numbers = view.lights_of(id).expect("of an instance");
         all.extend(numbers.zip(own).map(|(light, own)| Known {
             light,
             instance: id.index(),
@@ -243,12 +244,9 @@ fn two_levels_go_on_by_edits() {
                 2 | 3 => {
                     let first = random.below(count);
                     let some = 1 + random.below(count - first);
-                    bvh.apply(vec![Edit::SetLightRange {
-                        mesh,
-                        first,
-                        lights: lights(random, some),
-                    }])
-                    .expect("in the mesh");
+                    let lights = lights(random, some);
+                    bvh.apply(vec![Edit::SetLightRange { mesh, first, lights }])
+                        .expect("in the mesh");
                 }
                 4 if ids.len() > 2 => {
                     bvh.remove(ids.swap_remove(at)).expect("it is there");
@@ -291,8 +289,9 @@ fn masks_that_allow_all_change_nothing() {
         Bvh::single_level(&lights, &BuildParams::default());
     // The words of a node but for the last row are those without masks.
     let row = size_of::<[u32; 8]>();
-    assert_eq!(plain.view().nodes().len(), masked.view().nodes().len());
-    for (a, b) in plain.view().nodes().iter().zip(masked.view().nodes()) {
+    let (a, b) = (plain.view().nodes(), masked.view().nodes());
+    assert_eq!(a.len(), b.len());
+    for (a, b) in a.iter().zip(b) {
         let b = bytemuck::bytes_of(b);
         assert_eq!(bytemuck::bytes_of(a), &b[..b.len() - row]);
     }
@@ -300,15 +299,13 @@ fn masks_that_allow_all_change_nothing() {
         let mut receiver = random.receiver(2.0);
         receiver.mask |= 1 << (k % 32);
         let number = random.word();
-        let sampled = plain.tree().sample(&receiver.point, number);
-        assert_eq!(sampled, masked.tree().sample(&receiver, number));
+        let (plain, masked) = (plain.tree(), masked.tree());
+        let sampled = plain.sample(&receiver.point, number);
+        assert_eq!(sampled, masked.sample(&receiver, number));
+        assert_eq!(sampled, masked.by::<Moments>().sample(&receiver.point, number));
         assert_eq!(
-            sampled,
-            masked.tree().by::<Moments>().sample(&receiver.point, number)
-        );
-        assert_eq!(
-            plain.tree().pmf(&receiver.point, k % 700, 0).to_bits(),
-            masked.tree().pmf(&receiver, k % 700, 0).to_bits()
+            plain.pmf(&receiver.point, k % 700, 0).to_bits(),
+            masked.pmf(&receiver, k % 700, 0).to_bits()
         );
     }
 }

@@ -444,63 +444,50 @@ where
 #[test]
 fn wrong_receivers_get_no_light() {
     type Of<I> = (MomentNode<8>, I);
-    type WithMasks = (LinkedSpotMomentNode<8>, Linked<Moments>);
-    let of = |p, n| ShadingPoint { p, n };
     let (here, up) = ([0.0, 1.0, 0.0], [0.0, 1.0, 0.0]);
-    let wrong = [
-        of([f32::NAN, 0.0, 0.0], up),
-        of([0.0, f32::INFINITY, 0.0], up),
-        of([0.0, 0.0, -1.0e19], up),
-        of(here, [0.0, 1.1, 0.0]),
-        of(here, [f32::NAN; 3]),
-    ];
-    let sound = of(here, up);
-    let mirror = up;
-    let glossy = |point, mirror, diffuse, specular, exponent| GlossyPoint {
-        point,
-        mirror,
-        diffuse,
-        specular,
-        exponent,
+    let of = |p, n| ShadingPoint { p, n };
+    let glossy = |point, mirror, [diffuse, specular, exponent]: [f32; 3]| {
+        has_light::<Of<Glossy<Moments>>, _>(&GlossyPoint {
+            point,
+            mirror,
+            diffuse,
+            specular,
+            exponent,
+        })
     };
-    let leaf = |point, front, back| TransmissivePoint { point, front, back };
-    for (point, is_sound) in wrong
-        .map(|point| (point, false))
-        .into_iter()
-        .chain([(sound, true)])
-    {
-        assert_eq!(has_light::<Of<Moments>, _>(&point), is_sound, "{point:?}");
+    let leaf = |point, [front, back]: [f32; 2]| {
+        has_light::<Of<Transmissive<Moments>>, _>(&TransmissivePoint { point, front, back })
+    };
+    for (point, is_sound) in [
+        (of(here, up), true),
+        (of(here, [0.0; 3]), true),
+        (of([f32::NAN, 0.0, 0.0], up), false),
+        (of([0.0, f32::INFINITY, 0.0], up), false),
+        (of([0.0, 0.0, -1.0e19], up), false),
+        (of(here, [0.0, 1.1, 0.0]), false),
+        (of(here, [f32::NAN; 3]), false),
+    ] {
         let masked = LinkedPoint { point, mask: 1 };
-        assert_eq!(has_light::<WithMasks, _>(&masked), is_sound, "{point:?}");
-        let glossy = glossy(point, mirror, 0.5, 0.5, 8.0);
-        assert_eq!(
-            has_light::<Of<Glossy<Moments>>, _>(&glossy),
-            is_sound,
-            "{point:?}"
-        );
-        let leaf = leaf(point, 0.5, 0.5);
-        assert_eq!(
-            has_light::<Of<Transmissive<Moments>>, _>(&leaf),
-            is_sound,
-            "{point:?}"
-        );
+        let found = [
+            has_light::<Of<Moments>, _>(&point),
+            has_light::<(LinkedSpotMomentNode<8>, Linked<Moments>), _>(&masked),
+            glossy(point, up, [0.5, 0.5, 8.0]),
+            leaf(point, [0.5; 2]),
+        ];
+        assert_eq!(found, [is_sound; 4], "{point:?}");
         // A segment has no normal.
-        let is_sound = is_sound || point.p == here;
-        for segment in [[point.p, here], [here, point.p]].map(|[from, to]| RaySegment { from, to }) {
-            assert_eq!(has_light::<Of<Subtended>, _>(&segment), is_sound, "{segment:?}");
+        for [from, to] in [[point.p, here], [here, point.p]] {
+            let found = has_light::<Of<Subtended>, _>(&RaySegment { from, to });
+            assert_eq!(found, point.p == here, "{point:?}");
         }
     }
     for wrong in [f32::NAN, -1.0, f32::INFINITY] {
-        for wrong in [
-            glossy(sound, [wrong; 3], 0.5, 0.5, 8.0),
-            glossy(sound, mirror, wrong, 0.5, 8.0),
-            glossy(sound, mirror, 0.5, wrong, 8.0),
-            glossy(sound, mirror, 0.5, 0.5, wrong),
-        ] {
-            assert!(!has_light::<Of<Glossy<Moments>>, _>(&wrong), "{wrong:?}");
+        assert!(!glossy(of(here, up), [wrong; 3], [0.5, 0.5, 8.0]));
+        for k in 0..3 {
+            let mut parts = [0.5, 0.5, 8.0];
+            parts[k] = wrong;
+            assert!(!glossy(of(here, up), up, parts), "{parts:?}");
         }
-        for wrong in [leaf(sound, wrong, 0.5), leaf(sound, 0.5, wrong)] {
-            assert!(!has_light::<Of<Transmissive<Moments>>, _>(&wrong), "{wrong:?}");
-        }
+        assert!(!leaf(of(here, up), [wrong, 0.5]) && !leaf(of(here, up), [0.5, wrong]));
     }
 }

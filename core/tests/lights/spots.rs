@@ -142,27 +142,18 @@ fn sent(light: &AnyLight, p: [f32; 3]) -> f32 {
     light.point_for(Vec3::from(p), [0.5; 2]).radiance.iter().sum()
 }
 
+fn light_of(bvh: &Tree, own: &Told) -> AnyLight {
+    world_light(bvh.view().lights(), bvh.tree().instances, own.light, own.instance)
+}
+
 fn sends(bvh: &Tree, own: &Told, p: [f32; 3]) -> bool {
-    sent(
-        &world_light(
-            bvh.view().lights(),
-            bvh.view().instances(),
-            own.light,
-            own.instance,
-        ),
-        p,
-    ) > 0.0
+    sent(&light_of(bvh, own), p) > 0.0
 }
 
 /// The least that a beam may leave of the weight of a light that reaches `p`: nearly all of it, or of one that fades by its range
 /// the square of a fourth of what the range leaves of its light.
 fn left(bvh: &Tree, own: &Told, p: [f32; 3]) -> f32 {
-    let light = world_light(
-        bvh.view().lights(),
-        bvh.view().instances(),
-        own.light,
-        own.instance,
-    );
+    let light = light_of(bvh, own);
     match SpotLight::try_from(light) {
         Ok(spot) if spot.range > 0.0 => {
             let whole = SpotLight { range: 0.0, ..spot };

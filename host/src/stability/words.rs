@@ -68,12 +68,8 @@ pub(crate) fn compare_bvh(
     side.compare(tallies, Kind::Nodes, &what("refit"), &record, |backend| {
         Ok(words_in_use(bvh, &backend.nodes()?))
     })?;
-    side.compare_queries(
-        tallies,
-        &what,
-        queries(points),
-        (lights, bvh.view().is_single_level()),
-    )
+    let is_single = bvh.view().is_single_level();
+    side.compare_queries(tallies, &what, queries(points), (lights, is_single))
 }
 
 /// The same with links alone in its nodes, so that a refit has everything to compute.

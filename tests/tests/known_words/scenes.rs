@@ -124,12 +124,8 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
         for &id in &ids {
             let lights = scene.view().lights_of(id).expect("it is there");
             let point = generate::point(&mut random, 20.0);
-            digest.float(
-                scene
-                    .tree()
-                    .by::<I>()
-                    .pmf(&point, lights.start + frame % 30, id.index()),
-            );
+            let tree = scene.tree().by::<I>();
+            digest.float(tree.pmf(&point, lights.start + frame % 30, id.index()));
         }
     }
     digest.is(known, N::NAME);

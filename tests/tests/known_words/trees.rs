@@ -82,7 +82,7 @@ fn tree<N: LightNode<W>, const W: usize>(digest: &mut Digest, bvh: &Bvh<(N, ()),
     ]
     .into_iter()
     .for_each(|word| digest.word(word));
-    let plan = Cursor::default().plan(&bvh);
+    let plan = Cursor::default().plan(bvh);
     for levels in [&plan.bottom, &plan.top] {
         digest.words(levels.nodes());
         levels.ranges().for_each(|range| digest.word(range.end as u32));

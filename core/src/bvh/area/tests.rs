@@ -177,12 +177,9 @@ fn edits_change_how_flux_grows() {
     assert_eq!(flux(&bvh), [1.0, 1.0, 4.0]);
     for (from, own, name) in [(&spheres, 4.0, "spheres"), (&points, 1.0, "points")] {
         for (k, &light) in from.iter().enumerate() {
-            bvh.apply(std::vec![Edit::SetLightRange {
-                mesh,
-                first: k as u32,
-                lights: std::vec![light]
-            }])
-            .expect("a light");
+            let (first, lights) = (k as u32, std::vec![light]);
+            bvh.apply(std::vec![Edit::SetLightRange { mesh, first, lights }])
+                .expect("a light");
             bvh.refit();
             let own = if k + 1 < PER_MESH { 4.0 } else { own };
             assert_eq!(flux(&bvh), [own, own, 4.0], "{name} {k}");
@@ -192,11 +189,9 @@ fn edits_change_how_flux_grows() {
         let again = Tree::<AnyLight>::from_words(&bvh.to_words()).expect("written by itself");
         assert_eq!(again.instances, bvh.instances);
     }
-    bvh.apply(std::vec![Edit::SetLights {
-        mesh,
-        lights: spheres.clone()
-    }])
-    .expect("as many");
+    let lights = spheres.clone();
+    bvh.apply(std::vec![Edit::SetLights { mesh, lights }])
+        .expect("as many");
     bvh.refit();
     agrees("spheres at once", &bvh, 1, &spheres);
 }

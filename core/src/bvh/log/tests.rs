@@ -71,13 +71,14 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
     fn follow(&mut self, bvh: &Bvh<impl Model<W, Node = N, Light = N::Light>, W>) {
         let all = |length: usize| std::vec![0..length as u32];
         let mut plan = self.cursor.plan(bvh);
-        let (top, links) = (bvh.view().top_nodes(), bvh.tree().links);
+        let (view, links) = (bvh.view(), bvh.tree().links);
+        let top = view.top_nodes();
         if plan.everything {
             self.wholes += 1;
-            plan.written_nodes = all(bvh.view().nodes().len());
-            plan.written_lights = all(bvh.view().lights().len());
-            plan.written_trails = all(bvh.view().lights().len());
-            plan.written_instances = all(bvh.view().instances().len());
+            plan.written_nodes = all(view.nodes().len());
+            plan.written_lights = all(view.lights().len());
+            plan.written_trails = all(view.lights().len());
+            plan.written_instances = all(view.instances().len());
         }
         if plan.whole_top {
             plan.written_top = all(top.len());
@@ -86,11 +87,11 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
             plan.written_parts = all(links.parts.len());
         }
         // No summary is copied: the passes compute them.
-        let [nodes, top] = [bvh.view().nodes(), top].map(|nodes| nodes.iter().map(bare).collect::<Vec<N>>());
+        let [nodes, top] = [view.nodes(), top].map(|nodes| nodes.iter().map(bare).collect::<Vec<N>>());
         let trail_words = bvh.tree().trail_words as usize;
         copy(&mut self.nodes, 0, &nodes, 1, &plan.written_nodes);
         copy(&mut self.nodes, TOP, &top, 1, &plan.written_top);
-        copy(&mut self.lights, 0, bvh.view().lights(), 1, &plan.written_lights);
+        copy(&mut self.lights, 0, view.lights(), 1, &plan.written_lights);
         copy(
             &mut self.trails,
             0,
@@ -101,7 +102,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         copy(
             &mut self.instances,
             0,
-            bvh.view().instances(),
+            view.instances(),
             1,
             &plan.written_instances,
         );
@@ -111,7 +112,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         let bottom = |nodes: &[N], node| refit::bottom(nodes, &self.lights, node);
         passes(&mut self.nodes, 0, &plan.bottom, bottom);
         for &mesh in &plan.roots {
-            self.roots[mesh as usize] = refit::root(&self.nodes, bvh.view().roots()[mesh as usize].node);
+            self.roots[mesh as usize] = refit::root(&self.nodes, view.roots()[mesh as usize].node);
         }
         let top = |nodes: &[N], node| {
             refit::top(
@@ -141,10 +142,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         for &mesh in &all.roots {
             assert_eq!(self.roots[mesh as usize], bvh.view().roots()[mesh as usize]);
         }
-        assert_eq!(
-            self.instances[..bvh.view().instances().len()],
-            *bvh.view().instances()
-        );
+        assert_eq!(self.instances[..tree.instances.len()], *tree.instances);
         let words = TreeWords {
             root: tree.root,
             trail_words: tree.trail_words,
@@ -162,10 +160,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         }
         let point = points(1)[0];
         for (light, instance) in lights(bvh) {
-            let pmfs = [
-                own.pmf(&point, light, instance),
-                bvh.tree().pmf(&point, light, instance),
-            ];
+            let pmfs = [own, tree].map(|tree| tree.pmf(&point, light, instance));
             assert_eq!(pmfs[0].to_bits(), pmfs[1].to_bits(), "{light} of {instance}");
             let found = refit::world_light(&self.lights, &self.instances, light, instance);
             assert_eq!(Some(found), bvh.view().light(light, instance));

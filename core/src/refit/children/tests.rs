@@ -39,10 +39,8 @@ where
 
 /// All nodes in one array, as on a device, those of the top level last, and where they begin.
 fn flat<N: Node<W>, const W: usize>(bvh: &Bvh<(N, ()), W>) -> (Vec<N>, u32) {
-    (
-        [bvh.view().nodes(), bvh.view().top_nodes()].concat(),
-        bvh.view().nodes().len() as u32,
-    )
+    let [nodes, top] = [bvh.view().nodes(), bvh.view().top_nodes()];
+    ([nodes, top].concat(), nodes.len() as u32)
 }
 
 /// The node of which each child is computed by itself.
@@ -70,12 +68,8 @@ where
     let bvh = scene::<N, W>(&mut Random(5));
     let plan = Cursor::default().plan(&bvh);
     let (nodes, first) = flat(&bvh);
-    let (nodes, lights, instances, roots) = (
-        &*nodes,
-        bvh.view().lights(),
-        bvh.view().instances(),
-        bvh.view().roots(),
-    );
+    let (nodes, view) = (&*nodes, bvh.view());
+    let (lights, instances, roots) = (view.lights(), view.instances(), view.roots());
     assert!(plan.bottom.nodes().len() > 20 && plan.top.nodes().len() > 4);
     for &index in plan.bottom.nodes() {
         let parts = by_children::<N, W, ROWS>(nodes, index, |slot| bottom_child(nodes, lights, index, slot));

@@ -36,7 +36,7 @@ pub(crate) fn scene<N: LightNode<W>, const W: usize>() -> (Bvh<(N, ()), W>, Vec<
 /// Does a frame to buffers that stand for the device's; a dispatch takes the CPU's word for what it computes. Returns how many
 /// steps there were.
 fn follow(held: &mut [Vec<u8>], scene: &Tree, mirror: &mut Mirror) -> usize {
-    let frame = mirror.frame(scene);
+    let (frame, view) = (mirror.frame(scene), scene.view());
     let top = mirror.top::<MomentNode<8>>();
     for step in frame.steps() {
         match step {
@@ -57,18 +57,11 @@ fn follow(held: &mut [Vec<u8>], scene: &Tree, mirror: &mut Mirror) -> usize {
                 let list: &[u32] = cast_slice(&list);
                 for &entry in &list[first as usize..][..count as usize] {
                     let (buffer, computed): (_, &[u8]) = match entry.checked_sub(top) {
-                        _ if pass == Pass::Roots => (
-                            DeviceBuffer::Roots,
-                            bytes_of(&scene.view().roots()[entry as usize]),
-                        ),
-                        None => (
-                            DeviceBuffer::Nodes,
-                            bytes_of(&scene.view().nodes()[entry as usize]),
-                        ),
-                        Some(above) => (
-                            DeviceBuffer::Nodes,
-                            bytes_of(&scene.view().top_nodes()[above as usize]),
-                        ),
+                        _ if pass == Pass::Roots => {
+                            (DeviceBuffer::Roots, bytes_of(&view.roots()[entry as usize]))
+                        }
+                        None => (DeviceBuffer::Nodes, bytes_of(&view.nodes()[entry as usize])),
+                        Some(above) => (DeviceBuffer::Nodes, bytes_of(&view.top_nodes()[above as usize])),
                     };
                     let at = entry as usize * computed.len();
                     held[buffer as usize][at..][..computed.len()].copy_from_slice(computed);
