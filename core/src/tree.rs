@@ -7,7 +7,7 @@ use bytemuck::{Pod, Zeroable};
 use crate::importance::DefaultImportance;
 use crate::instance::Instance;
 pub use crate::light::INVALID;
-pub use crate::model::{AnyKind, Masked, Model, Paper, Triangles};
+pub use crate::model::{AnyKind, Masked, Model, Paper, ReceiverOf, Triangles};
 use crate::node::DefaultNode;
 use crate::trail::{BitTrail, Path, max_levels, place_parts};
 

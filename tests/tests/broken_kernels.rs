@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 use bytemuck::cast_slice;
 use lightbvh::BuildParams;
+use lightbvh::device::bvh::follow;
 use lightbvh_host::backend::{
     Backend, Bvh, CpuBackend, DeviceBackend, Follow, PMF_RECORD, SAMPLED_RECORD, Sampler, held,
 };
@@ -75,7 +76,7 @@ fn different(device: &Device) -> [u64; 3] {
     // Each kernel by itself: samples are of the right nodes.
     let own = cpu.bvh();
     other
-        .write_nodes(own.nodes(), own.top_nodes())
+        .write_nodes(own.view().nodes(), own.view().top_nodes())
         .expect("an upload");
     let sampled = cpu.sample(&asked).expect("samples").value;
     let found = other.sample(&asked).expect("samples").value;

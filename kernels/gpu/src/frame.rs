@@ -100,11 +100,11 @@ const CHILDREN: usize = 10;
 fn arrays<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> [&[u8]; LIST] {
     let tree = bvh.tree();
     [
-        cast_slice(bvh.nodes()),
-        cast_slice(bvh.top_nodes()),
-        cast_slice(bvh.lights()),
+        cast_slice(bvh.view().nodes()),
+        cast_slice(bvh.view().top_nodes()),
+        cast_slice(bvh.view().lights()),
         cast_slice(tree.instances),
-        cast_slice(bvh.roots()),
+        cast_slice(bvh.view().roots()),
         cast_slice(tree.trails),
         cast_slice(tree.links.above),
         cast_slice(tree.links.places),
@@ -147,7 +147,7 @@ impl Mirror {
     /// Everything is uploaded and computed if the light BVH is another than last time (a clone, or one that was read), or if its
     /// log has dropped changes since.
     pub fn frame<'a, M: Model<W>, const W: usize>(&mut self, bvh: &'a Bvh<M, W>) -> Frame<'a> {
-        let mut plan = bvh.plan(&mut self.cursor);
+        let mut plan = self.cursor.plan(bvh);
         let (arrays, strides) = (arrays(bvh), strides(bvh));
         // Arrays that share a buffer move if one of them needs more room.
         let mut is_new = [false; DeviceBuffer::ALL.len()];
@@ -155,7 +155,7 @@ impl Mirror {
             is_new[BUFFERS[k] as usize] |= self.reserve(k, own.len() as u64, strides[k]);
         }
         if is_new[DeviceBuffer::Nodes as usize] && !plan.everything {
-            let all = bvh.plan_of_everything();
+            let all = Cursor::default().plan(bvh);
             (plan.bottom, plan.roots, plan.top) = (all.bottom, all.roots, all.top);
         }
         let roots: Vec<_> = plan.roots.iter().map(|&root| root..root + 1).collect();
@@ -210,7 +210,7 @@ impl Mirror {
             live: tree.live,
             lights: tree.lights,
             depth: tree.depth,
-            top: if bvh.is_single_level() {
+            top: if bvh.view().is_single_level() {
                 0
             } else {
                 self.top::<M::Node>()
