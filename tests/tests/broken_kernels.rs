@@ -68,7 +68,7 @@ fn different(device: &Device) -> [u64; 3] {
     let mut asked = queries(&arrays, 1, 0, QUERIES);
     let mut cpu = CpuBackend::<Paper, 4>::new(bvh.clone());
     let mut other = DeviceBackend::<Paper, 4>::new(device, &bvh).expect("an upload");
-    cpu.bvh_mut().follow(&lights[1]).expect("the same lights");
+    follow(cpu.bvh_mut(), &lights[1]).expect("the same lights");
     let nodes = &held(cpu.bvh())[0];
     other.follow(cpu.bvh()).expect("copies and a refit");
     let found = &other.held(cpu.bvh()).expect("a read")[0];

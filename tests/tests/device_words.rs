@@ -4,7 +4,6 @@
 use std::fmt::Debug;
 
 use bytemuck::{Pod, bytes_of};
-use lightbvh::bvh::Cursor;
 use lightbvh::device::bvh::follow;
 use lightbvh::device::point::Receiver;
 use lightbvh::importance::{DefaultImportance, ImportanceModel, LinkedPoint};
@@ -93,7 +92,7 @@ impl<'d, N: Node<W>, const W: usize> Held<'d, N, W> {
         random: &mut Random,
     ) -> Vec<(P, SampledLight)> {
         self.arrays.follow(bvh).expect("a frame");
-        let (device, tree) = (self.arrays.device(), bvh.by::<I>());
+        let (device, tree) = (self.arrays.device(), bvh.tree().by::<I>());
         for (own, found) in held(bvh).iter().zip(self.arrays.held(bvh).expect("a read")) {
             same(device, own.record.name, &found.words, &own.words);
         }

@@ -230,9 +230,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                     }
                 }
                 Edit::SetLights { mesh, lights } => self.write_lights(mesh.index, 0, &lights),
-                Edit::SetLightRange { mesh, first, lights } => {
-                    self.write_lights(mesh.index, first, &lights)
-                }
+                Edit::SetLightRange { mesh, first, lights } => self.write_lights(mesh.index, first, &lights),
                 Edit::RemoveInstance(id) => self.take_instance(id.index),
                 Edit::RemoveMesh(id) => self.take_mesh(id.index),
             }

@@ -234,7 +234,7 @@ impl Mirror {
         &self,
         bvh: &'a Bvh<M, W>,
     ) -> Vec<(DeviceBuffer, u64, &'a [u8])> {
-        let (all, tree, instances) = (bvh.plan_of_everything(), bvh.tree(), bvh.instances());
+        let (all, tree, instances) = (Cursor::default().plan(bvh), bvh.tree(), bvh.view().instances());
         let one = |index: u32| index..index + 1;
         let ones = |indices: &[u32]| indices.iter().copied().map(one).collect();
         let live = (0..).zip(instances).filter(|(_, own)| own.count > 0);
@@ -245,13 +245,13 @@ impl Mirror {
         let opened = opened.filter(|(own, place)| own.count > 0 && (OPENED..INVALID).contains(place));
         // A part is a child of the mesh's root.
         let parts = opened.map(|(own, place)| {
-            let (root, first) = (&bvh.nodes()[own.root as usize], place - OPENED);
+            let (root, first) = (&bvh.view().nodes()[own.root as usize], place - OPENED);
             first..first + (0..W).filter(|&slot| root.kind(slot) == kind::INNER).count() as u32
         });
         let used: [Vec<Range<u32>>; LIST] = [
             ones(all.bottom.nodes()),
             ones(all.top.nodes()),
-            vec![0..bvh.lights().len() as u32],
+            vec![0..bvh.view().lights().len() as u32],
             vec![0..instances.len() as u32],
             ones(&all.roots),
             trails.collect(),

@@ -163,7 +163,10 @@ fn of_several_kinds(
         table::print_json(&report)?;
         return Ok(Outcome::Good);
     }
-    say!("{} in frame {frame}, {count} lights in meshes and by themselves\n\nwhat it requires", scene.name())?;
+    say!(
+        "{} in frame {frame}, {count} lights in meshes and by themselves\n\nwhat it requires",
+        scene.name()
+    )?;
     line("lights", &kinds.cones())?;
     line("animation", &said(moving))?;
     say!("\na tree over its lights: {tree}, two levels")?;
