@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 
 use lightbvh::exact::{hash, unit_f32};
-use lightbvh::light::{AnyLight, PointLight, RectangleLight, SphereLight, SpotLight};
+use lightbvh::light::{AnyLight, Light, PointLight, RectangleLight, SphereLight, SpotLight};
 use lightbvh::{AnyLights, ShadingPoint, Transform};
 
 type Error = Box<dyn std::error::Error>;
@@ -19,16 +19,19 @@ fn main() -> Result<(), Error> {
             report(&format!("field at {origin} m, seed {seed}"), &[("AnyLights", scene.loose()?)]);
         }
         for seed in 1..=3 {
-            let scene = town(seed, 100, origin);
+            let scene = town(seed, 100, origin, true);
             report(
                 &format!("town with ranges at {origin} m, seed {seed}"),
                 &[("AnyLights", scene.as_given()?)],
             );
         }
     }
-    for (cars, seed) in [(100, 1), (400, 1), (400, 2), (400, 3), (1600, 1)] {
-        compare(&format!("{cars} cars, seed {seed}"), &cars_alone(seed, cars))?;
-        compare(&format!("town, {cars} cars, seed {seed}"), &town(seed, cars, 0.0))?;
+    for ends in [true, false] {
+        let ranges = if ends { "ranges" } else { "no ranges" };
+        for (cars, seed) in [(100, 1), (400, 1), (400, 2), (400, 3), (1600, 1)] {
+            compare(&format!("{cars} cars, {ranges}, seed {seed}"), &cars_alone(seed, cars, ends))?;
+            compare(&format!("town, {cars} cars, {ranges}, seed {seed}"), &town(seed, cars, 0.0, ends))?;
+        }
     }
     Ok(())
 }
@@ -237,21 +240,22 @@ fn place(turned: bool, street: u32, along: f32, across: f32, origin: f32) -> [f3
 }
 
 /// Headlights and tail lights, forward is +z: 2,000 and 5 cd.
-fn car() -> Vec<AnyLight> {
+fn car(ends: bool) -> Vec<AnyLight> {
+    let range = if ends { 60.0 } else { 0.0 };
     let down = 0.035_f32;
     let axis = [0.0, -down, (1.0 - down * down).sqrt()];
     let tail = |x| SphereLight { p: [x, 0.8, -2.2], radius: 0.05, radiance: [600.0, 10.0, 10.0], mesh: 0 };
     vec![
-        spot([-0.7, 0.7, 2.2], axis, 30.0, 2000.0, 60.0),
-        spot([0.7, 0.7, 2.2], axis, 30.0, 2000.0, 60.0),
+        spot([-0.7, 0.7, 2.2], axis, 30.0, 2000.0, range),
+        spot([0.7, 0.7, 2.2], axis, 30.0, 2000.0, range),
         tail(-0.7).into(),
         tail(0.7).into(),
     ]
 }
 
 /// Cars on the streets in both directions, standing or driving, and points on roads and walls.
-fn add_cars(scene: &mut Scene, random: &mut Random, cars: u32, origin: f32) {
-    scene.meshes.push(car());
+fn add_cars(scene: &mut Scene, random: &mut Random, cars: u32, origin: f32, ends: bool) {
+    scene.meshes.push(car(ends));
     let mesh = scene.meshes.len() - 1;
     for _ in 0..cars {
         let (turned, street) = (random.below(2) == 1, random.below(STREETS));
@@ -277,24 +281,25 @@ fn add_cars(scene: &mut Scene, random: &mut Random, cars: u32, origin: f32) {
     }
 }
 
-fn cars_alone(seed: u32, cars: u32) -> Scene {
+fn cars_alone(seed: u32, cars: u32, ends: bool) -> Scene {
     let (mut random, mut scene) = (Random(seed << 20), Scene::default());
-    add_cars(&mut scene, &mut random, cars, 0.0);
+    add_cars(&mut scene, &mut random, cars, 0.0, ends);
     scene
 }
 
 /// Streets with lamps, windows and cars.
-fn town(seed: u32, cars: u32, origin: f32) -> Scene {
+fn town(seed: u32, cars: u32, origin: f32, ends: bool) -> Scene {
     let (mut random, mut scene) = (Random(seed << 20), Scene::default());
     for turned in [false, true] {
         for street in 0..STREETS {
+            let range = if ends { 25.0 } else { 0.0 };
             // Lamps each 9 m, on both sides: half of them bulbs, the others shine down.
             for k in 0..2 * (LENGTH / 9.0) as u32 {
                 let side = [-6.0, 6.0][k as usize % 2];
                 let [x, z] = place(turned, street, 4.5 * k as f32, side, origin);
                 let lamp = match k % 4 {
-                    0 | 1 => bulb([0.0; 3], 200.0, 25.0),
-                    _ => spot([0.0; 3], [0.0, -1.0, 0.0], 65.0, 400.0, 25.0),
+                    0 | 1 => bulb([0.0; 3], 200.0, range),
+                    _ => spot([0.0; 3], [0.0, -1.0, 0.0], 65.0, 400.0, range),
                 };
                 scene.add(vec![lamp], Transform::at([x, 6.0, z]));
             }
@@ -311,6 +316,6 @@ fn town(seed: u32, cars: u32, origin: f32) -> Scene {
             }
         }
     }
-    add_cars(&mut scene, &mut random, cars, origin);
+    add_cars(&mut scene, &mut random, cars, origin, ends);
     scene
 }
