@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Bvh;
-use super::top::{Batch, Cluster, Part, may_open};
+use super::top::{Batch, Cluster, Part, are_mixed, may_open};
 use crate::node::{Node, kind};
 use crate::refit::{self, Child, has_limits, leaf_child};
 use crate::summary::Summary;
@@ -93,7 +93,8 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                 if let Some(words) = words {
                     let known = self.top.opened.get(&index);
                     let is_open = known.is_some_and(|own| own.first != INVALID);
-                    if is_open || may_open(&<SummaryOf<M, W>>::from_words(words), cost) {
+                    let summary = <SummaryOf<M, W>>::from_words(words);
+                    if is_open || may_open(&summary, cost) || self.is_mixed(index) {
                         let parts = self.parts_of(index);
                         batch.parts.extend((parts.len() > 1).then_some((index, parts)));
                     }
@@ -115,6 +116,16 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             true => count,
             false => 0,
         }
+    }
+
+    /// Whether a beam holds the light of some of these subtrees, and none that of others.
+    fn is_mixed(&self, index: u32) -> bool {
+        if !<M::Node as Node<W>>::HAS_BEAMS || self.part_count(index) < 2 {
+            return false;
+        }
+        let root = &self.nodes[self.instances[index as usize].root as usize];
+        let beams: [_; W] = core::array::from_fn(|slot| root.beam(slot));
+        are_mixed(beams[..self.part_count(index)].iter())
     }
 
     /// The subtrees into which an instance may be opened.

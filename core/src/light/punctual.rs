@@ -192,17 +192,21 @@ impl Light for PointLight {
 }
 
 impl SpotLight {
-    /// The same with all its intensity up to `inner` from its axis, and none from `outer` on: angles in radians, brought to 0 ≤ `inner` ≤
-    /// `outer` ≤ π.
+    /// The same with all its intensity up to `inner` from its axis, and none from `outer` on: angles in radians, 0 ≤ `inner` ≤ `outer` ≤ π.
+    /// A light with others, such as degrees, is refused where it is added.
     #[cfg(feature = "alloc")]
     #[must_use]
     pub fn with_cone(self, inner: f32, outer: f32) -> Self {
-        let within = |angle: f32, most: f32| exact::clamp(angle, 0.0, most);
-        let outer = within(outer, core::f32::consts::PI);
-        let cosine = |angle: f32| Vec2::from_angle(angle).x;
-        let cos_outer = exact::min(cosine(outer), 1.0 - LEAST_FALL);
+        // NaN is no cosine.
+        let cosine = |angle: f32| match (0.0..=core::f32::consts::PI).contains(&angle) {
+            true => Vec2::from_angle(angle).x,
+            false => f32::NAN,
+        };
+        let outer_cosine = cosine(outer);
+        let cos_outer = if outer_cosine > 1.0 - LEAST_FALL { 1.0 - LEAST_FALL } else { outer_cosine };
         Self {
-            cos_inner: exact::max(cosine(within(inner, outer)), cos_outer),
+            // Angles that hardly differ may have cosines in the other order.
+            cos_inner: if inner == outer { cos_outer } else { cosine(inner) },
             cos_outer,
             ..self
         }
@@ -271,11 +275,15 @@ impl Light for SpotLight {
         let (inner, outer) = (self.cos_inner, self.cos_outer);
         // NaN is in no range.
         if !(-1.0..=1.0 - pow2(-20)).contains(&outer) {
-            let expected = "-1 up to 1 - 2^-20; widen the cone";
+            let expected = "-1 up to 1 - 2^-20, the cosine of an angle of at most pi radians";
             return Err(DomainError::number("the outer cosine of a spot", outer, expected));
         }
-        if !(outer..=1.0).contains(&inner) {
-            let expected = "the outer one up to 1; swap the angles";
+        if !(-1.0..=1.0).contains(&inner) {
+            let expected = "-1 to 1, the cosine of an angle of at most pi radians";
+            return Err(DomainError::number("the inner cosine of a spot", inner, expected));
+        }
+        if inner < outer {
+            let expected = "the outer cosine or more; swap the angles";
             return Err(DomainError::number("the inner cosine of a spot", inner, expected));
         }
         Ok(self)

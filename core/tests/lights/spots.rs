@@ -418,3 +418,80 @@ fn points_out_of_range_are_seldom_chosen() {
     assert!(found[0] < 0.08 && found[1] > 0.3, "{found:?}");
     assert!(found[2] - 1.0 < 0.5 * (found[3] - 1.0), "{found:?}");
 }
+
+/// A car looks along x or against it: two headlights and two tail lights.
+fn car() -> Vec<AnyLight> {
+    let lamp = |y: f32, is_head: bool| match is_head {
+        true => SpotLight {
+            axis: [1.0, 0.0, 0.0],
+            ..SpotLight::try_from(down([2.2, y, 0.7], 2000.0, 30.0)).expect("a spot")
+        }
+        .into(),
+        false => bulb([-2.2, y, 0.8], 5.0),
+    };
+    [(-0.7, true), (0.7, true), (-0.7, false), (0.7, false)]
+        .map(|(y, is_head)| lamp(y, is_head))
+        .to_vec()
+}
+
+/// Mean second moment of a sample among cars that are instances of a mesh each, at points on the road.
+fn second_of_cars(meshes: &[Vec<AnyLight>], shares: &[f32], places: &[Transform], points: &[ShadingPoint]) -> f64 {
+    let trees = meshes.iter().map(|own| {
+        let mut bvh = Tree::default();
+        let mesh = bvh.add_mesh(own.clone()).expect("in the domain");
+        let ids: Vec<_> = places
+            .iter()
+            .map(|place| bvh.add_instance(mesh, *place).expect("in the domain"))
+            .collect();
+        bvh.refit();
+        bvh.validate().expect("a sound tree");
+        (bvh, ids)
+    });
+    let trees: Vec<_> = trees.collect();
+    let mut lights = Vec::new();
+    let mut names = Vec::new();
+    for (tree, (bvh, ids)) in trees.iter().enumerate() {
+        for id in ids {
+            for (part, number) in bvh.lights_of(*id).expect("an instance").enumerate() {
+                lights.push(bvh.light(number, id.index()).expect("a light"));
+                names.push((tree, *id, part as u32));
+            }
+        }
+    }
+    let second = |point: &ShadingPoint| {
+        second_moment(&lights, point, |k| {
+            let (tree, id, part) = names[k as usize];
+            shares[tree] * trees[tree].0.pmf_of(point, id, part).expect("a light")
+        })
+    };
+    points.iter().map(second).sum::<f64>() / points.len() as f64
+}
+
+/// Headlights and tail lights in one mesh: no worse than a light BVH of each, half of the samples to either.
+#[test]
+fn cars_with_headlights_in_one_mesh_cost_no_more_than_two_trees() {
+    let mut ratios = Vec::new();
+    for seed in 0..4 {
+        let random = &mut Random(91 + 1000 * seed);
+        let place = |random: &mut Random| {
+            let forward = [1.0, -1.0][random.below(2) as usize];
+            Transform {
+                columns: [[forward, 0.0, 0.0], [0.0, forward, 0.0], [0.0, 0.0, 1.0]],
+                translation: [
+                    200.0 * random.signed(),
+                    80.0 * random.below(5) as f32 - 3.0 * forward,
+                    0.0,
+                ],
+            }
+        };
+        let places: Vec<_> = (0..300).map(|_| place(random)).collect();
+        let points: Vec<_> = (0..300)
+            .map(|_| floor(200.0 * random.signed(), 80.0 * random.below(5) as f32 + 8.0 * random.signed()))
+            .collect();
+        let (heads, tails) = (car()[..2].to_vec(), car()[2..].to_vec());
+        let whole = second_of_cars(&[car()], &[1.0], &places, &points);
+        let split = second_of_cars(&[heads, tails], &[0.5; 2], &places, &points);
+        ratios.push((whole - 1.0) / (split - 1.0));
+    }
+    assert!(ratios.iter().all(|&ratio| ratio < 1.3), "{ratios:?}");
+}

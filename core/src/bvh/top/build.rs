@@ -1,18 +1,20 @@
 //! The whole top level, built from its leaves.
 //!
 //! Only whole builds open instances (partial re-braiding, Benthin et al. 2017), edits never do. An instance is opened if its
-//! lights cost more than [`OPENS`] of the cost of all lights by Ward's criterion, flux times variance of position.
+//! lights cost more than [`OPENS`] of the cost of all lights by Ward's criterion, flux times variance of position, or if a beam holds the
+//! light of some of its parts and not of others: no beam holds that of the whole.
 
 use alloc::vec::Vec;
 
 use super::{Cluster, Shape, Top, Written};
+use crate::beam::Beam;
 use crate::build::{BuildParams, Topology, build_top};
 use crate::node::{Node, kind};
 use crate::summary::Summary;
 use crate::trail::leaf;
 use crate::tree::{INVALID, OPENED};
 
-/// An instance that costs more than this part of the whole is opened. There are at most as many as its inverse.
+/// An instance that costs more than this part of the whole is opened. At most as many as its inverse do.
 const OPENS: f64 = 1.0 / 8192.0;
 
 /// In a build every leaf counts for at least this part of the mean flux, so a lamp of zero flux stays among its neighbours.
@@ -21,6 +23,13 @@ const FLOOR: f64 = 1.0 / 1024.0;
 /// Whether an instance of summary `own` may be opened if all lights cost about `whole`, which may count moved ones twice.
 pub(crate) fn may_open<S: Summary>(own: &S, whole: f64) -> bool {
     f64::from(own.phi()) * f64::from(own.spread()) > whole * (OPENS / 16.0)
+}
+
+/// Whether some of the beams are narrow and others are not.
+pub(crate) fn are_mixed<'a>(beams: impl Iterator<Item = &'a Beam>) -> bool {
+    let mut found = [false; 2];
+    beams.for_each(|beam| found[usize::from(beam.is_narrow())] = true);
+    found == [true; 2]
 }
 
 impl<N> Top<N> {
@@ -66,7 +75,7 @@ impl<N> Top<N> {
         };
     }
 
-    /// Opens instances that cost much of `whole`, and closes the others.
+    /// Opens instances that cost much of `whole` or are mixed, and closes the others.
     fn open_or_close<const W: usize>(&mut self, opens: bool, whole: f64)
     where
         N: Node<W>,
@@ -77,11 +86,12 @@ impl<N> Top<N> {
             let known = self.leaf(instance).summary;
             let cost = f64::from(known.phi()) * f64::from(known.spread());
             own.first = INVALID;
-            if opens && own.parts.len() > 1 && cost > whole * OPENS {
+            let are_mixed = are_mixed(own.parts.iter().map(|(_, limits)| &limits.beam));
+            if opens && own.parts.len() > 1 && (are_mixed || cost > whole * OPENS) {
                 own.first = self.parts.len() as u32;
                 self.parts.resize(self.parts.len() + W, INVALID);
             }
-            may_open(&known, whole)
+            are_mixed || may_open(&known, whole)
         });
         self.opened = opened;
     }

@@ -19,7 +19,7 @@ use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
 use crate::trail::{leaf, leaf_parts, place, place_parts};
 use crate::tree::{INVALID, Links, OPENED};
 
-pub(crate) use self::build::may_open;
+pub(crate) use self::build::{are_mixed, may_open};
 pub(crate) use self::cost::Cluster;
 
 /// The words of a leaf's [`Summary`], in the world.

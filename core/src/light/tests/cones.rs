@@ -117,16 +117,26 @@ fn spots_have_the_flux_and_the_mean_direction_of_their_falloff() {
     }
 }
 
-/// Angles give cones of the domain, whatever they are.
+/// Angles of the domain give cones of the domain; others, such as degrees, and those in the wrong order give none.
 #[test]
 fn cones_are_made_of_angles() {
     let made = spot(0.9, 0.5).with_cone(0.3, 1.1);
     close("inner", f64::from(made.cos_inner), 0.3_f64.cos(), 1e-6);
     close("outer", f64::from(made.cos_outer), 1.1_f64.cos(), 1e-6);
-    for inner in [-1.0, 0.0, 1.0e-9, 0.7, 4.0, f32::INFINITY, f32::NAN] {
-        for outer in [-1.0, 0.0, 1.0e-9, 0.5, 3.0, 4.0, f32::INFINITY, f32::NAN] {
-            let made = spot(0.9, 0.5).with_cone(inner, outer);
-            assert!(made.checked().is_ok(), "{inner} {outer}: {made:?}");
+    let pi = core::f32::consts::PI;
+    let angles = [0.0, 1.0e-9, 0.01, 0.5, 0.7, 1.6, 3.0, pi];
+    for (i, &inner) in angles.iter().enumerate() {
+        for (k, &outer) in angles.iter().enumerate() {
+            let checked = spot(0.9, 0.5).with_cone(inner, outer).checked();
+            // The narrowest cone is wider than the two least angles.
+            assert_eq!(checked.is_ok(), i <= k.max(1), "{inner} {outer}: {checked:?}");
+        }
+    }
+    for wrong in [-1.0, 3.1416, 4.0, 30.0, f32::INFINITY, f32::NAN] {
+        for (inner, outer, part) in [(0.0, wrong, "outer"), (wrong, 1.0, "inner"), (wrong, wrong, "outer")] {
+            let refused = spot(0.9, 0.5).with_cone(inner, outer).checked();
+            let message = std::format!("{}", refused.expect_err("no angle"));
+            assert!(message.contains(part) && message.contains("radians"), "{message}");
         }
     }
 }
