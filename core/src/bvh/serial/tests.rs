@@ -172,7 +172,7 @@ fn read_bvh_follows_as_many_lights() {
     assert_eq!(error.mesh, 6);
     assert_eq!(error.reason, EditReason::Count { expected, found });
     assert!(bvh.to_words() == before);
-    bvh.follow(&lights(2, 20)).expect("as many");
+    follow(&mut bvh, &lights(2, 20)).expect("as many");
     sound(&bvh);
 }
 
