@@ -5,6 +5,11 @@
 pub mod bounds {
     pub use crate::bounds::*;
 }
+/// What moves all lights of a BVH at once.
+#[cfg(feature = "alloc")]
+pub mod bvh {
+    pub use crate::bvh::follow;
+}
 /// Cones of directions.
 pub mod cone {
     pub use crate::cone::*;

@@ -31,7 +31,7 @@ mod triangle;
 
 pub use any::AnyLight;
 pub use flat::{DiscLight, RectangleLight};
-pub use point::{LightPoint, uniform_point};
+pub use point::{LightPoint, mis_weight, uniform_point};
 pub use punctual::{PointLight, SpotLight};
 pub use record::{Light, LightSlots, world_light};
 pub use sphere::SphereLight;

@@ -99,6 +99,7 @@ fn subtrees<N: Node<W>, const W: usize>(
 #[cfg(all(test, feature = "rayon"))]
 mod tests {
     use super::*;
+    use crate::bvh::Cursor;
     use crate::kit::scenes::bare;
     use crate::light::EmissiveTriangle;
     use crate::{BuildParams, LightBvh, Lights, MomentNode};
@@ -117,7 +118,7 @@ mod tests {
         };
         let lights = Lights::new((0..60_000).map(light).collect()).expect("in the domain");
         let bvh = LightBvh::single_level(&lights, &BuildParams::BALANCED);
-        let nodes = &bvh.nodes()[..bvh.plan_of_everything().bottom.nodes().len()];
+        let nodes = &bvh.view().nodes()[..Cursor::default().plan(&bvh).bottom.nodes().len()];
         assert!(nodes.len() > 2 * PARALLEL);
         let bare: Vec<MomentNode<8>> = nodes.iter().map(bare).collect();
         for threads in 1..=3 {
@@ -126,7 +127,7 @@ mod tests {
                 .build()
                 .expect("threads");
             let mut swept = bare.clone();
-            pool.install(|| bottom_sweep(&mut swept, 0, bvh.lights()));
+            pool.install(|| bottom_sweep(&mut swept, 0, bvh.view().lights()));
             let words: [&[u32]; 2] = [bytemuck::cast_slice(&swept), bytemuck::cast_slice(nodes)];
             assert!(words[0] == words[1], "{threads} threads");
         }

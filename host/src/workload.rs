@@ -98,7 +98,7 @@ pub fn instance_of<M: Model<W>, const W: usize>(
     light: u32,
 ) -> u32 {
     match lights.all().get(light as usize) {
-        Some(light) if !bvh.is_single_level() => light.mesh(),
+        Some(light) if !bvh.view().is_single_level() => light.mesh(),
         _ => INVALID,
     }
 }

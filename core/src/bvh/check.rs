@@ -89,7 +89,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                 batch.numbers += count;
             }
             Edit::AddLight { light, mask: _ } => {
-                checked(core::slice::from_mut(light))?;
+                *light = light.checked().map_err(EditReason::Alone)?;
                 batch.instances += 1;
                 batch.numbers += 1;
                 batch.lights += 1;
@@ -99,6 +99,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                 if !self.meshes[mesh.index as usize].is_light {
                     return Err(EditReason::NoLight(*instance));
                 }
+                *light = light.checked().map_err(EditReason::Alone)?;
                 self.check_lights(batch, mesh, core::slice::from_mut(light))?;
             }
             &mut Edit::SetTransform { instance, transform } => {
@@ -163,7 +164,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
 
     /// Number of lights of a mesh that is there.
     fn known_mesh(&self, batch: &Batch, id: MeshId) -> Result<usize, EditReason> {
-        let known = self.mesh_lights(id);
+        let known = self.view().mesh_lights(id);
         let known = known.filter(|_| !batch.removed_meshes.contains(&id));
         known.map(<[_]>::len).ok_or(EditReason::UnknownMesh(id))
     }

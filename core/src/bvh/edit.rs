@@ -51,9 +51,9 @@ id!(
 id!(
     /// A mesh's place in the world; stays the same as long as the instance is in the scene, and never means another one.
     InstanceId,
-    /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its lights belong
+    /// Index of the instance among [`View::instances`](super::View::instances), and of the mesh light that its lights belong
     /// to. The index is reused as soon as the instance is removed. Identify lights over frames by ids, or by their numbers
-    /// (see [`Bvh::removed_lights`](super::Bvh::removed_lights)).
+    /// (see [`View::removed_lights`](super::View::removed_lights)).
 );
 
 /// One change of a scene.
@@ -77,8 +77,8 @@ pub enum Edit<L = EmissiveTriangle> {
         /// Which receivers it lights, as bits; `u32::MAX` for all. See [`Linked`](crate::importance::Linked).
         mask: u32,
     },
-    /// A light by itself, in the world: an instance at the identity of a mesh of its own, which goes with it. The next id among
-    /// [`Added::instances`](super::Added::instances) is its.
+    /// A light by itself, in the world: an instance at the identity of a mesh of its own, which goes with it. Its id is among
+    /// [`Added::instances`](super::Added::instances).
     AddLight {
         /// In the world; its `mesh` is ignored.
         light: L,
@@ -120,8 +120,10 @@ pub enum Edit<L = EmissiveTriangle> {
         /// As many lights as before.
         lights: Vec<L>,
     },
-    /// New vertices or new emission of some lights of a mesh, in all its instances. The others are not looked at: see
-    /// [`set_light_range`](crate::Bvh::set_light_range).
+    /// New vertices or new emission of some lights of a mesh, in all its instances. Takes time in proportion to them and to the
+    /// depth of the mesh's tree, of which a [`refit`](crate::Bvh::refit) then computes the paths to them; all of it where they are
+    /// more than a sixteenth of the mesh. If they reach farther from the mesh's origin than any light did since the mesh was set as
+    /// a whole, each instance of the mesh is looked at. A mesh of points and spots alone is looked at as a whole.
     SetLightRange {
         /// Which mesh.
         mesh: MeshId,
@@ -160,7 +162,9 @@ pub enum EditReason {
     NoLight(InstanceId),
     /// A mesh has no light.
     EmptyMesh,
-    /// A light is outside the domain.
+    /// A light by itself is outside the domain.
+    Alone(DomainError),
+    /// A light of a mesh is outside the domain.
     Light {
         /// Its index in the edit.
         index: usize,
@@ -223,12 +227,12 @@ impl fmt::Display for EditReason {
             ),
             Self::NoLight(id) => write!(
                 f,
-                "instance {} is of a mesh; change the mesh's lights by `set_lights`",
+                "instance {} is of a mesh; change the mesh's lights by `Edit::SetLights`",
                 id.index
             ),
             Self::EmptyMesh => write!(f, "a mesh without lights; leave it out"),
             Self::Light { index, error } => write!(f, "light {index}: {error}"),
-            Self::Transform(error) => write!(f, "{error}"),
+            Self::Alone(error) | Self::Transform(error) => write!(f, "{error}"),
             Self::Radiance { value } => write!(
                 f,
                 "factor on radiance {}, expected 0 or a number from 2^-60 to 2^60 (8.7e-19 to 1.2e18){}",
@@ -289,7 +293,7 @@ mod tests {
     fn words_of_no_id_are_refused() {
         let lamp = triangle([[0.0, 3.0, 0.0], [1.0, 3.0, 0.0], [0.0, 3.0, 1.0]]);
         let (mut bvh, ids): (LightBvh, _) = scattered(vec![lamp], 1, |_| [0.0; 3]);
-        let (instance, mesh) = (ids[0], bvh.mesh_of(ids[0]).unwrap());
+        let (instance, mesh) = (ids[0], bvh.view().mesh_of(ids[0]).unwrap());
         bvh.set_radiance(InstanceId::from_bits(instance.to_bits()), [2.0; 3])
             .unwrap();
         for word in 0..3 {

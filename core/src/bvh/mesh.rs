@@ -145,7 +145,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
 
     /// Replaces the tree of a mesh; the nodes' summaries are copied as they are. If the nodes exceed the reserved capacity, they
     /// move, and all instances get the new root.
-    fn place_tree(&mut self, index: u32, topology: &Topology<M::Node>) {
+    pub(super) fn place_tree(&mut self, index: u32, topology: &Topology<M::Node>) {
         let count = topology.nodes.len() as u32;
         let mesh = &self.meshes[index as usize];
         let (mut start, first) = (mesh.nodes.start, mesh.lights.start);
@@ -245,24 +245,6 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             } else {
                 0
             },
-        }
-    }
-
-    /// Refits, then rebuilds the trees of meshes that changed since theirs was built, and the top level, within the call. A
-    /// [`Rebuilder`](crate::Rebuilder) does so in the background. Takes the time of a build.
-    pub fn rebuild(&mut self) {
-        self.refit();
-        for index in core::mem::take(&mut self.reshaped) {
-            let mesh = &self.meshes[index as usize].lights;
-            let own = &self.lights[mesh.start as usize..mesh.end as usize];
-            let topology = build_over::<M::Node, W>(own, &self.params);
-            self.place_tree(index, &topology);
-            self.sweep_mesh(index);
-        }
-        self.refit();
-        if !self.single {
-            self.top.build(&self.params);
-            self.log_top();
         }
     }
 

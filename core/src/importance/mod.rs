@@ -36,6 +36,12 @@ pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, Transmiss
 /// contain one only.
 ///
 /// `P`: the receiver type.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not weigh the children of `{N}`, of width {W}, for a `{P}`",
+    note = "`MaskedLights` takes a `LinkedPoint`, `LightBvh` and `AnyLights` take a `ShadingPoint`",
+    note = "models for a `GlossyPoint`, a `TransmissivePoint` and a `RaySegment`: `(MomentNode<8>, Glossy<Moments>)`, \
+            `(MomentNode<8>, Transmissive<Moments>)`, `(MomentNode<8>, Subtended)`"
+)]
 pub trait ImportanceModel<N, const W: usize, P = ShadingPoint> {
     /// Share of samples that choose among all lights alike, as the number of times that 1 is halved: 5 for 1/32. 0 is for none
     /// and costs nothing. See [`Defensive`].

@@ -51,6 +51,10 @@ pub trait Holds: Pod + Debug + Send + Sync {
 }
 
 /// A node of width `W`: plain words.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no layout of nodes of width {W}",
+    note = "a light BVH is as wide as its layout: `Bvh<(CompactNode<4>, Eq4), 4>`"
+)]
 pub trait Node<const W: usize>: Holds {
     /// The summary that a node stores of each child.
     type Summary: Summary;
@@ -154,6 +158,10 @@ pub struct Cluster {
 
 /// A layout that stores [`LightBounds`].
 #[doc(hidden)]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` stores no bounds of width {W}",
+    note = "`Eq4` takes layouts of bounds, such as `CompactNode`; `Moments` takes `MomentNode` and its kin"
+)]
 pub trait BoundsNode<const W: usize>: Node<W, Summary = LightBounds> {
     /// The child's bounds as [`Eq4`](crate::Eq4) needs them.
     fn cluster(&self, slot: usize) -> Cluster;
@@ -161,6 +169,10 @@ pub trait BoundsNode<const W: usize>: Node<W, Summary = LightBounds> {
 
 /// A layout that stores [`LightMoments`].
 #[doc(hidden)]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` stores no moments of width {W}",
+    note = "`Moments` takes `MomentNode` and its kin; `Eq4` takes layouts of bounds, such as `CompactNode`"
+)]
 pub trait MomentLayout<const W: usize>: Node<W, Summary = LightMoments> {
     /// The weights of the children at the point `p` with the normal `n`, in the node's space, by the operations `M`; see
     /// [`ImportanceModel::weights`](crate::ImportanceModel::weights). `space` is [`Instance::space`](crate::Instance::space).

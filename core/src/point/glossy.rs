@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{Receiver, ShadingPoint};
+use super::{Receiver, ShadingPoint, is_unit_or_zero};
 use crate::domain::DomainError;
 use crate::exact;
 use crate::instance::Instance;
@@ -81,5 +81,14 @@ impl Receiver for GlossyPoint {
             mirror: instance.direction_to_local(mirror).to_array(),
             ..*self
         }
+    }
+
+    fn is_within_reach(&self) -> bool {
+        let is_part = |value: f32| (0.0..=1.0).contains(&value);
+        self.point.is_within_reach()
+            && is_unit_or_zero(vector(&self.mirror))
+            && is_part(self.diffuse)
+            && is_part(self.specular)
+            && (1.0..=MAX_EXPONENT).contains(&self.exponent)
     }
 }

@@ -28,4 +28,8 @@ impl<P: Receiver> Receiver for LinkedPoint<P> {
             mask: self.mask,
         }
     }
+
+    fn is_within_reach(&self) -> bool {
+        self.point.is_within_reach()
+    }
 }

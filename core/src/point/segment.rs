@@ -58,4 +58,9 @@ impl Receiver for RaySegment {
             to: instance.to_local(&to).p,
         }
     }
+
+    fn is_within_reach(&self) -> bool {
+        let [from, to] = self.ends();
+        from.is_within_reach() && to.is_within_reach()
+    }
 }

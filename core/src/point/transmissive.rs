@@ -71,4 +71,9 @@ impl Receiver for TransmissivePoint {
             ..*self
         }
     }
+
+    fn is_within_reach(&self) -> bool {
+        let is_part = |value: f32| (0.0..=1.0).contains(&value);
+        self.point.is_within_reach() && is_part(self.front) && is_part(self.back)
+    }
 }

@@ -11,9 +11,9 @@ use crate::tree::LightTree;
 
 /// Walks that have come the same way.
 #[derive(Clone, Copy)]
-struct Group<P> {
+struct Group<'a, N, P> {
     /// Any of them.
-    started: Started<P>,
+    started: Started<'a, N, P>,
     /// The first of them; the numbers of all are in order, so others follow it.
     first: usize,
     count: usize,
@@ -148,7 +148,7 @@ fn in_rows<
                     let sampled = child.started.end(tree);
                     out[child.first..k].fill(sampled);
                 } else {
-                    child.started.walk.fetch_node(tree);
+                    child.started.walk.fetch_node();
                     next[left] = child;
                     left += 1;
                 }

@@ -63,8 +63,8 @@ pub(super) fn sample<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const
 
 /// A walk, and what it was started for.
 #[derive(Clone, Copy)]
-pub(super) struct Started<P = ShadingPoint> {
-    pub walk: Walk<P>,
+pub(super) struct Started<'a, N, P = ShadingPoint> {
+    pub walk: Walk<'a, N, P>,
     /// The light of a uniform choice, or [`INVALID`].
     light: u32,
     /// Its instance, or [`INVALID`].
@@ -73,11 +73,11 @@ pub(super) struct Started<P = ShadingPoint> {
 
 /// Starts a walk by a random number: down the tree, or for a share of the numbers along the path to a light out of all alike.
 #[inline(always)]
-pub(super) fn begin<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
-    tree: &LightTree<'_, N, I, W>,
+pub(super) fn begin<'a, N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
+    tree: &LightTree<'a, N, I, W>,
     point: &P,
     random: Random64,
-) -> Started<P> {
+) -> Started<'a, N, P> {
     let taken = uniform_numbers::<N, I, P, W>();
     let (mut light, mut instance, mut path) = (INVALID, INVALID, Path::default());
     if taken > 0 && (random.high >> (32 - FULL_BITS)) < taken {
@@ -93,13 +93,16 @@ pub(super) fn begin<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const 
     }
 }
 
-impl<P: Receiver> Started<P> {
+impl<'a, N, P: Receiver> Started<'a, N, P> {
     /// The light at the end of the walk.
     #[inline(always)]
-    pub fn end<N: Node<W>, I: ImportanceModel<N, W, P>, const W: usize>(
+    pub fn end<I: ImportanceModel<N, W, P>, const W: usize>(
         &self,
-        tree: &LightTree<'_, N, I, W>,
-    ) -> SampledLight {
+        tree: &LightTree<'a, N, I, W>,
+    ) -> SampledLight
+    where
+        N: Node<W>,
+    {
         let walk = &self.walk;
         let chosen = self.light != INVALID;
         // The path of an instance that is not in the tree yet leads to another one.

@@ -104,7 +104,7 @@ impl<C: Compiled<W, Light: SceneLight>, const W: usize> CpuBackend<C, W> {
     fn view<'a>(&'a self, scene: &'a SceneArrays<C::Light>, sampler: Sampler) -> Scene<'a, C::Light> {
         scene.lit_by(match sampler.needs_bvh() {
             true => Emitters {
-                lights: self.bvh.lights(),
+                lights: self.bvh.view().lights(),
                 instances: self.bvh.tree().instances,
             },
             false => scene.emitters(),

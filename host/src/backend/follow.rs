@@ -118,7 +118,10 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
         bvh: &lightbvh::Bvh<impl Model<W, Node = N>, W>,
     ) -> Result<Duration, BackendError> {
         let frame = self.mirror.frame(bvh);
-        self.used = [size_of_val(bvh.lights()), size_of_val(bvh.instances())];
+        self.used = [
+            size_of_val(bvh.view().lights()),
+            size_of_val(bvh.view().instances()),
+        ];
         let followed = self.write(&frame).and_then(|()| self.refit(&frame));
         if followed.is_err() {
             // The mirror believes that the frame was followed.

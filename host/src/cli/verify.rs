@@ -189,7 +189,7 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
     )?;
     print_devices(&report.devices)?;
     say!(
-        "cpu: {} words computed twice, {} different",
+        "cpu: {} probabilities of samples against `pmf`, {} different",
         report.cpu_compared,
         report.cpu_different
     )?;

@@ -1,6 +1,7 @@
 //! Samples that know nothing of each other: lights chosen by a table, by a tree over all triangles, or by the paper's two
 //! levels.
 
+use lightbvh::device::bvh::follow;
 use lightbvh::tree::Model;
 use std::time::Instant;
 
@@ -96,7 +97,7 @@ impl<C: Compiled<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Ind
                 ..UpdateTimes::default()
             });
         }
-        let followed = Timed::of(|| bvh.follow(step.lights));
+        let followed = Timed::of(|| follow(bvh, step.lights));
         followed.value.map_err(BackendError::from)?;
         Ok(UpdateTimes {
             refit: followed.time + self.backend.follow(bvh)?.time,
@@ -159,10 +160,10 @@ impl<C: Compiled<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Ind
     fn tree(&self) -> Option<TreeFacts> {
         let bvh = &self.bvh;
         self.recipe.lights.needs_bvh().then(|| TreeFacts {
-            violation: bvh.validate().err().map(|violation| violation.to_string()),
-            nodes: bvh.nodes().len() + bvh.top_nodes().len(),
-            depth: bvh.depth(),
-            bytes: bvh.bytes(),
+            violation: bvh.view().validate().err().map(|violation| violation.to_string()),
+            nodes: bvh.view().nodes().len() + bvh.view().top_nodes().len(),
+            depth: bvh.view().depth(),
+            bytes: bvh.view().bytes(),
         })
     }
 }

@@ -59,7 +59,12 @@ pub(crate) fn compare_bvh(
 ) -> Result<(), HostError> {
     let what = |kernel: &str| format!("{place} {kernel}").trim_start().to_owned();
     side.compare_held(tallies, &what("refit"), |backend| Ok(backend.held(bvh)?))?;
-    side.compare_queries(tallies, &what, queries(points), (lights, bvh.is_single_level()))
+    side.compare_queries(
+        tallies,
+        &what,
+        queries(points),
+        (lights, bvh.view().is_single_level()),
+    )
 }
 
 /// The same with links alone in its nodes, so that a refit has everything to compute.

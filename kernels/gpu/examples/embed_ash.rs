@@ -164,13 +164,13 @@ fn frames(gpu: &Rc<Gpu>, shader: Option<&[u32]>) -> Result<u64> {
         }
         let expected: Vec<SampledLight> = asked
             .iter()
-            .map(|(point, random)| world.bvh.sample(point, *random))
+            .map(|(point, random)| world.bvh.tree().sample(point, *random))
             .collect();
         words += compare("sample", &expected, &samples)?;
     }
     if let Some(module) = shader {
         let (points, _): (Vec<_>, Vec<_>) = points(0, POINTS).into_iter().unzip();
-        let (tree, triangles) = (world.bvh.tree(), world.bvh.lights());
+        let (tree, triangles) = (world.bvh.tree(), world.bvh.view().lights());
         let cpu: Vec<[f32; 3]> = (0..)
             .zip(&points)
             .map(|(seed, point)| direct_light(&tree, triangles, point, SAMPLES, seed))

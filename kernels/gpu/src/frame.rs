@@ -103,11 +103,11 @@ fn arrays<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> [(&[u8], u64); LIST] 
     let tree = bvh.tree();
     let (trails, word) = of(tree.trails);
     [
-        of(bvh.nodes()),
-        of(bvh.top_nodes()),
-        of(bvh.lights()),
+        of(bvh.view().nodes()),
+        of(bvh.view().top_nodes()),
+        of(bvh.view().lights()),
         of(tree.instances),
-        of(bvh.roots()),
+        of(bvh.view().roots()),
         (trails, word * u64::from(tree.trail_words)),
         of(tree.links.above),
         of(tree.links.places),
@@ -141,7 +141,7 @@ impl Mirror {
     /// Everything is uploaded and computed if the light BVH is another than last time (a clone, or one that was read), or if its
     /// log has dropped changes since.
     pub fn frame<'a, M: Model<W>, const W: usize>(&mut self, bvh: &'a Bvh<M, W>) -> Frame<'a> {
-        let mut plan = bvh.plan(&mut self.cursor);
+        let mut plan = self.cursor.plan(bvh);
         let arrays = arrays(bvh);
         // Arrays that share a buffer move if one of them needs more room.
         let mut is_new = [false; DeviceBuffer::ALL.len()];
@@ -149,7 +149,7 @@ impl Mirror {
             is_new[BUFFERS[k] as usize] |= self.reserve(k, own.len() as u64, stride);
         }
         if is_new[DeviceBuffer::Nodes as usize] && !plan.everything {
-            let all = bvh.plan_of_everything();
+            let all = Cursor::default().plan(bvh);
             (plan.bottom, plan.roots, plan.top) = (all.bottom, all.roots, all.top);
         }
         let roots: Vec<_> = plan.roots.iter().map(|&root| root..root + 1).collect();
@@ -204,7 +204,7 @@ impl Mirror {
             live: tree.live,
             lights: tree.lights,
             depth: tree.depth,
-            top: if bvh.is_single_level() {
+            top: if bvh.view().is_single_level() {
                 0
             } else {
                 self.top::<M::Node>()
@@ -228,7 +228,8 @@ impl Mirror {
         &self,
         bvh: &'a Bvh<M, W>,
     ) -> Vec<(DeviceBuffer, u64, &'a [u8])> {
-        let (all, tree, instances) = (bvh.plan_of_everything(), bvh.tree(), bvh.instances());
+        let (view, tree, all) = (bvh.view(), bvh.tree(), Cursor::default().plan(bvh));
+        let instances = view.instances();
         let one = |index: u32| index..index + 1;
         let ones = |indices: &[u32]| indices.iter().copied().map(one).collect();
         let live = (0..).zip(instances).filter(|(_, own)| own.count > 0);
@@ -239,13 +240,13 @@ impl Mirror {
         let opened = opened.filter(|(own, place)| own.count > 0 && (OPENED..INVALID).contains(place));
         // A part is a child of the mesh's root.
         let parts = opened.map(|(own, place)| {
-            let (root, first) = (&bvh.nodes()[own.root as usize], place - OPENED);
+            let (root, first) = (&view.nodes()[own.root as usize], place - OPENED);
             first..first + (0..W).filter(|&slot| root.kind(slot) == kind::INNER).count() as u32
         });
         let used: [Vec<Range<u32>>; LIST] = [
             ones(all.bottom.nodes()),
             ones(all.top.nodes()),
-            vec![0..bvh.lights().len() as u32],
+            vec![0..view.lights().len() as u32],
             vec![0..instances.len() as u32],
             ones(&all.roots),
             trails.collect(),

@@ -25,12 +25,12 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// and after the same edits, refits and rebuilds the same words if it was refitted when it was written. Places of its
     /// arrays that are not in use hold the words of nothing.
     ///
-    /// Numbers of lights stay, also those in [`removed_lights`](super::Bvh::removed_lights). The BVH has new ids: get them by index with
-    /// [`mesh_id`](Self::mesh_id) and [`instance_id`](Self::instance_id). A file keeps [`InstanceId::index`](super::InstanceId::index) and
+    /// Numbers of lights stay, also those in [`removed_lights`](super::View::removed_lights). The BVH has new ids: get them by index with
+    /// [`mesh_id`](super::View::mesh_id) and [`instance_id`](super::View::instance_id). A file keeps [`InstanceId::index`](super::InstanceId::index) and
     /// [`MeshId::index`](super::MeshId::index) in place of ids. Begin with a new `Rebuilder` and new mirrors.
     ///
     /// Any words are safe. There is no checksum: a flipped bit may give another sound light BVH. Takes time in proportion to the words,
-    /// except for sorting, and at worst 550 bytes of memory for each; then [`validate`](Self::validate) takes as much again.
+    /// except for sorting, and at worst 550 bytes of memory for each; then [`validate`](super::View::validate) takes as much again.
     ///
     /// # Errors
     /// [`ReadError`], which says which word is wrong or what of the tree does not hold.
@@ -40,7 +40,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         if words.next < words.all.len() {
             return Err(words.length(words.next));
         }
-        bvh.validate().map_err(damaged)?;
+        bvh.view().validate().map_err(damaged)?;
         Ok(bvh)
     }
 }

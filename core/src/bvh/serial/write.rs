@@ -37,7 +37,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             lights: self.lights.len() as u32,
             meshes: self.meshes.len() as u32,
             instances: self.placed.len() as u32,
-            numbers: self.light_end(),
+            numbers: self.view().light_end(),
             removed: self.removed_lights.len() as u32,
             top_root: self.top.root,
             top_nodes: self.top.nodes.len() as u32,

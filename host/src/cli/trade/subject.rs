@@ -1,6 +1,7 @@
 //! A configuration: a light BVH that follows the animation, and an importance by which lights are chosen. Trees are of two
 //! types, the default's and the paper's: other importances choose from the same nodes.
 
+use lightbvh::device::bvh::follow;
 use lightbvh::tree::Model;
 use std::fmt;
 use std::hint::black_box;
@@ -220,7 +221,7 @@ impl<C: TriangleModel<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize>
     }
 
     fn bytes(&self) -> usize {
-        self.bvh.bytes()
+        self.bvh.view().bytes()
     }
 
     fn updates(&self) -> &Updates {
@@ -257,7 +258,7 @@ impl<C: TriangleModel<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize>
                 self.bvh.apply(edits).map_err(|error| frame.refused(error))?;
                 self.bvh.refit();
             }
-            None => self.bvh.follow(frame.lights).map_err(BackendError::from)?,
+            None => follow(&mut self.bvh, frame.lights).map_err(BackendError::from)?,
         }
         self.updates.refit.push(ms(start.elapsed()));
         Ok(())
@@ -282,7 +283,7 @@ impl<C: TriangleModel<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize>
     fn render(&self, arrays: &SceneArrays, params: RenderParams) -> Timed<Vec<[f32; 3]>> {
         let tree = self.bvh.tree();
         let view = arrays.lit_by(Emitters {
-            lights: self.bvh.lights(),
+            lights: self.bvh.view().lights(),
             instances: tree.instances,
         });
         let params = RenderParams {

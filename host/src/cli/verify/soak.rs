@@ -123,12 +123,12 @@ pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened]) -> Result<Report
         world.bvh.take_removed_lights();
         if frame.is_multiple_of(ASKED) {
             let process = memory_stats::memory_stats().map_or(0, |usage| usage.physical_mem);
-            for (list, bytes) in memory.iter_mut().zip([world.bvh.memory(), process]) {
+            for (list, bytes) in memory.iter_mut().zip([world.bvh.view().memory(), process]) {
                 list[(frame / ASKED) as usize] = bytes as f64;
             }
         }
         if (frame + 1).is_multiple_of(CHECKED) || frame + 1 == frames {
-            if let Err(violation) = world.bvh.validate() {
+            if let Err(violation) = world.bvh.view().validate() {
                 invalid = Some(format!("frame {frame}: {violation}"));
                 break;
             }
@@ -151,7 +151,7 @@ pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened]) -> Result<Report
         frames,
         seed: args.seed,
         instances: world.instances.len(),
-        lights: world.bvh.light_count(),
+        lights: world.bvh.view().light_count(),
         edits: counts,
         rows: rows.collect(),
         invalid,
@@ -318,7 +318,7 @@ impl World {
     fn moved(&mut self) -> Edit {
         let at = self.below(self.instances.len());
         let instance = self.instances[at].0;
-        let old = self.bvh.instances()[instance.index() as usize].translation;
+        let old = self.bvh.view().instances()[instance.index() as usize].translation;
         let place = (self.below(4) > 0).then_some(old);
         let transform = self.turned(place);
         Edit::SetTransform { instance, transform }
@@ -409,7 +409,7 @@ fn compare(
     devices: &mut [DeviceBackend<'_>],
     tallies: &mut Tallies,
 ) -> Result<(), HostError> {
-    let lights = world.bvh.world_lights();
+    let lights = world.bvh.view().world_lights();
     let points = around(&lights, POINTS, &mut world.random);
     let mut cpu: CpuBackend = CpuBackend::new(world.bvh.clone());
     let mut side: Side<'_, dyn Follow> = Side {

@@ -67,7 +67,7 @@ fn run(engine: &Engine) -> Result<(u64, u64)> {
         }
         let samples: Vec<SampledLight> = asked
             .iter()
-            .map(|(point, random)| world.bvh.sample(point, *random))
+            .map(|(point, random)| world.bvh.tree().sample(point, *random))
             .collect();
         let device = engine.read(&results)?;
         all += size_of_val(&*samples) as u64 / 4;
