@@ -4,12 +4,11 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use bytemuck::cast_slice;
+use bytemuck::{Pod, cast_slice};
 use lightbvh::bvh::Cursor;
 use lightbvh::node::{Holds, Node, kind};
-use lightbvh::refit::BlasRoot;
 use lightbvh::tree::{Model, OPENED};
-use lightbvh::{Bvh, INVALID, Instance, TreeWords};
+use lightbvh::{Bvh, INVALID, TreeWords};
 
 use crate::buffer::DeviceBuffer;
 use crate::refit::{Pass, Refit};
@@ -96,29 +95,24 @@ const PARTS: usize = 8;
 const LIST: usize = 9;
 const CHILDREN: usize = 10;
 
-/// The arrays of a light BVH, in the order of [`BUFFERS`].
-fn arrays<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> [&[u8]; LIST] {
+/// The arrays of a light BVH, with the bytes of an element, in the order of [`BUFFERS`].
+fn arrays<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> [(&[u8], u64); LIST] {
+    fn of<T: Pod>(array: &[T]) -> (&[u8], u64) {
+        (cast_slice(array), size_of::<T>() as u64)
+    }
     let tree = bvh.tree();
+    let (trails, word) = of(tree.trails);
     [
-        cast_slice(bvh.view().nodes()),
-        cast_slice(bvh.view().top_nodes()),
-        cast_slice(bvh.view().lights()),
-        cast_slice(tree.instances),
-        cast_slice(bvh.view().roots()),
-        cast_slice(tree.trails),
-        cast_slice(tree.links.above),
-        cast_slice(tree.links.places),
-        cast_slice(tree.links.parts),
+        of(bvh.view().nodes()),
+        of(bvh.view().top_nodes()),
+        of(bvh.view().lights()),
+        of(tree.instances),
+        of(bvh.view().roots()),
+        (trails, word * u64::from(tree.trail_words)),
+        of(tree.links.above),
+        of(tree.links.places),
+        of(tree.links.parts),
     ]
-}
-
-/// Bytes of one element of each array, in the order of [`BUFFERS`].
-fn strides<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> [u64; LIST] {
-    let word = size_of::<u32>();
-    let trail = word * bvh.tree().trail_words as usize;
-    let [node, light] = [size_of::<M::Node>(), size_of::<M::Light>()];
-    let [instance, root] = [size_of::<Instance>(), size_of::<BlasRoot>()];
-    [node, node, light, instance, root, trail, word, word, word].map(|bytes| bytes as u64)
 }
 
 /// Tracks what a device holds of a light BVH. A new mirror holds nothing, so its first frame uploads everything.
@@ -148,11 +142,11 @@ impl Mirror {
     /// log has dropped changes since.
     pub fn frame<'a, M: Model<W>, const W: usize>(&mut self, bvh: &'a Bvh<M, W>) -> Frame<'a> {
         let mut plan = self.cursor.plan(bvh);
-        let (arrays, strides) = (arrays(bvh), strides(bvh));
+        let arrays = arrays(bvh);
         // Arrays that share a buffer move if one of them needs more room.
         let mut is_new = [false; DeviceBuffer::ALL.len()];
-        for (k, own) in arrays.iter().enumerate() {
-            is_new[BUFFERS[k] as usize] |= self.reserve(k, own.len() as u64, strides[k]);
+        for (k, (own, stride)) in arrays.into_iter().enumerate() {
+            is_new[BUFFERS[k] as usize] |= self.reserve(k, own.len() as u64, stride);
         }
         if is_new[DeviceBuffer::Nodes as usize] && !plan.everything {
             let all = Cursor::default().plan(bvh);
@@ -172,8 +166,8 @@ impl Mirror {
         ];
         let trail_words = bvh.tree().trail_words;
         let mut uploads = Vec::new();
-        for (k, (own, written)) in arrays.into_iter().zip(written).enumerate() {
-            let (bytes, stride) = (own.len() as u64, strides[k]);
+        for (k, ((own, stride), written)) in arrays.into_iter().zip(written).enumerate() {
+            let bytes = own.len() as u64;
             let is_all = plan.everything
                 || is_new[BUFFERS[k] as usize]
                 || (plan.whole_top && [TOP, ABOVE, PLACES, PARTS].contains(&k))
@@ -234,24 +228,25 @@ impl Mirror {
         &self,
         bvh: &'a Bvh<M, W>,
     ) -> Vec<(DeviceBuffer, u64, &'a [u8])> {
-        let (all, tree, instances) = (Cursor::default().plan(bvh), bvh.tree(), bvh.view().instances());
+        let (view, tree, all) = (bvh.view(), bvh.tree(), Cursor::default().plan(bvh));
+        let instances = view.instances();
         let one = |index: u32| index..index + 1;
         let ones = |indices: &[u32]| indices.iter().copied().map(one).collect();
         let live = (0..).zip(instances).filter(|(_, own)| own.count > 0);
-        let trails = live
-            .clone()
-            .map(|(_, own)| own.first_light..own.first_light + own.count);
+        let trails = instances
+            .iter()
+            .map(|own| own.first_light..own.first_light + own.count);
         let opened = instances.iter().zip(tree.links.places);
         let opened = opened.filter(|(own, place)| own.count > 0 && (OPENED..INVALID).contains(place));
         // A part is a child of the mesh's root.
         let parts = opened.map(|(own, place)| {
-            let (root, first) = (&bvh.view().nodes()[own.root as usize], place - OPENED);
+            let (root, first) = (&view.nodes()[own.root as usize], place - OPENED);
             first..first + (0..W).filter(|&slot| root.kind(slot) == kind::INNER).count() as u32
         });
         let used: [Vec<Range<u32>>; LIST] = [
             ones(all.bottom.nodes()),
             ones(all.top.nodes()),
-            vec![0..bvh.view().lights().len() as u32],
+            vec![0..view.lights().len() as u32],
             vec![0..instances.len() as u32],
             ones(&all.roots),
             trails.collect(),
@@ -259,9 +254,8 @@ impl Mirror {
             live.map(|(index, _)| one(index)).collect(),
             parts.collect(),
         ];
-        let (arrays, strides) = (arrays(bvh), strides(bvh));
-        let used = used.iter().enumerate();
-        used.flat_map(|(k, ranges)| self.pieces(k, arrays[k], in_bytes(ranges, strides[k]).collect()))
+        let all = used.iter().zip(arrays(bvh)).enumerate();
+        all.flat_map(|(k, (ranges, (own, stride)))| self.pieces(k, own, in_bytes(ranges, stride).collect()))
             .collect()
     }
 

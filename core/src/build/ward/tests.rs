@@ -249,22 +249,6 @@ fn the_first_split_is_the_best_of_all_planes() {
     }
 }
 
-/// However the plane parts them, over several blocks.
-#[test]
-fn partition_returns_box_of_each_side() {
-    for (name, all) in hostile(700) {
-        let extent = Extent::of(&all);
-        let Some(plane) = Measure::of(&all, &extent, &BuildParams::BALANCED).plane else {
-            continue;
-        };
-        let mut parted = all.clone();
-        let (left, boxes) = super::range::partition(&all, &mut parted, &plane);
-        let (on_left, on_right) = parted.split_at(left);
-        assert!(on_left.iter().all(|p| !plane.is_right(p)) && on_right.iter().all(|p| plane.is_right(p)));
-        assert_eq!(boxes, [Extent::of(on_left), Extent::of(on_right)], "{name}");
-    }
-}
-
 /// If leaf nodes are meant to be full, 0.8 of the slots and more are filled.
 #[test]
 fn nodes_are_filled() {

@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use crate::exact::{self, pow2, rsqrt_rough};
+use crate::exact::{self, pow2};
+use crate::importance::sight::root;
 use crate::point::RaySegment;
 use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, length_squared, max3, vector};
 use crate::weight::recip;
@@ -78,10 +79,4 @@ impl Line {
             between(middle, self.b, from_middle, from_b),
         ]
     }
-}
-
-/// The root of a positive normal number.
-#[inline(always)]
-fn root(x: f32) -> f32 {
-    x * rsqrt_rough(x)
 }
