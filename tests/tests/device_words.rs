@@ -96,7 +96,6 @@ impl<'d, N: Node<W>, const W: usize> Held<'d, N, W> {
         for (own, found) in held(bvh).iter().zip(self.arrays.held(bvh).expect("a read")) {
             same(device, own.record.name, &found.words, &own.words);
         }
-
         let receivers: Vec<P> = points.iter().map(|&point| P::at(point, random)).collect();
         let numbers: Vec<[u32; 2]> = points.iter().map(|_| [random.bits(), random.bits()]).collect();
         let sampled: Vec<SampledLight> = self.ask(self.kernels.sample, &receivers, &numbers);
