@@ -113,7 +113,7 @@ struct Gpu {
     }
 };
 
-uint32_t state = 1;
+uint32_t state;
 uint32_t bits() { return state = state * 1664525u + 1013904223u, state ^ state >> 16; }
 float unit() { return float(bits() >> 8) / 16777216.0f; }
 
@@ -129,7 +129,7 @@ lightbvh_edit change(lightbvh_light &light, lightbvh_id id, bool is_first) {
 
 // All frames on one device; returns how many words were compared.
 uint64_t frames(Gpu &gpu) {
-    uint64_t words = 0, compared = 0, different = 0;
+    uint64_t words = 0, compared = 0, different = state = 0;
     lightbvh *bvh = lightbvh_create(MODEL);
     lightbvh_mirror *mirror = lightbvh_mirror_create(MODEL);
     std::vector<lightbvh_id> ids(LIGHTS);
