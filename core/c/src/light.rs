@@ -57,11 +57,10 @@ impl FromC for AnyLight {
 
 impl FromC for EmissiveTriangle {
     fn from_c(light: &CLight) -> Result<Self, Fault> {
-        Self::try_from(AnyLight::from_c(light)?).map_err(|any| {
-            let message = format!(
-                "kind {} in a light BVH of triangles alone; create one with LIGHTBVH_ANY_LIGHTS",
-                any.kind()
-            );
+        let any = AnyLight::from_c(light)?;
+        Self::try_from(any).map_err(|any| {
+            let found = format!("kind {} in a light BVH of triangles alone", any.kind());
+            let message = format!("{found}; create one with LIGHTBVH_ANY_LIGHTS");
             Fault::new(Status::WrongModel, message)
         })
     }
@@ -81,7 +80,9 @@ fn spot(light: &CLight) -> Result<SpotLight, Fault> {
 
 /// Those of a mesh.
 pub(crate) fn all_from_c<L: FromC>(lights: &[CLight]) -> Result<Vec<L>, Fault> {
-    let each = lights.iter().enumerate();
-    each.map(|(index, light)| L::from_c(light).map_err(|fault| fault.at("light", index)))
-        .collect()
+    let mut own = Vec::with_capacity(lights.len());
+    for (index, light) in lights.iter().enumerate() {
+        own.push(L::from_c(light).map_err(|fault| fault.at("light", index))?);
+    }
+    Ok(own)
 }
