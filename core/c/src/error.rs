@@ -5,24 +5,33 @@ use std::cell::RefCell;
 use std::ffi::{CString, c_char};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use lightbvh::bvh::EditReason;
+
 /// What a function did: `lightbvh_status`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// All of it.
     Ok = 0,
-    /// A pointer is null or not aligned, or a length is beyond all memory.
     BadPointer = 1,
-    /// An edit is refused.
-    Refused = 2,
-    /// A point is outside the domain, or a number outside [0, 1).
+    BadTag = 2,
     BadPoint = 3,
-    /// There is no such light.
     NoLight = 4,
-    /// A defect of the library.
     Panicked = 5,
-    /// A background build failed.
     NoRebuild = 6,
+    WrongModel = 7,
+    UnknownMesh = 8,
+    UnknownInstance = 9,
+    NotALight = 10,
+    EmptyMesh = 11,
+    BadLight = 12,
+    BadTransform = 13,
+    BadRadiance = 14,
+    BadRange = 15,
+    InUse = 16,
+    TooMany = 17,
+    BadWords = 18,
+    Inexact = 19,
+    Refused = 20,
 }
 
 /// Why a function fails.
@@ -38,6 +47,31 @@ impl Fault {
             status,
             message: message.to_string(),
         }
+    }
+
+    /// The same of element `index` of an array of `what`s.
+    pub(crate) fn at(self, what: &str, index: usize) -> Self {
+        let message = format!("{what} {index}: {}", self.message);
+        Self { message, ..self }
+    }
+}
+
+impl From<EditReason> for Fault {
+    fn from(reason: EditReason) -> Self {
+        let status = match &reason {
+            EditReason::UnknownMesh(_) => Status::UnknownMesh,
+            EditReason::UnknownInstance(_) => Status::UnknownInstance,
+            EditReason::NoLight(_) => Status::NotALight,
+            EditReason::EmptyMesh => Status::EmptyMesh,
+            EditReason::Light { .. } | EditReason::Alone(_) => Status::BadLight,
+            EditReason::Transform(_) => Status::BadTransform,
+            EditReason::Radiance { .. } => Status::BadRadiance,
+            EditReason::Count { .. } | EditReason::Range { .. } => Status::BadRange,
+            EditReason::InUse { .. } => Status::InUse,
+            EditReason::TooMany => Status::TooMany,
+            _ => Status::Refused,
+        };
+        Self::new(status, reason)
     }
 }
 

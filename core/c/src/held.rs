@@ -1,12 +1,11 @@
 //! What C holds behind a pointer.
 
-use lightbvh::LightBvh;
-
 use crate::error::{Fault, Status, guard};
 use crate::raw;
+use crate::scene::Scene;
 
 /// `lightbvh`.
-pub type Handle = Held<LightBvh>;
+pub type Handle = Held<Scene>;
 
 /// A value that a panic breaks while it is changed: nothing is known of it then, and it can only be freed.
 pub struct Held<T> {
@@ -16,12 +15,12 @@ pub struct Held<T> {
 }
 
 impl<T> Held<T> {
-    /// A new one, called `what` in messages; null where making it panics.
-    pub(crate) fn create(what: &'static str, make: impl FnOnce() -> T) -> *mut Self {
+    /// A new one, called `what` in messages; null where making it fails or panics.
+    pub(crate) fn create(what: &'static str, make: impl FnOnce() -> Result<T, Fault>) -> *mut Self {
         let mut made = std::ptr::null_mut();
         guard(|| {
             let held = Self {
-                value: make(),
+                value: make()?,
                 what,
                 broken: false,
             };
@@ -43,6 +42,28 @@ impl<T> Held<T> {
             }
             Ok(())
         });
+    }
+
+    /// The value behind a pointer, called `what` in messages.
+    ///
+    /// # Safety
+    /// `pointer` is null, or what [`Held::create`] gave and nobody changes meanwhile.
+    pub(crate) unsafe fn of<'a>(pointer: *const Self, what: &str) -> Result<&'a T, Fault> {
+        // SAFETY: the caller's promise.
+        unsafe { raw::shared(pointer, what) }?.sound()
+    }
+
+    /// Changes the value behind a pointer, called `what` in messages.
+    ///
+    /// # Safety
+    /// `pointer` is null, or what [`Held::create`] gave and nobody else uses meanwhile.
+    pub(crate) unsafe fn change<R>(
+        pointer: *mut Self,
+        what: &str,
+        change: impl FnOnce(&mut T) -> Result<R, Fault>,
+    ) -> Result<R, Fault> {
+        // SAFETY: the caller's promise.
+        unsafe { raw::exclusive(pointer, what) }?.run(change)?
     }
 
     /// The value, unless a panic broke it.
@@ -67,47 +88,21 @@ impl<T> Held<T> {
     }
 }
 
-impl Handle {
-    /// Runs a function that asks.
-    ///
-    /// # Safety
-    /// `bvh` is null or a light BVH that nobody changes meanwhile.
-    pub(crate) unsafe fn ask(
-        bvh: *const Self,
-        question: impl FnOnce(&LightBvh) -> Result<(), Fault>,
-    ) -> Status {
-        // SAFETY: the caller's promise.
-        guard(|| question(unsafe { raw::shared(bvh, "bvh") }?.sound()?))
-    }
-
-    /// Runs a function that changes.
-    ///
-    /// # Safety
-    /// `bvh` is null or a light BVH that nobody else uses meanwhile.
-    pub(crate) unsafe fn change(
-        bvh: *mut Self,
-        edit: impl FnOnce(&mut LightBvh) -> Result<(), Fault>,
-    ) -> Status {
-        // SAFETY: the caller's promise.
-        guard(|| unsafe { raw::exclusive(bvh, "bvh") }?.run(edit)?)
-    }
+/// Functions of the header. Their bodies may use pointers by [`raw`] and [`Held`].
+macro_rules! functions {
+    ($($(#[$doc:meta])* fn $name:ident($($argument:ident: $type:ty),*) $body:block)*) => {$(
+        $(#[$doc])*
+        ///
+        /// # Safety
+        /// Each pointer is null, not aligned, or as `lightbvh.h` says.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name($($argument: $type),*) -> $crate::error::Status {
+            // SAFETY: the caller's promise.
+            $crate::error::guard(|| unsafe { $body })
+        }
+    )*};
 }
-
-/// A light BVH without lights.
-#[unsafe(no_mangle)]
-pub extern "C" fn lightbvh_create() -> *mut Handle {
-    Held::create("light BVH", LightBvh::default)
-}
-
-/// Frees it.
-///
-/// # Safety
-/// `bvh` is null, or what `lightbvh_create` gave, and not used any more.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_free(bvh: *mut Handle) {
-    // SAFETY: the caller's promise.
-    unsafe { Held::free(bvh) }
-}
+pub(crate) use functions;
 
 #[cfg(test)]
 mod tests {
@@ -115,7 +110,7 @@ mod tests {
 
     #[test]
     fn after_a_panic_it_can_only_be_freed() {
-        let pointer = Held::create("number", || 7);
+        let pointer = Held::create("number", || Ok(7));
         // SAFETY: it was just made, and is freed last.
         unsafe {
             let held = &mut *pointer;
@@ -128,6 +123,6 @@ mod tests {
             assert!(fault.message.contains("this number"), "{}", fault.message);
             Held::free(pointer);
         }
-        assert!(Held::create("number", || -> i32 { panic!("while it was made") }).is_null());
+        assert!(Held::create("number", || -> Result<i32, Fault> { panic!("while it was made") }).is_null());
     }
 }

@@ -1,49 +1,52 @@
-//! Ids as C holds them: words that say themselves whether they were given.
+//! Ids as C holds them: words that say themselves whether they were given, and of what.
 
+use bytemuck::Zeroable;
 use lightbvh::{InstanceId, MeshId};
 
 use crate::error::{Fault, Status};
 
-macro_rules! id {
-    ($(#[$doc:meta])* $c:ident, $own:ident, $kind:literal, $expected:literal) => {
-        $(#[$doc])*
-        #[repr(C)]
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub struct $c {
-            words: [u32; 3],
-            kind: u32,
-        }
-
-        impl From<$own> for $c {
-            fn from(id: $own) -> Self {
-                let words = id.to_bits();
-                Self { words, kind: $kind }
-            }
-        }
-
-        impl $c {
-            pub(crate) fn id(self) -> Result<$own, Fault> {
-                match self.kind {
-                    $kind => Ok($own::from_bits(self.words)),
-                    _ => Err(Fault::new(Status::Refused, $expected)),
-                }
-            }
-        }
-    };
+/// `lightbvh_id`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Zeroable)]
+pub struct CId {
+    words: [u32; 3],
+    kind: u32,
 }
 
-// Zero is no kind, so memory that was only cleared holds no id.
-id!(
-    /// `lightbvh_mesh`.
-    CMesh,
-    MeshId,
-    1,
-    "no mesh; give what lightbvh_add_mesh gave"
-);
-id!(
-    /// `lightbvh_instance`.
-    CInstance,
-    InstanceId,
-    2,
-    "no instance; give what lightbvh_add_instances gave"
-);
+/// Zero is no kind, so cleared memory holds no id.
+const MESH: u32 = 1;
+const INSTANCE: u32 = 2;
+
+impl From<MeshId> for CId {
+    fn from(id: MeshId) -> Self {
+        let (words, kind) = (id.to_bits(), MESH);
+        Self { words, kind }
+    }
+}
+
+impl From<InstanceId> for CId {
+    fn from(id: InstanceId) -> Self {
+        let (words, kind) = (id.to_bits(), INSTANCE);
+        Self { words, kind }
+    }
+}
+
+impl CId {
+    pub(crate) fn mesh(self) -> Result<MeshId, Fault> {
+        let expected = "no id of a mesh; give what lightbvh_add_mesh returned";
+        let is_own = self.kind == MESH;
+        let id = is_own.then(|| MeshId::from_bits(self.words));
+        id.ok_or_else(|| Fault::new(Status::UnknownMesh, expected))
+    }
+
+    pub(crate) fn instance(self) -> Result<InstanceId, Fault> {
+        let expected = "no id of an instance; give what lightbvh_add_instance or lightbvh_add_light returned";
+        let is_own = self.kind == INSTANCE;
+        let id = is_own.then(|| InstanceId::from_bits(self.words));
+        id.ok_or_else(|| Fault::new(Status::UnknownInstance, expected))
+    }
+
+    pub(crate) fn is_mesh(self) -> bool {
+        self.kind == MESH
+    }
+}

@@ -1,191 +1,267 @@
 //! Functions that ask a light BVH.
 
+use std::ops::Range;
+
+use bytemuck::Zeroable;
 use lightbvh::bvh::EditReason;
 use lightbvh::error::DomainError;
-use lightbvh::{LightPoint, Random64, SampledLight, ShadingPoint};
+use lightbvh::importance::LinkedPoint;
+use lightbvh::light::Light;
+use lightbvh::{InstanceId, LightPoint, Random64, SampledLight, ShadingPoint};
 
 use crate::error::{Fault, Status};
-use crate::held::Handle;
-use crate::ids::CInstance;
+use crate::held::{Handle, functions};
+use crate::ids::CId;
 use crate::raw;
+use crate::scene::{Scene, by_model};
+
+/// `lightbvh_point`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CPoint {
+    pub p: [f32; 3],
+    pub n: [f32; 3],
+    pub mask: u32,
+}
+
+impl CPoint {
+    fn plain(&self) -> Result<ShadingPoint, Fault> {
+        let Self { p, n, .. } = *self;
+        ShadingPoint { p, n }.checked().map_err(bad_point)
+    }
+
+    fn linked(&self) -> Result<LinkedPoint<ShadingPoint>, Fault> {
+        let (point, mask) = (self.plain()?, self.mask);
+        Ok(LinkedPoint { point, mask })
+    }
+}
 
 fn bad_point(error: DomainError) -> Fault {
     Fault::new(Status::BadPoint, error)
 }
 
-/// Chooses a light for a point.
-///
-/// # Safety
-/// The pointers are null or as `lightbvh.h` says: `bvh` is a light BVH that nobody changes meanwhile, the others point to one of
-/// theirs. The same holds for the functions below.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_sample_light(
-    bvh: *const Handle,
-    point: *const ShadingPoint,
-    random: u64,
-    sample: *mut SampledLight,
-) -> Status {
-    // SAFETY: the caller's promise, here and below.
-    unsafe {
-        Handle::ask(bvh, |bvh| {
-            let point = raw::shared(point, "point")?.checked().map_err(bad_point)?;
-            raw::place(sample, "sample")?.write(bvh.tree().sample(&point, random));
-            Ok(())
-        })
-    }
-}
-
-/// Chooses a light for each point.
-///
-/// # Safety
-/// As [`lightbvh_sample_light`], with `count` points, numbers and samples.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_sample_batch(
-    bvh: *const Handle,
-    points: *const ShadingPoint,
-    randoms: *const u64,
-    count: usize,
-    samples: *mut SampledLight,
-) -> Status {
-    // SAFETY: the caller's promise, here and below.
-    unsafe {
-        Handle::ask(bvh, |bvh| {
-            let points = raw::array(points, count, "points")?;
-            let randoms = raw::array(randoms, count, "randoms")?;
-            let samples = raw::places(samples, count, "samples")?;
-            // Nothing is written where one of them is bad.
-            let checked = points.iter().enumerate().map(|(index, point)| {
-                let bad = |error| Fault::new(Status::BadPoint, format!("point {index}: {error}"));
-                point.checked().map_err(bad)
-            });
-            let points = checked.collect::<Result<Vec<_>, _>>()?;
-            let randoms: Vec<_> = randoms.iter().map(|&bits| Random64::from(bits)).collect();
-            let mut sampled = vec![SampledLight::NONE; count];
-            bvh.tree().sample_batch(&points, &randoms, &mut sampled);
-            for (place, sampled) in samples.iter_mut().zip(sampled) {
-                place.write(sampled);
+/// `$do` with the light BVH, whatever its model, and the function that makes its receivers.
+macro_rules! by_receiver {
+    ($scene:expr, $bvh:ident, $receiver:ident => $do:expr) => {
+        match $scene {
+            Scene::Triangles($bvh) => {
+                let $receiver = CPoint::plain;
+                $do
             }
-            Ok(())
-        })
-    }
-}
-
-/// The probability of a light at a point.
-///
-/// # Safety
-/// As [`lightbvh_sample_light`].
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_pmf(
-    bvh: *const Handle,
-    point: *const ShadingPoint,
-    light: u32,
-    instance: u32,
-    pmf: *mut f32,
-) -> Status {
-    // SAFETY: the caller's promise, here and below.
-    unsafe {
-        Handle::ask(bvh, |bvh| {
-            let point = raw::shared(point, "point")?.checked().map_err(bad_point)?;
-            raw::place(pmf, "pmf")?.write(bvh.tree().pmf(&point, light, instance));
-            Ok(())
-        })
-    }
-}
-
-/// The numbers of an instance's lights.
-///
-/// # Safety
-/// As [`lightbvh_sample_light`].
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_lights_of(
-    bvh: *const Handle,
-    instance: CInstance,
-    first: *mut u32,
-    count: *mut u32,
-) -> Status {
-    // SAFETY: the caller's promise, here and below.
-    unsafe {
-        Handle::ask(bvh, |bvh| {
-            let (first, count) = (raw::place(first, "first")?, raw::place(count, "count")?);
-            let id = instance.id()?;
-            let lights = bvh
-                .view()
-                .lights_of(id)
-                .ok_or_else(|| Fault::new(Status::Refused, EditReason::UnknownInstance(id)))?;
-            first.write(lights.start);
-            count.write(lights.end - lights.start);
-            Ok(())
-        })
-    }
-}
-
-/// A point on the light that a sample names.
-///
-/// # Safety
-/// As [`lightbvh_sample_light`].
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_point_of(
-    bvh: *const Handle,
-    light: u32,
-    instance: u32,
-    u: f32,
-    v: f32,
-    point: *mut LightPoint,
-) -> Status {
-    // SAFETY: the caller's promise, here and below.
-    unsafe {
-        Handle::ask(bvh, |bvh| {
-            let place = raw::place(point, "point")?;
-            if ![u, v].iter().all(|number| (0.0..1.0).contains(number)) {
-                let message = format!("u and v are {u} and {v}, expected numbers in [0, 1)");
-                return Err(Fault::new(Status::BadPoint, message));
+            Scene::Any($bvh) => {
+                let $receiver = CPoint::plain;
+                $do
             }
-            let missing = || {
-                let message = format!("no light {light} in an instance {instance}");
-                Fault::new(Status::NoLight, message)
-            };
-            let triangle = bvh.view().light(light, instance).ok_or_else(missing)?;
-            place.write(triangle.point([u, v]));
-            Ok(())
-        })
-    }
+            Scene::Masked($bvh) => {
+                let $receiver = CPoint::linked;
+                $do
+            }
+        }
+    };
 }
 
-/// Numbers of lights, one after another: `lightbvh_range`.
+/// Two numbers in [0, 1).
+fn unit(u: f32, v: f32) -> Result<[f32; 2], Fault> {
+    let uv = [u, v];
+    if uv.iter().all(|number| (0.0..1.0).contains(number)) {
+        return Ok(uv);
+    }
+    let message = format!("u and v are {u} and {v}, expected numbers in [0, 1)");
+    Err(Fault::new(Status::BadPoint, message))
+}
+
+/// `lightbvh_sampled`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Zeroable)]
+pub struct CSampled {
+    pub instance: CId,
+    pub part: u32,
+    pub pmf: f32,
+    pub point: LightPoint,
+    pub direction: [f32; 3],
+    pub distance: f32,
+    pub pdf: f32,
+    pub irradiance: [f32; 3],
+}
+
+/// `lightbvh_range`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CRange {
-    /// The first of them.
     pub first: u32,
-    /// How many they are.
     pub count: u32,
 }
 
-/// The numbers of lights that are no more.
-///
-/// # Safety
-/// `bvh` is null or a light BVH that nobody changes meanwhile; `ranges` has memory of `capacity` ranges, `count` of one number.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_removed_lights(
-    bvh: *const Handle,
-    ranges: *mut CRange,
-    capacity: usize,
-    count: *mut usize,
-) -> Status {
-    // SAFETY: the caller's promise, here and below.
-    unsafe {
-        Handle::ask(bvh, |bvh| {
-            let places = raw::places(ranges, capacity, "ranges")?;
-            let count = raw::place(count, "count")?;
-            let removed = bvh.view().removed_lights();
-            for (place, range) in places.iter_mut().zip(removed) {
-                place.write(CRange {
-                    first: range.start,
-                    count: range.end - range.start,
-                });
-            }
-            count.write(removed.len());
-            Ok(())
-        })
+/// The numbers of an instance's lights.
+fn numbers_of(scene: &Scene, instance: CId) -> Result<Range<u32>, Fault> {
+    let id = instance.instance()?;
+    let found = by_model!(scene, bvh => bvh.view().lights_of(id));
+    found.ok_or_else(|| EditReason::UnknownInstance(id).into())
+}
+
+/// The id of an instance that has a light `part`.
+fn known(scene: &Scene, instance: CId, part: u32) -> Result<InstanceId, Fault> {
+    let count = numbers_of(scene, instance)?.len();
+    if part as usize >= count {
+        let message = format!("part {part} of an instance of {count} lights");
+        return Err(Fault::new(Status::NoLight, message));
+    }
+    instance.instance()
+}
+
+fn no_light(light: u32, instance: u32) -> Fault {
+    Fault::new(
+        Status::NoLight,
+        format!("no light {light} in an instance {instance}"),
+    )
+}
+
+functions! {
+    /// Chooses a light for a point, and a point on it.
+    fn lightbvh_sample_light(
+        bvh: *const Handle, point: *const CPoint, random: u64, u: f32, v: f32, sampled: *mut CSampled
+    ) {
+        let scene = Handle::of(bvh, "bvh")?;
+        let (point, place, uv) = (raw::shared(point, "point")?, raw::place(sampled, "sampled")?, unit(u, v)?);
+        let sampled = by_receiver!(scene, bvh, receiver => {
+            bvh.sample_light(&receiver(point)?, random, uv).map(|own| CSampled {
+                instance: own.instance.into(),
+                part: own.part,
+                pmf: own.pmf,
+                point: own.point,
+                direction: own.direction,
+                distance: own.distance,
+                pdf: own.pdf,
+                irradiance: own.irradiance,
+            })
+        });
+        place.write(sampled.unwrap_or(Zeroable::zeroed()));
+        Ok(())
+    }
+
+    /// The density over solid angle where a ray has met a light.
+    fn lightbvh_pdf_of_hit(
+        bvh: *const Handle, point: *const CPoint, instance: CId, part: u32, position: *const [f32; 3], pdf: *mut f32
+    ) {
+        let scene = Handle::of(bvh, "bvh")?;
+        let (point, place) = (raw::shared(point, "point")?, raw::place(pdf, "pdf")?);
+        let (p, n) = (*raw::shared(position, "position")?, [0.0; 3]);
+        let p = ShadingPoint { p, n }.checked().map_err(bad_point)?.p;
+        let id = known(scene, instance, part)?;
+        let found = by_receiver!(scene, bvh, receiver => bvh.pdf_of_hit(&receiver(point)?, id, part, p));
+        place.write(found.unwrap_or(0.0));
+        Ok(())
+    }
+
+    /// Chooses a light for a point.
+    fn lightbvh_sample(bvh: *const Handle, point: *const CPoint, random: u64, sample: *mut SampledLight) {
+        let scene = Handle::of(bvh, "bvh")?;
+        let (point, place) = (raw::shared(point, "point")?, raw::place(sample, "sample")?);
+        let found = by_receiver!(scene, bvh, receiver => bvh.sample(&receiver(point)?, random));
+        place.write(found.unwrap_or(SampledLight::NONE));
+        Ok(())
+    }
+
+    /// Chooses a light for each point.
+    fn lightbvh_sample_batch(
+        bvh: *const Handle, points: *const CPoint, randoms: *const u64, count: usize, samples: *mut SampledLight
+    ) {
+        let scene = Handle::of(bvh, "bvh")?;
+        let (points, randoms) = (raw::array(points, count, "points")?, raw::array(randoms, count, "randoms")?);
+        let places = raw::places(samples, count, "samples")?;
+        let randoms: Vec<_> = randoms.iter().map(|&bits| Random64::from(bits)).collect();
+        let mut sampled = vec![SampledLight::NONE; count];
+        // Nothing is written where one of them is bad.
+        by_receiver!(scene, bvh, receiver => {
+            let points = points.iter().enumerate();
+            let points = points.map(|(index, point)| receiver(point).map_err(|fault| fault.at("point", index)));
+            bvh.tree().sample_batch(&points.collect::<Result<Vec<_>, _>>()?, &randoms, &mut sampled);
+        });
+        places.iter_mut().zip(sampled).for_each(|(place, own)| _ = place.write(own));
+        Ok(())
+    }
+
+    /// The probability of a light at a point, as a sample names it.
+    fn lightbvh_pmf(bvh: *const Handle, point: *const CPoint, light: u32, instance: u32, pmf: *mut f32) {
+        let scene = Handle::of(bvh, "bvh")?;
+        let (point, place) = (raw::shared(point, "point")?, raw::place(pmf, "pmf")?);
+        place.write(by_receiver!(scene, bvh, receiver => bvh.tree().pmf(&receiver(point)?, light, instance)));
+        Ok(())
+    }
+
+    /// The probability of a light at a point, by its id.
+    fn lightbvh_pmf_of(bvh: *const Handle, point: *const CPoint, instance: CId, part: u32, pmf: *mut f32) {
+        let scene = Handle::of(bvh, "bvh")?;
+        let (point, place) = (raw::shared(point, "point")?, raw::place(pmf, "pmf")?);
+        let id = known(scene, instance, part)?;
+        let found = by_receiver!(scene, bvh, receiver => bvh.pmf(&receiver(point)?, id, part));
+        place.write(found.unwrap_or(0.0));
+        Ok(())
+    }
+
+    /// Whose light a sample names.
+    fn lightbvh_owner(bvh: *const Handle, light: u32, instance: u32, id: *mut CId, part: *mut u32) {
+        let scene = Handle::of(bvh, "bvh")?;
+        let (place, part) = (raw::place(id, "id")?, raw::place(part, "part")?);
+        let sample = SampledLight { light, instance, pmf: 1.0 };
+        let found = by_model!(scene, bvh => bvh.owner(&sample).map(|own| (own.instance, own.part)));
+        let found = found.ok_or_else(|| no_light(light, instance))?;
+        place.write(found.0.into());
+        part.write(found.1);
+        Ok(())
+    }
+
+    /// A point on the light that a sample names.
+    fn lightbvh_point_of(
+        bvh: *const Handle, point: *const CPoint, light: u32, instance: u32, u: f32, v: f32, on: *mut LightPoint
+    ) {
+        let scene = Handle::of(bvh, "bvh")?;
+        let from = raw::shared(point, "point")?.plain()?.position();
+        let (place, uv) = (raw::place(on, "on")?, unit(u, v)?);
+        let found = by_model!(scene, bvh => bvh.view().light(light, instance).map(|own| own.point_for(from, uv)));
+        place.write(found.ok_or_else(|| no_light(light, instance))?);
+        Ok(())
+    }
+
+    /// The id of the mesh of an index.
+    fn lightbvh_mesh_at(bvh: *const Handle, index: u32, id: *mut CId) {
+        let scene = Handle::of(bvh, "bvh")?;
+        let place = raw::place(id, "id")?;
+        let missing = || Fault::new(Status::UnknownMesh, format!("no mesh of index {index}"));
+        place.write(by_model!(scene, bvh => bvh.view().mesh_id(index)).ok_or_else(missing)?.into());
+        Ok(())
+    }
+
+    /// The id of the instance of an index.
+    fn lightbvh_instance_at(bvh: *const Handle, index: u32, id: *mut CId) {
+        let scene = Handle::of(bvh, "bvh")?;
+        let place = raw::place(id, "id")?;
+        let missing = || Fault::new(Status::UnknownInstance, format!("no instance of index {index}"));
+        place.write(by_model!(scene, bvh => bvh.view().instance_id(index)).ok_or_else(missing)?.into());
+        Ok(())
+    }
+
+    /// The numbers of an instance's lights.
+    fn lightbvh_lights_of(bvh: *const Handle, instance: CId, first: *mut u32, count: *mut u32) {
+        let scene = Handle::of(bvh, "bvh")?;
+        let (first, count) = (raw::place(first, "first")?, raw::place(count, "count")?);
+        let lights = numbers_of(scene, instance)?;
+        first.write(lights.start);
+        count.write(lights.end - lights.start);
+        Ok(())
+    }
+
+    /// The numbers of lights that are no more.
+    fn lightbvh_removed_lights(bvh: *const Handle, ranges: *mut CRange, capacity: usize, count: *mut usize) {
+        let scene = Handle::of(bvh, "bvh")?;
+        let removed = by_model!(scene, bvh => bvh.view().removed_lights()).iter();
+        let removed = removed.map(|own| CRange { first: own.start, count: own.end - own.start });
+        raw::list(ranges, capacity, count, removed)
+    }
+
+    /// The words of a light BVH.
+    fn lightbvh_words(bvh: *const Handle, words: *mut u32, capacity: usize, count: *mut usize) {
+        let scene = Handle::of(bvh, "bvh")?;
+        raw::list(words, capacity, count, by_model!(scene, bvh => bvh.to_words()).into_iter())
     }
 }

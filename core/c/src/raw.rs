@@ -58,19 +58,15 @@ pub(crate) unsafe fn array<'a, T>(pointer: *const T, count: usize, what: &str) -
     Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
 }
 
-/// An array of no more elements than a light BVH may have lights. To copy more would end the program: there is no memory.
+/// An array of no more elements than a light BVH may have lights, to be copied.
 ///
 /// # Safety
 /// As [`array`].
-pub(crate) unsafe fn at_most_lights<'a, T>(
-    pointer: *const T,
-    count: usize,
-    what: &str,
-) -> Result<&'a [T], Fault> {
+pub(crate) unsafe fn at_most<'a, T>(pointer: *const T, count: usize, what: &str) -> Result<&'a [T], Fault> {
     fits::<T>(count, what)?;
     if count > MAX_LIGHTS {
-        let message = format!("{count} {what}, a light BVH may have {MAX_LIGHTS} lights");
-        return Err(Fault::new(Status::Refused, message));
+        let message = format!("{count} {what}, expected at most {MAX_LIGHTS}");
+        return Err(Fault::new(Status::TooMany, message));
     }
     // SAFETY: the caller's promise.
     unsafe { array(pointer, count, what) }
@@ -93,6 +89,39 @@ pub(crate) unsafe fn places<'a, T>(
     unsafe { place(pointer, what) }?;
     // SAFETY: not null, aligned, not longer than memory; the rest is the caller's promise.
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer.cast(), count) })
+}
+
+/// The same, or no places where the pointer is null.
+///
+/// # Safety
+/// As [`places`].
+pub(crate) unsafe fn places_if_any<'a, T>(
+    pointer: *mut T,
+    count: usize,
+    what: &str,
+) -> Result<&'a mut [MaybeUninit<T>], Fault> {
+    let count = if pointer.is_null() { 0 } else { count };
+    // SAFETY: the caller's promise.
+    unsafe { places(pointer, count, what) }
+}
+
+/// Writes the first `capacity` elements of a list, and how many it has.
+///
+/// # Safety
+/// As [`places`], and `count` as [`place`].
+pub(crate) unsafe fn list<T>(
+    pointer: *mut T,
+    capacity: usize,
+    count: *mut usize,
+    elements: impl ExactSizeIterator<Item = T>,
+) -> Result<(), Fault> {
+    // SAFETY: the caller's promise.
+    let (places, count) = unsafe { (places(pointer, capacity, "results")?, place(count, "count")?) };
+    count.write(elements.len());
+    for (place, element) in places.iter_mut().zip(elements) {
+        place.write(element);
+    }
+    Ok(())
 }
 
 fn fits<T>(count: usize, what: &str) -> Result<(), Fault> {

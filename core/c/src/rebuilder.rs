@@ -2,27 +2,50 @@
 
 use lightbvh::Rebuilder;
 use lightbvh::bvh::{FrameStart, RebuilderParams, Swap};
+use lightbvh::tree::{AnyKind, Masked, Triangles};
 
 use crate::error::{Fault, Status};
-use crate::held::{Handle, Held};
+use crate::held::{Handle, Held, functions};
 use crate::raw;
+use crate::scene::{Model, Scene, wrong_model};
 
 /// `lightbvh_rebuilder`.
-pub type CRebuilder = Held<Rebuilder>;
+pub type CRebuilder = Held<SceneRebuilder>;
+
+/// A rebuilder for light BVHs of one model.
+#[derive(Debug)]
+pub enum SceneRebuilder {
+    /// Of triangles alone.
+    Triangles(Rebuilder<Triangles>),
+    /// Of lights of every kind.
+    Any(Rebuilder<AnyKind>),
+    /// The same with masks.
+    Masked(Rebuilder<Masked>),
+}
+
+/// `$do` with the rebuilder and a light BVH, which must be of its model.
+macro_rules! of_one_model {
+    ($rebuilder:expr, $scene:expr, ($own:ident, $bvh:ident) => $do:expr) => {
+        match ($rebuilder, $scene) {
+            (SceneRebuilder::Triangles($own), Scene::Triangles($bvh)) => Ok($do),
+            (SceneRebuilder::Any($own), Scene::Any($bvh)) => Ok($do),
+            (SceneRebuilder::Masked($own), Scene::Masked($bvh)) => Ok($do),
+            (_, scene) => Err(wrong_model("rebuilder", scene.model())),
+        }
+    };
+}
 
 /// What the start of a frame did: `lightbvh_frame_start`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CFrameStart {
-    /// 1 if a new top level was swapped in.
     pub swapped: u32,
-    /// Number of meshes that got new trees.
     pub meshes: u32,
 }
 
 /// A rebuilder. Its trees are swapped in after `after` frames; once they are ready if it is 0.
 #[unsafe(no_mangle)]
-pub extern "C" fn lightbvh_rebuilder_create(after: u32) -> *mut CRebuilder {
+pub extern "C" fn lightbvh_rebuilder_create(model: u32, after: u32) -> *mut CRebuilder {
     let swap = match after {
         0 => Swap::WhenReady,
         _ => Swap::Deterministic,
@@ -32,7 +55,13 @@ pub extern "C" fn lightbvh_rebuilder_create(after: u32) -> *mut CRebuilder {
         swap,
         ..RebuilderParams::default()
     };
-    Held::create("rebuilder", || Rebuilder::new(params))
+    Held::create("rebuilder", || {
+        Ok(match Model::of(model)? {
+            Model::Triangles => SceneRebuilder::Triangles(Rebuilder::new(params)),
+            Model::Any => SceneRebuilder::Any(Rebuilder::new(params)),
+            Model::Masked => SceneRebuilder::Masked(Rebuilder::new(params)),
+        })
+    })
 }
 
 /// Ends its thread, and frees it.
@@ -45,49 +74,24 @@ pub unsafe extern "C" fn lightbvh_rebuilder_free(rebuilder: *mut CRebuilder) {
     unsafe { Held::free(rebuilder) }
 }
 
-/// Swaps in finished trees.
-///
-/// # Safety
-/// `rebuilder` and `bvh` are null or what their functions gave, and nobody else uses them meanwhile; `start` is null, not
-/// aligned, or points to memory of one.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_begin_frame(
-    rebuilder: *mut CRebuilder,
-    bvh: *mut Handle,
-    start: *mut CFrameStart,
-) -> Status {
-    // SAFETY: the caller's promise, here and below.
-    unsafe {
-        Handle::change(bvh, |bvh| {
-            let rebuilder = raw::exclusive(rebuilder, "rebuilder")?;
-            let place = match start.is_null() {
-                true => None,
-                false => Some(raw::place(start, "start")?),
-            };
-            let begun = rebuilder.run(|rebuilder| rebuilder.begin_frame(bvh))?;
-            let begun: FrameStart = begun.map_err(|error| Fault::new(Status::NoRebuild, error))?;
-            if let Some(place) = place {
-                place.write(CFrameStart {
-                    swapped: begun.swapped.into(),
-                    meshes: begun.meshes,
-                });
-            }
-            Ok(())
-        })
+functions! {
+    /// Swaps in finished trees.
+    fn lightbvh_begin_frame(rebuilder: *mut CRebuilder, bvh: *mut Handle, start: *mut CFrameStart) {
+        let places = raw::places_if_any(start, 1, "start")?;
+        let begun = Handle::change(bvh, "bvh", |scene| {
+            let begin = |own: &mut _| of_one_model!(own, scene, (own, bvh) => own.begin_frame(bvh));
+            Held::change(rebuilder, "rebuilder", begin)
+        })?;
+        let begun: FrameStart = begun.map_err(|error| Fault::new(Status::NoRebuild, error))?;
+        let start = CFrameStart { swapped: begun.swapped.into(), meshes: begun.meshes };
+        places.iter_mut().for_each(|place| _ = place.write(start));
+        Ok(())
     }
-}
 
-/// Starts the next build.
-///
-/// # Safety
-/// As [`lightbvh_begin_frame`].
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lightbvh_end_frame(rebuilder: *mut CRebuilder, bvh: *const Handle) -> Status {
-    // SAFETY: the caller's promise, here and below.
-    unsafe {
-        Handle::ask(bvh, |bvh| {
-            let rebuilder = raw::exclusive(rebuilder, "rebuilder")?;
-            rebuilder.run(|rebuilder| rebuilder.end_frame(bvh))
-        })
+    /// Starts the next build.
+    fn lightbvh_end_frame(rebuilder: *mut CRebuilder, bvh: *const Handle) {
+        let scene = Handle::of(bvh, "bvh")?;
+        let end = |own: &mut _| of_one_model!(own, scene, (own, bvh) => own.end_frame(bvh));
+        Held::change(rebuilder, "rebuilder", end)
     }
 }

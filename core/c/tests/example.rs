@@ -1,4 +1,4 @@
-//! `example.c`, compiled by the C compiler of the machine, prints the words that Rust computes.
+//! `lights.c`, compiled by the C compiler of the machine, prints the words that Rust computes.
 #![cfg(unix)]
 
 use std::fmt::Write;
@@ -6,7 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use lightbvh::bvh::{RebuilderParams, Swap};
-use lightbvh::{Edit, EmissiveTriangle, LightBvh, Rebuilder, ShadingPoint, Transform};
+use lightbvh::importance::LinkedPoint;
+use lightbvh::light::{
+    AnyLight, DiscLight, Light, PointLight, RectangleLight, SphereLight, SpotLight, TWO_SIDED,
+};
+use lightbvh::{Edit, EmissiveTriangle, MaskedLights, Rebuilder, ShadingPoint, Transform};
 
 /// The static library that Cargo made for this test: beside the test's own program.
 fn library() -> PathBuf {
@@ -33,37 +37,78 @@ fn run(command: &mut Command) -> String {
     String::from_utf8(output.stdout).expect("it prints ASCII")
 }
 
-/// What `example.c` does, in Rust.
-fn expected() -> String {
-    let mut lamp = EmissiveTriangle {
-        p: [[0.0, 3.0, 0.0], [0.031_25, 3.0, 0.0], [0.0, 3.0, 0.031_25]],
-        radiance: [900.0; 3],
+/// Lamp `k` of the example.
+fn lamp(k: u16) -> AnyLight {
+    let x = f32::from(k);
+    let (p, mesh, emission) = ([x, 3.0, 0.0], 0, [9.0, 8.0, 0.5 * f32::from(k % 8)]);
+    let (half, flags) = ([[0.25, 0.0, 0.0], [0.0, 0.0, 0.5]], TWO_SIDED);
+    match k % 6 {
+        0 => triangle(x, emission),
+        1 => AnyLight::from(PointLight {
+            p,
+            intensity: emission,
+            range: 25.0,
+            mesh,
+        }),
+        2 => {
+            let (axis, range, intensity) = ([0.0, -1.0, 0.0], 15.0, emission);
+            let spot = SpotLight {
+                p,
+                intensity,
+                axis,
+                range,
+                ..SpotLight::DARK
+            };
+            spot.with_cone(0.25, 0.75).into()
+        }
+        3 => AnyLight::from(SphereLight {
+            p,
+            radius: 0.125,
+            radiance: emission,
+            mesh,
+        }),
+        4 => AnyLight::from(RectangleLight {
+            p,
+            half,
+            radiance: emission,
+            mesh,
+            flags,
+        }),
+        _ => AnyLight::from(DiscLight {
+            p,
+            half,
+            radiance: emission,
+            mesh,
+            flags,
+        }),
+    }
+}
+
+fn triangle(x: f32, radiance: [f32; 3]) -> AnyLight {
+    AnyLight::from(EmissiveTriangle {
+        p: [[x, 3.0, 0.0], [x + 0.25, 3.0, 0.0], [x, 3.0, 0.25]],
+        radiance,
         mesh: 0,
         flags: 0,
-    };
-    let first = lamp;
-    let mut bvh = LightBvh::default();
-    let mesh = bvh.add_mesh(vec![lamp]).unwrap();
-    let at = |k: u16| Transform::at([f32::from(k), 0.0, 0.0]);
-    let add = |k| Edit::AddInstance {
-        mesh,
-        transform: at(k),
-        radiance: [1.0; 3],
-        mask: u32::MAX,
+    })
+}
+
+/// What `lights.c` does, in Rust.
+fn expected() -> String {
+    let mut bvh = MaskedLights::default();
+    let add = |k| Edit::AddLight {
+        light: lamp(k),
+        mask: if k % 3 == 0 { 1 } else { u32::MAX },
     };
     let mut lamps = bvh.apply((0..99).map(add).collect()).unwrap().instances;
-    lamps.push(bvh.add_instance(mesh, at(99)).unwrap());
+    lamps.push(bvh.add_light(lamp(99)).unwrap());
     bvh.refit();
-    bvh.set_transform(lamps[40], Transform::at([40.0, 2.0, 0.0]))
+    bvh.set_transform(lamps[40], Transform::at([0.0, 2.0, 0.0]))
         .unwrap();
     bvh.set_radiance(lamps[41], [0.5, 0.25, 0.125]).unwrap();
+    bvh.set_mask(lamps[43], 2).unwrap();
+    bvh.set_light(lamps[44], lamp(1)).unwrap();
     bvh.remove(lamps[42]).unwrap();
-    lamp.p[1][0] = 0.0625;
-    bvh.apply(vec![Edit::SetLights {
-        mesh,
-        lights: vec![lamp],
-    }])
-    .unwrap();
     bvh.refit();
     let mut text = String::new();
     for range in bvh.take_removed_lights() {
@@ -75,32 +120,21 @@ fn expected() -> String {
         ..RebuilderParams::default()
     });
     let (mut trees, mut meshes) = (0, 0);
-    let arrange = |frame: u16| -> Vec<EmissiveTriangle> {
-        let place = |k: u16| {
-            let mut own = first;
-            for p in &mut own.p {
-                p[0] += 0.5 * f32::from(k * frame % 199);
-            }
-            own
-        };
+    let arrange = |frame: u16| -> Vec<AnyLight> {
+        let place = |k: u16| triangle(0.5 * f32::from(k * frame % 199), [9.0, 8.0, 0.0]);
         (0..200).map(place).collect()
     };
     let mesh = bvh.add_mesh(arrange(1)).unwrap();
-    let place = Transform::at([0.0, 1.0, 4.0]);
-    let panel = Edit::AddInstance {
-        mesh,
-        transform: place,
-        radiance: [0.25; 3],
-        mask: u32::MAX,
-    };
-    bvh.apply(vec![panel]).unwrap();
+    let panel = bvh.add_instance(mesh, Transform::at([0.0, 1.0, 4.0])).unwrap();
     for frame in 1..=30 {
         let start = rebuilder.begin_frame(&mut bvh).unwrap();
         trees += u32::from(start.swapped) + start.meshes;
         meshes += start.meshes;
-        bvh.apply(vec![Edit::SetLights {
+        let lights = arrange(frame);
+        bvh.apply(vec![Edit::SetLightRange {
             mesh,
-            lights: arrange(frame),
+            first: 0,
+            lights,
         }])
         .unwrap();
         bvh.refit();
@@ -108,28 +142,34 @@ fn expected() -> String {
     }
     assert!(meshes > 0 && trees > meshes, "both kinds of trees");
     writeln!(text, "{trees} trees were built").unwrap();
-    let lights = bvh.view().lights_of(lamps[40]).unwrap();
+    let lights = bvh.view().lights_of(panel).unwrap();
+    let count = lights.len();
     writeln!(
         text,
-        "lamp 40 has lights from {} on, {} of them",
-        lights.start,
-        lights.len()
+        "the panel has lights from {} on, {count} of them",
+        lights.start
     )
     .unwrap();
+    bvh.rebuild();
     for k in 0..1000_u16 {
         let point = ShadingPoint {
             p: [0.125 * f32::from(k), 0.0, 0.5],
             n: [0.0, 1.0, 0.0],
         };
+        let receiver = LinkedPoint {
+            point,
+            mask: u32::from(k % 3 + 1),
+        };
         let random = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(u64::from(k) + 1);
-        let sample = bvh.tree().sample(&point, random);
-        let triangle = bvh.view().light(sample.light, sample.instance).unwrap();
-        let on = triangle.point([0.25, 0.5]);
-        let [pmf, x, density] = [sample.pmf, on.p[0], on.density].map(f32::to_bits);
+        let own = bvh.sample_light(&receiver, random, [0.25, 0.5]).unwrap();
+        let met = bvh.pdf_of_hit(&receiver, own.instance, own.part, own.point.p);
+        let light = bvh.view().lights_of(own.instance).unwrap().start + own.part;
+        let words = [own.pmf, met.unwrap(), own.pdf, own.irradiance[0]].map(f32::to_bits);
+        let [pmf, met, pdf, irradiance] = words;
+        let index = own.instance.index();
         writeln!(
             text,
-            "{} {} {pmf:08x} {x:08x} {density:08x}",
-            sample.light, sample.instance
+            "{light} {index} {pmf:08x} {met:08x} {pdf:08x} {irradiance:08x}"
         )
         .unwrap();
     }
@@ -148,7 +188,7 @@ fn c_prints_the_words_of_rust() {
         .args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-O1"])
         .arg("-I")
         .arg(here.join("include"))
-        .arg(here.join("example.c"))
+        .arg(here.join("examples/lights.c"))
         .arg(library())
         .args(["-lpthread", "-ldl", "-lm", "-o"])
         .arg(&program));
@@ -191,11 +231,14 @@ fn header_and_library_have_the_same_functions() {
         include_str!("../src/edit.rs"),
         include_str!("../src/error.rs"),
         include_str!("../src/held.rs"),
+        include_str!("../src/kernel.rs"),
+        include_str!("../src/mirror.rs"),
         include_str!("../src/query.rs"),
         include_str!("../src/rebuilder.rs"),
+        include_str!("../src/scene.rs"),
     );
-    let name = |text: &str| text.split('(').next().unwrap_or_default().to_owned();
-    let mut in_rust: Vec<String> = source.split("extern \"C\" fn ").skip(1).map(name).collect();
+    let name = |text: &str| format!("lightbvh_{}", text.split('(').next().unwrap_or_default());
+    let mut in_rust: Vec<String> = source.split("fn lightbvh_").skip(1).map(name).collect();
     let mut in_c: Vec<String> = header
         .lines()
         .filter(|line| line.contains("lightbvh_") && line.contains('(') && !line.starts_with(['/', ' ', '#']))
@@ -206,11 +249,12 @@ fn header_and_library_have_the_same_functions() {
     in_rust.sort();
     in_c.sort();
     assert_eq!(in_rust, in_c);
-    let example = include_str!("../example.c");
+    let calls = concat!(
+        include_str!("../examples/lights.c"),
+        include_str!("../examples/vulkan.cpp"),
+        include_str!("devices.rs"),
+    );
     for name in in_c {
-        assert!(
-            example.contains(&format!("{name}(")),
-            "example.c leaves out {name}"
-        );
+        assert!(calls.contains(&format!("{name}(")), "no example calls {name}");
     }
 }
