@@ -29,13 +29,9 @@ fn kernel(model: u32, which: u32) -> Result<&'static Kernel, Fault> {
         set.light_points,
         &self_test::SELF_TEST,
     ];
-    let unknown = || {
-        Fault::new(
-            Status::BadTag,
-            format!("kernel {which}, expected one of lightbvh_kernel_id"),
-        )
-    };
-    all.get(which as usize).copied().ok_or_else(unknown)
+    let unknown = || format!("kernel {which}, expected one of lightbvh_kernel_id");
+    let found = all.get(which as usize).copied();
+    found.ok_or_else(|| Fault::new(Status::BadTag, unknown()))
 }
 
 /// Buffers that an engine has besides those of [`DeviceBuffer`], in the order of `lightbvh_buffer` after those.

@@ -51,7 +51,7 @@ impl Follower {
     fn expect(&self, scene: &Scene) -> Result<(), Fault> {
         match self.model == scene.model() {
             true => Ok(()),
-            false => Err(wrong_model("mirror", scene.model())),
+            false => Err(wrong_model("mirror")),
         }
     }
 

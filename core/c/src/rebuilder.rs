@@ -30,7 +30,7 @@ macro_rules! of_one_model {
             (SceneRebuilder::Triangles($own), Scene::Triangles($bvh)) => Ok($do),
             (SceneRebuilder::Any($own), Scene::Any($bvh)) => Ok($do),
             (SceneRebuilder::Masked($own), Scene::Masked($bvh)) => Ok($do),
-            (_, scene) => Err(wrong_model("rebuilder", scene.model())),
+            _ => Err(wrong_model("rebuilder")),
         }
     };
 }

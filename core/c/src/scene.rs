@@ -17,20 +17,15 @@ pub(crate) enum Model {
 impl Model {
     pub(crate) fn of(word: u32) -> Result<Self, Fault> {
         let all = [Self::Triangles, Self::Any, Self::Masked];
-        let unknown = || {
-            Fault::new(
-                Status::BadTag,
-                format!("model {word}, expected one of lightbvh_model"),
-            )
-        };
-        all.get(word as usize).copied().ok_or_else(unknown)
+        let unknown = || format!("model {word}, expected one of lightbvh_model");
+        let found = all.get(word as usize).copied();
+        found.ok_or_else(|| Fault::new(Status::BadTag, unknown()))
     }
 }
 
-/// Why a `what` for another model is refused with a light BVH of this one.
-pub(crate) fn wrong_model(what: &str, model: Model) -> Fault {
-    let message =
-        format!("this {what} is for another model, the light BVH is of {model:?}; make another {what}");
+/// Why a `what` is refused with a light BVH of another model.
+pub(crate) fn wrong_model(what: &str) -> Fault {
+    let message = format!("this {what} is for another model than the light BVH; make another {what}");
     Fault::new(Status::WrongModel, message)
 }
 
