@@ -170,7 +170,8 @@ fn sampled<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     }
     for i in 0..4_u32 {
         let sampled = scene
-            .tree().by::<I>()
+            .tree()
+            .by::<I>()
             .sample(&point, random.wrapping_add(i.wrapping_mul(0x9e37_79b9)));
         assert_eq!(sampled.light != INVALID, any, "{point:?}");
         if any {

@@ -1,8 +1,8 @@
 //! Lights, points and nodes from the fuzzer's bytes.
 
-use lightbvh::tree::Model;
 use arbitrary::{Error, Result, Unstructured};
 use lightbvh::exact::pow2;
+use lightbvh::tree::Model;
 use lightbvh::{
     BuildParams, Bvh, EmissiveTriangle, Heuristic, INVALID, ImportanceModel, LightNode, Lights, ShadingPoint,
     Summary,

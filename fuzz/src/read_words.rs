@@ -1,8 +1,8 @@
 //! Files that hold any words.
 
+use arbitrary::{Result, Unstructured};
 use lightbvh::light::EmissiveTriangle;
 use lightbvh::tree::Model;
-use arbitrary::{Result, Unstructured};
 use lightbvh::{Bvh, CompactNode, Edit, Eq4, ImportanceModel, MomentNode, Moments, Transform};
 
 use crate::{Forms, input};

@@ -55,7 +55,10 @@ impl Model {
             let local = self.triangles(placed.mesh);
             assert_eq!(lights.len(), local.len());
             for (light, local) in lights.zip(local) {
-                let found = scene.view().light(light, placed.id.index()).expect("one of its lights");
+                let found = scene
+                    .view()
+                    .light(light, placed.id.index())
+                    .expect("one of its lights");
                 assert_eq!(bytes(&found), bytes(&world[light as usize]));
                 assert_eq!(found.mesh, placed.id.index());
                 assert_eq!(found.flags, local.flags);

@@ -246,8 +246,8 @@ impl Mirror {
         let used: [Vec<Range<u32>>; LIST] = [
             ones(all.bottom.nodes()),
             ones(all.top.nodes()),
-            vec![0..view.lights().len() as u32],
-            vec![0..instances.len() as u32],
+            std::iter::once(0..view.lights().len() as u32).collect(),
+            std::iter::once(0..instances.len() as u32).collect(),
             ones(&all.roots),
             trails.collect(),
             ones(all.top.nodes()),
