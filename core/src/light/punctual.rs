@@ -203,7 +203,11 @@ impl SpotLight {
             false => f32::NAN,
         };
         let outer_cosine = cosine(outer);
-        let cos_outer = if outer_cosine > 1.0 - LEAST_FALL { 1.0 - LEAST_FALL } else { outer_cosine };
+        let cos_outer = if outer_cosine > 1.0 - LEAST_FALL {
+            1.0 - LEAST_FALL
+        } else {
+            outer_cosine
+        };
         Self {
             // Angles that hardly differ may have cosines in the other order.
             cos_inner: if inner == outer { cos_outer } else { cosine(inner) },

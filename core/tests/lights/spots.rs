@@ -434,7 +434,12 @@ fn car() -> Vec<AnyLight> {
 }
 
 /// Mean second moment of a sample among cars that are instances of a mesh each, at points on the road.
-fn second_of_cars(meshes: &[Vec<AnyLight>], shares: &[f32], places: &[Transform], points: &[ShadingPoint]) -> f64 {
+fn second_of_cars(
+    meshes: &[Vec<AnyLight>],
+    shares: &[f32],
+    places: &[Transform],
+    points: &[ShadingPoint],
+) -> f64 {
     let trees = meshes.iter().map(|own| {
         let mut bvh = Tree::default();
         let mesh = bvh.add_mesh(own.clone()).expect("in the domain");
@@ -485,7 +490,12 @@ fn cars_with_headlights_in_one_mesh_cost_no_more_than_two_trees() {
         };
         let places: Vec<_> = (0..300).map(|_| place(random)).collect();
         let points: Vec<_> = (0..300)
-            .map(|_| floor(200.0 * random.signed(), 80.0 * random.below(5) as f32 + 8.0 * random.signed()))
+            .map(|_| {
+                floor(
+                    200.0 * random.signed(),
+                    80.0 * random.below(5) as f32 + 8.0 * random.signed(),
+                )
+            })
             .collect();
         let (heads, tails) = (car()[..2].to_vec(), car()[2..].to_vec());
         let whole = second_of_cars(&[car()], &[1.0], &places, &points);

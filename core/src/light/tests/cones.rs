@@ -133,7 +133,11 @@ fn cones_are_made_of_angles() {
         }
     }
     for wrong in [-1.0, 3.1416, 4.0, 30.0, f32::INFINITY, f32::NAN] {
-        for (inner, outer, part) in [(0.0, wrong, "outer"), (wrong, 1.0, "inner"), (wrong, wrong, "outer")] {
+        for (inner, outer, part) in [
+            (0.0, wrong, "outer"),
+            (wrong, 1.0, "inner"),
+            (wrong, wrong, "outer"),
+        ] {
             let refused = spot(0.9, 0.5).with_cone(inner, outer).checked();
             let message = std::format!("{}", refused.expect_err("no angle"));
             assert!(message.contains(part) && message.contains("radians"), "{message}");

@@ -8,8 +8,14 @@ fn wrong_lights_are_refused_by_name() {
     refused(
         spot(0.9, 0.5),
         &[
-            (|l| l.cos_inner = 0.4, "inner cosine of a spot is 0.4, expected the outer"),
-            (|l| l.cos_inner = 2.0, "inner cosine of a spot is 2, expected -1 to 1"),
+            (
+                |l| l.cos_inner = 0.4,
+                "inner cosine of a spot is 0.4, expected the outer",
+            ),
+            (
+                |l| l.cos_inner = 2.0,
+                "inner cosine of a spot is 2, expected -1 to 1",
+            ),
             (
                 |l| (l.cos_outer, l.cos_inner) = (1.0, 1.0),
                 "outer cosine of a spot is 1",
