@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     .checked()?;
 
     // The sum over all lamps, small as they are, at 20,000 places.
-    let lights = bvh.world_lights();
+    let lights = bvh.view().world_lights();
     let length = distance(ray.from, ray.to);
     let mut right = 0.0;
     for light in &lights {
@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
 
-    let told = bvh.by::<Defensive<Subtended, 6>>();
+    let told = bvh.tree().by::<Defensive<Subtended, 6>>();
     let (mut mean, mut square) = (0.0, 0.0);
     for trial in 0..TRIALS {
         let number = hash(trial);

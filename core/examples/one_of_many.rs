@@ -47,14 +47,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     .checked()?;
 
     // What all of them send: the middles of small lamps stand for them.
-    let all = bvh.world_lights();
+    let all = bvh.view().world_lights();
     let right: f64 = all.iter().map(|light| contribution(light, &receiver)).sum();
-    let told = bvh.by::<Told>();
+    let told = bvh.tree().by::<Told>();
     let weighted = |sampled: SampledLight| {
         contribution(&all[sampled.light as usize], &receiver) / f64::from(sampled.pmf)
     };
     report("a light as sampled", right, |number| {
-        weighted(bvh.sample(&receiver.point, number))
+        weighted(bvh.tree().sample(&receiver.point, number))
     });
     report("one of eight", right, |number| {
         one_of_eight(&bvh, &all, &receiver, number)
@@ -69,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 fn one_of_eight(bvh: &LightBvh, all: &[EmissiveTriangle], receiver: &GlossyPoint, number: u32) -> f64 {
     let mut stream = Resampling::EMPTY;
     let mut chosen = 0.0;
-    for (k, sampled) in (0..).zip(bvh.sample_many::<_, 8>(&receiver.point, number)) {
+    for (k, sampled) in (0..).zip(bvh.tree().sample_many::<_, 8>(&receiver.point, number)) {
         let sent = contribution(&all[sampled.light as usize], receiver);
         let random = hash(hash(number).wrapping_add(k));
         if stream.candidate(target(sent as f32), sampled.pmf, random) {

@@ -1,4 +1,4 @@
-//! Beams: where all the light of a set of lights can go, and what limits it besides.
+//! Limits of the light of a set: beams, ends and masks.
 
 use glam::Vec3;
 
@@ -7,7 +7,7 @@ use crate::exact::{self, pow2};
 use crate::instance::Instance;
 use crate::vector::{abs3, dot, flush3, length_squared, vector};
 
-/// Places within `radius` of `c`, and directions within θ_e of `axis`: no light of the set leaves from or to elsewhere.
+/// All light of a set leaves from within `radius` of `c`, in directions within θ_e of `axis`.
 ///
 /// θ_e is the emission angle of Conty Estevez & Kulla 2018, section 4.1, about the set's axis: θ_o + θ_e there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,20 +26,19 @@ pub struct Beam {
 const LEAST_COSINE: f32 = pow2(-8);
 /// A squared length of an axis below which it has no direction.
 const LEAST_AXIS: f32 = pow2(-12);
-/// What a sum of angles is rounded down by, in cosine, and widened by, 2^-11 rad: as the union of cones.
+/// Margins of a sum of angles: subtracted from the cosine; added to the angle.
 const COSINE_SLACK: f32 = pow2(-21);
 const WIDEN_SIN: f32 = pow2(-11);
 const WIDEN_COS_DEFECT: f32 = pow2(-23);
 /// Lengths below this part of a unit count as zero, squared.
 const LEAST_SQUARE: f32 = pow2(-60);
-/// What a radius is rounded up by, as a factor: more than the error of the lengths that it is computed from.
+/// Factor by which radii are rounded up: more than the error of the lengths in them.
 const LONGER: f32 = 1.001;
 /// Rounding of coordinates as a part of them, with that of a map.
 const ROUNDING: f32 = pow2(-21);
-/// Of a place that a map brings back from so far away that its own rounding is not that of where it is: times [`ROUNDING`], for the three products
-/// of each coordinate may be larger than their sum.
+/// Factor on [`ROUNDING`] if the map moves a place much nearer to the origin: three products cancel.
 const BROUGHT_BACK: f32 = 4.0;
-/// From twice as far away on.
+/// The same if the place was at least twice as far away.
 const TWICE_BROUGHT_BACK: f32 = 8.0;
 /// Rounding of lengths in units.
 const LEAST_RADIUS: f32 = pow2(-18);
@@ -106,9 +105,9 @@ impl Beam {
         (apart + self.radius * per_unit) * LONGER + LEAST_RADIUS
     }
 
-    /// The beam in the world of a set that `instance` puts there. Where its map is no similarity light may go anywhere: angles between axes
-    /// change. The walk allows for the rounding of places, but not where the map brings back what is far from its own origin: the sum of two places as
-    /// far away is then more precise than they are.
+    /// The beam in the world; [`ANYWHERE`](Self::ANYWHERE) if the map is not a similarity, for such maps change angles.
+    ///
+    /// The radius grows if the map moves the place much nearer to the origin. The walk allows for other rounding.
     #[inline(always)]
     pub(crate) fn to_world(self, instance: &Instance) -> Self {
         if self.is_narrow() & instance.is_even() {
@@ -202,7 +201,7 @@ impl Limits {
     /// The end of light that arrives anywhere, metres: beyond all lengths of this crate.
     pub const ENDLESS: f32 = pow2(63);
 
-    /// The limits in the world of a set about `c` that `instance` puts there. Where its map is no similarity only masks are left.
+    /// The limits in the world. `c`: centre of the set. If the map is not a similarity only the mask stays.
     #[inline(always)]
     pub(crate) fn to_world(self, instance: &Instance, c: Vec3) -> Self {
         // Ranges do not grow with a map.
@@ -237,7 +236,7 @@ impl Space {
     };
 }
 
-/// How far a point at `p` and a light near it may be from where their coordinates say: what lies far apart sees no angle change by that.
+/// Greatest rounding error of a point at `p` and of a light near it, metres.
 #[inline(always)]
 pub(crate) fn rounding_at(p: Vec3) -> f32 {
     let a = abs3(p);

@@ -1,4 +1,4 @@
-//! What is known of a set of lights: where they are, which way they face, how much they emit.
+//! Bounds of a set of lights: box, cone of normals, flux.
 
 use glam::Vec3;
 

@@ -5,9 +5,18 @@
 pub mod bounds {
     pub use crate::bounds::*;
 }
+/// What moves all lights of a BVH at once.
+#[cfg(feature = "alloc")]
+pub mod bvh {
+    pub use crate::bvh::follow;
+}
 /// Cones of directions.
 pub mod cone {
     pub use crate::cone::*;
+}
+/// Luminance of colours.
+pub mod emission {
+    pub use crate::emission::luminance_of;
 }
 /// The levels of a tree, in the order of a refit.
 #[cfg(feature = "alloc")]
@@ -22,7 +31,11 @@ pub mod moments {
 pub mod point {
     pub use crate::point::*;
 }
-/// What nodes summarise.
+/// Distances of children's centres, for importances.
+pub mod sight {
+    pub use crate::importance::sight::*;
+}
+/// Summaries of lights.
 pub mod summary {
     pub use crate::summary::*;
 }

@@ -1,4 +1,4 @@
-//! What flat lights emit.
+//! Emission of flat lights.
 
 use glam::Vec3;
 
@@ -14,7 +14,7 @@ pub(crate) const MAX_SUM: f32 = pow2(MAX_SUM_EXPONENT);
 /// Exponent of [`MAX_SUM`].
 pub(crate) const MAX_SUM_EXPONENT: i32 = 126;
 
-/// What a flat light emits, and its normal.
+/// Flux and normal of a flat light.
 pub(crate) struct Emission {
     /// Radiant flux, W; zero, or in [`MIN_PHI`]`..=`[`MAX_PHI`].
     pub phi: f32,
@@ -43,7 +43,8 @@ pub(crate) fn bounded_phi(shine: f32, exponent: i32) -> f32 {
 
 /// Luminance of linear R, G, B (Rec. ITU-R BT.709-6, section 3).
 #[inline(always)]
-pub(crate) fn luminance_of(rgb: &[f32; 3]) -> f32 {
+#[must_use]
+pub fn luminance_of(rgb: &[f32; 3]) -> f32 {
     (0.2126 * rgb[0] + 0.7152 * rgb[1]) + 0.0722 * rgb[2]
 }
 

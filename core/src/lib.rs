@@ -19,7 +19,7 @@
 //! | [`EmissiveTriangle`], [`Lights`], [`Transform`] | lights, and where their meshes stand |
 //! | [`ShadingPoint`], [`Random64`], [`SampledLight`], [`LightPoint`] | what is lit, the number that chooses, the light chosen, a point on it |
 //! | [`Rebuilder`] | builds whole trees on a thread in the background, or within the frame if there are no threads |
-//! | [`bvh`], [`build`] | edits, ids, plans and files; builders |
+//! | [`bvh`], [`build`] | edits, ids, views, plans and files; builders |
 //! | [`light`] | lights of other kinds: points, spots, spheres, rectangles, discs; points on them |
 //! | [`importance`], [`node`] | what children are chosen by, and what nodes store of them |
 //! | [`requirements`] | what a scene requires, and the smallest model that is sufficient |

@@ -15,9 +15,8 @@
 //! instances, edits, rebuilds and files are the same for all; so are mirrors on devices:
 //! `lightbvh_gpu::KernelSet::ANY` are the kernels over [`AnyLight`], and the reference renderer shows all of them.
 //!
-//! **Instances scale.** The top level knows how flux grows with an instance's scale: with area where lights are surfaces, not at all where they are
-//! points and spots ([`Light::is_surface`]). It takes one rule for all lights of a mesh. A mesh of [`AnyLight`]s that differ in it goes by
-//! area: its scaled instances have too much or too little weight, which costs variance, and biases nothing.
+//! **Instances scale.** Flux grows with area if a light is a surface, not at all if it is a point or spot ([`Light::is_surface`]). A mesh that
+//! mixes both goes by area: weights of its scaled instances are too large or too small, which costs variance and adds no bias.
 
 mod any;
 mod flat;
@@ -32,7 +31,7 @@ mod triangle;
 
 pub use any::AnyLight;
 pub use flat::{DiscLight, RectangleLight};
-pub use point::{LightPoint, uniform_point};
+pub use point::{LightPoint, mis_weight, uniform_point};
 pub use punctual::{PointLight, SpotLight};
 pub use record::{Light, LightSlots, world_light};
 pub use sphere::SphereLight;

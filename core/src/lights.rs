@@ -1,4 +1,4 @@
-//! Validated input: emissive lights that stand in the world, grouped into mesh lights.
+//! Validated input: lights in the world, grouped into mesh lights.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -10,39 +10,39 @@ use crate::light::{EmissiveTriangle, Light};
 /// Most lights that one light BVH holds: 2^30, so that every index and word address fits 32 bits.
 pub const MAX_LIGHTS: usize = 1 << 30;
 
-/// Emissive lights within the domain of this crate, ordered by mesh light. Everything behind this type may rely on
+/// Lights within the domain of this crate, ordered by mesh light. Everything behind this type may rely on
 /// that.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lights<L = EmissiveTriangle> {
     lights: Vec<L>,
-    /// First triangle of each mesh light, then the number of lights.
+    /// First light of each mesh light, then the number of lights.
     starts: Vec<u32>,
 }
 
 impl<L: Light> Lights<L> {
-    /// Takes lights ordered by mesh light: `mesh` starts at 0 and grows by at most one from triangle to triangle. There may be
+    /// Takes lights ordered by mesh light: `mesh` starts at 0 and grows by at most one from light to light. There may be
     /// none.
     ///
     /// # Errors
-    /// [`LightsError`], naming the triangle, when one is outside the domain or out of order, and when there are more than
+    /// [`LightsError`], naming the light, when one is outside the domain or out of order, and when there are more than
     /// [`MAX_LIGHTS`].
     pub fn new(mut lights: Vec<L>) -> Result<Self, LightsError> {
         if lights.len() > MAX_LIGHTS {
             return Err(LightsError::TooMany { count: lights.len() });
         }
         let mut starts = Vec::new();
-        for (index, triangle) in lights.iter_mut().enumerate() {
-            *triangle = triangle
+        for (index, light) in lights.iter_mut().enumerate() {
+            *light = light
                 .checked()
                 .map_err(|error| LightsError::Light { index, error })?;
             let next = starts.len() as u32;
-            if triangle.mesh() == next {
+            if light.mesh() == next {
                 starts.push(index as u32);
-            } else if next == 0 || triangle.mesh() != next - 1 {
+            } else if next == 0 || light.mesh() != next - 1 {
                 return Err(LightsError::Order {
                     index,
                     expected: next,
-                    found: triangle.mesh(),
+                    found: light.mesh(),
                 });
             }
         }
@@ -69,7 +69,7 @@ impl<L: Light> Lights<L> {
     }
 }
 
-/// Why lights are refused as lights.
+/// Why lights are refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum LightsError {
@@ -78,20 +78,20 @@ pub enum LightsError {
         /// How many there are.
         count: usize,
     },
-    /// A triangle is outside the domain.
+    /// A light is outside the domain.
     Light {
         /// Its index.
         index: usize,
         /// What is wrong with it.
         error: DomainError,
     },
-    /// A triangle names a mesh light out of order.
+    /// A light names a mesh light out of order.
     Order {
-        /// Index of the triangle.
+        /// Index of the light.
         index: usize,
         /// The mesh light that may begin here; the one before it may go on.
         expected: u32,
-        /// What the triangle names.
+        /// The mesh light of the light.
         found: u32,
     },
 }
@@ -100,19 +100,16 @@ impl fmt::Display for LightsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::TooMany { count } => {
-                write!(
-                    f,
-                    "{count} emissive lights, expected at most 2^30; split the scene"
-                )
+                write!(f, "{count} lights, expected at most 2^30; split the scene")
             }
-            Self::Light { index, error } => write!(f, "emissive triangle {index}: {error}"),
+            Self::Light { index, error } => write!(f, "light {index}: {error}"),
             Self::Order {
                 index,
                 expected,
                 found,
             } => write!(
                 f,
-                "emissive triangle {index} belongs to mesh light {found}, expected {expected} or the one before it; \
+                "light {index} belongs to mesh light {found}, expected {expected} or the one before it; \
                  order the lights by mesh light"
             ),
         }

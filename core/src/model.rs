@@ -1,10 +1,14 @@
-//! What a light BVH is made of.
+//! Models of a light BVH.
 
-use crate::importance::{DefaultImportance, Eq4, Leveled, Linked, Moments};
+use crate::importance::{DefaultImportance, Eq4, ImportanceModel, Leveled, Linked, Moments};
 use crate::light::{AnyLight, EmissiveTriangle, Light};
 use crate::node::{CompactNode, DefaultNode, Holds, LinkedSpotMomentNode, Node, SpotMomentNode};
+use crate::point::Receiver;
+use crate::random::Random64;
+use crate::traverse::SampledLight;
+use crate::tree::LightTree;
 
-/// What a light BVH is made of, named once: lights, the layout of nodes of width `W`, and what children are chosen by. A pair of a
+/// A model of a light BVH: light type, layout of nodes of width `W`, and importance. A pair of a
 /// layout and an importance is a model, too: `Bvh<(MomentNode<8>, Moments)>`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no model of width {W}",
@@ -12,15 +16,43 @@ use crate::node::{CompactNode, DefaultNode, Holds, LinkedSpotMomentNode, Node, S
             `Bvh<(CompactNode<4>, Eq4), 4>`"
 )]
 pub trait Model<const W: usize> {
-    /// What the lights are.
+    /// The light type.
     type Light: Light;
     /// The layout of nodes.
     type Node: Node<W> + Holds<Light = Self::Light>;
-    /// What children are chosen by.
+    /// The importance.
     type Importance;
 }
 
-/// What its nodes store of each child.
+/// A receiver that a light BVH of the model `M` chooses lights for: its importance weighs children for one.
+// A bound of `P` in place of one of the importance: where that knows one receiver alone, `P` would be inferred from it, and the error
+// would be one of types, without a note.
+pub trait ReceiverOf<M: Model<W>, const W: usize>: Receiver {
+    /// [`LightTree::sample`].
+    #[doc(hidden)]
+    fn choose(&self, tree: &LightTree<'_, M::Node, M::Importance, W>, random: Random64) -> SampledLight;
+
+    /// [`LightTree::pmf`].
+    #[doc(hidden)]
+    fn probability(&self, tree: &LightTree<'_, M::Node, M::Importance, W>, light: u32, instance: u32) -> f32;
+}
+
+impl<M: Model<W>, P: Receiver, const W: usize> ReceiverOf<M, W> for P
+where
+    M::Importance: ImportanceModel<M::Node, W, P>,
+{
+    #[inline]
+    fn choose(&self, tree: &LightTree<'_, M::Node, M::Importance, W>, random: Random64) -> SampledLight {
+        tree.sample(self, random)
+    }
+
+    #[inline]
+    fn probability(&self, tree: &LightTree<'_, M::Node, M::Importance, W>, light: u32, instance: u32) -> f32 {
+        tree.pmf(self, light, instance)
+    }
+}
+
+/// The summary that its nodes store of each child.
 pub(crate) type SummaryOf<M, const W: usize> = <<M as Model<W>>::Node as Node<W>>::Summary;
 
 impl<N: Node<W>, I, const W: usize> Model<W> for (N, I) {

@@ -35,8 +35,8 @@ pub struct ShadingPoint {
 }
 
 impl ShadingPoint {
-    /// Brings the point into the domain of this crate, or says why it cannot be. Sampling and pmf do not check again, but for an assertion in
-    /// debug builds.
+    /// Brings the point into the domain of this crate, or says why it cannot be. [`LightTree`](crate::LightTree) does not check again; a
+    /// [`Bvh`](crate::Bvh) chooses no light for a point that is none.
     ///
     /// Components smaller than [`MIN_COORDINATE`] become zero (with the sign of zero dropped); nothing else changes.
     ///
@@ -58,20 +58,9 @@ impl ShadingPoint {
         }
     }
 
-    /// Whether sampling means anything here. Wider than [`checked`](Self::checked), up to [`MAX_REACH`].
-    pub(crate) fn is_within_reach(&self) -> bool {
-        let mut within = self.has_sound_normal();
-        for axis in 0..3 {
-            within &= (-MAX_REACH..=MAX_REACH).contains(&self.p[axis]);
-        }
-        within
-    }
-
     /// Whether the normal is zero or of length 1.
     fn has_sound_normal(&self) -> bool {
-        let n = self.normal();
-        let excess = length_squared(n) - 1.0;
-        n == Vec3::ZERO || (-NORMAL_TOLERANCE..=NORMAL_TOLERANCE).contains(&excess)
+        is_unit_or_zero(self.normal())
     }
 
     /// Position.
@@ -89,6 +78,12 @@ impl ShadingPoint {
     }
 }
 
+/// Whether a vector is zero or of length 1.
+fn is_unit_or_zero(v: Vec3) -> bool {
+    let excess = length_squared(v) - 1.0;
+    v == Vec3::ZERO || (-NORMAL_TOLERANCE..=NORMAL_TOLERANCE).contains(&excess)
+}
+
 impl Instance {
     /// A point of the world in the space of the mesh, its normal again of about unit length.
     #[inline(always)]
@@ -104,7 +99,7 @@ impl Instance {
             dot(self.column(2), n),
         ));
         let length = length_squared(back);
-        // A normal that the map loses is that of a volume.
+        // If the map makes the normal zero, the point counts as in a volume.
         let scale = if length >= pow2(-119) {
             exact::rsqrt(length)
         } else {
@@ -125,15 +120,18 @@ impl Instance {
     }
 }
 
-/// What a walk may be told of a receiver, to be brought into the space of each instance that it enters: a [`ShadingPoint`], or a type that
-/// says more to an importance that asks for it.
+/// A receiver type: a [`ShadingPoint`], or one with more data for an importance that uses it. A walk transforms it into the space of each
+/// instance.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no receiver of light",
+    note = "take a `ShadingPoint`, a `LinkedPoint` for `MaskedLights`, or another of `lightbvh::importance`"
+)]
 pub trait Receiver: Copy {
     /// The receiver in the space of the instance's mesh.
     fn to_local(&self, instance: &Instance) -> Self;
 
-    /// Asserts in debug builds that sampling means anything here.
-    #[doc(hidden)]
-    fn assert_within_reach(&self) {}
+    /// Whether sampling means anything here: coordinates of magnitude at most 2^60, unit vectors, numbers in their ranges.
+    fn is_within_reach(&self) -> bool;
 }
 
 impl AsRef<Self> for ShadingPoint {
@@ -148,11 +146,12 @@ impl Receiver for ShadingPoint {
         instance.to_local(self)
     }
 
-    fn assert_within_reach(&self) {
-        debug_assert!(
-            self.is_within_reach(),
-            "not a shading point: {self:?}; `ShadingPoint::checked` says why"
-        );
+    fn is_within_reach(&self) -> bool {
+        let mut within = self.has_sound_normal();
+        for axis in 0..3 {
+            within &= (-MAX_REACH..=MAX_REACH).contains(&self.p[axis]);
+        }
+        within
     }
 }
 

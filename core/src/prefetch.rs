@@ -12,7 +12,7 @@ pub(crate) fn fetch<T: Pod>(items: &[T], index: u32) {
     #[cfg(feature = "prefetch")]
     {
         let bytes: &[u8] = bytemuck::cast_slice(items);
-        // An index out of range, from hostile words, asks for a line that is not read.
+        // An index out of range, from malformed words, asks for a line that is not read.
         let first = (index as usize).wrapping_mul(size_of::<T>());
         for line in 0..size_of::<T>().div_ceil(LINE) {
             prefetch_index::prefetch_index(bytes, first.wrapping_add(line * LINE));

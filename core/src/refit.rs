@@ -1,6 +1,6 @@
 //! Refit: new summaries on an unchanged topology, bottom-up (paper section 3.4).
 //!
-//! Every function takes the nodes as they are and returns one node anew, so that the CPU and the kernels run the same
+//! Every function takes the nodes as they are and returns one node, so that the CPU and the kernels run the same
 //! body and each node is written by one invocation. The order of passes: [`bottom`] from the deepest level of the bottom
 //! levels to their roots; [`root`] for each bottom level; [`top`] from the deepest level of the top level to its root.
 //! Children are merged in an order of the slots, so no order of execution shows in the bits. Kernels compute a node in two passes, its
@@ -95,7 +95,7 @@ pub(crate) fn below<N: Node<W>, const W: usize>(
 }
 
 /// What is known of the bottom level whose root is node `root`, in its own space; kept apart from the nodes so that
-/// instances need not merge it anew.
+/// instances need not merge it again.
 #[inline]
 #[must_use]
 pub fn root<N: Node<W>, const W: usize>(nodes: &[N], root: u32) -> BlasRoot {
@@ -152,7 +152,7 @@ impl BlasRoot {
         }
     }
 
-    /// What is known of the bottom level.
+    /// Summary of the bottom level.
     #[inline]
     #[must_use]
     pub fn summary<S: Summary>(&self) -> S {

@@ -1,4 +1,4 @@
-//! What a node stores of each child: a few numbers of the lights below it that can be merged.
+//! Summaries: a few numbers of the lights below a child that can be merged.
 
 mod bounds;
 mod world;
@@ -15,7 +15,7 @@ use crate::unroll::each;
 /// Words of a summary in full, as [`BlasRoot`](crate::refit::BlasRoot) keeps them.
 pub const SUMMARY_WORDS: usize = 12;
 
-/// What is known of a set of lights: [`LightBounds`] for the paper's importance,
+/// The summary of a set of lights: [`LightBounds`] for the paper's importance,
 /// [`LightMoments`](crate::moments::LightMoments) for the default one.
 pub trait Summary: Copy + PartialEq + Debug + Send + Sync + 'static {
     /// The summary of no light at all.

@@ -30,7 +30,7 @@ const AHEAD: usize = 4;
 
 /// Asks for the lights that a node's refit will read.
 #[inline(always)]
-fn fetch_triangles<N: Node<W>, const W: usize>(node: &N, lights: &[N::Light]) {
+fn fetch_lights<N: Node<W>, const W: usize>(node: &N, lights: &[N::Light]) {
     if cfg!(feature = "prefetch") {
         for slot in 0..W {
             if node.kind(slot) == kind::LIGHT {
@@ -48,7 +48,7 @@ fn one_by_one<N: Node<W>, const W: usize>(nodes: &mut [N], count: usize, first: 
             let mut room = Room::<N::Light, W>::new();
             for index in (0..count).rev() {
                 if let Some(soon) = index.checked_sub(AHEAD) {
-                    fetch_triangles(&nodes[soon], lights);
+                    fetch_lights(&nodes[soon], lights);
                 }
                 refit::below(nodes, first, lights, &nodes[index], &mut room);
                 let limits = refit::limits_below(nodes, first, lights, &nodes[index], &room.children);
@@ -99,6 +99,7 @@ fn subtrees<N: Node<W>, const W: usize>(
 #[cfg(all(test, feature = "rayon"))]
 mod tests {
     use super::*;
+    use crate::bvh::Cursor;
     use crate::kit::scenes::bare;
     use crate::light::EmissiveTriangle;
     use crate::{BuildParams, LightBvh, Lights, MomentNode};
@@ -117,7 +118,7 @@ mod tests {
         };
         let lights = Lights::new((0..60_000).map(light).collect()).expect("in the domain");
         let bvh = LightBvh::single_level(&lights, &BuildParams::BALANCED);
-        let nodes = &bvh.nodes()[..bvh.plan_of_everything().bottom.nodes().len()];
+        let nodes = &bvh.view().nodes()[..Cursor::default().plan(&bvh).bottom.nodes().len()];
         assert!(nodes.len() > 2 * PARALLEL);
         let bare: Vec<MomentNode<8>> = nodes.iter().map(bare).collect();
         for threads in 1..=3 {
@@ -126,7 +127,7 @@ mod tests {
                 .build()
                 .expect("threads");
             let mut swept = bare.clone();
-            pool.install(|| bottom_sweep(&mut swept, 0, bvh.lights()));
+            pool.install(|| bottom_sweep(&mut swept, 0, bvh.view().lights()));
             let words: [&[u32]; 2] = [bytemuck::cast_slice(&swept), bytemuck::cast_slice(nodes)];
             assert!(words[0] == words[1], "{threads} threads");
         }

@@ -189,6 +189,34 @@ impl Path {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kit::Random;
+
+    /// `with` sets one slot, `behind` moves all by a level.
+    fn slots_are_kept<const W: usize>() {
+        let (random, levels) = (&mut Random(W as u32), max_levels(W));
+        let (mut trail, mut slots) = (BitTrail::default(), [0; 64]);
+        for round in 0..200 {
+            let (level, slot) = (random.below(levels), random.below(W as u32));
+            if round % 3 == 0 {
+                trail = trail.behind::<W>(slot);
+                slots[..levels as usize].rotate_right(1);
+                slots[0] = slot;
+            } else {
+                trail = trail.with::<W>(level, slot);
+                slots[level as usize] = slot;
+            }
+            let is_kept = |level| trail.slot::<W>(level) == slots[level as usize];
+            assert!((0..levels).all(is_kept), "{W}");
+        }
+    }
+
+    #[test]
+    fn trails_keep_slots_at_every_width() {
+        macro_rules! widths {
+            ($($w:literal)*) => { $(slots_are_kept::<$w>();)* };
+        }
+        widths!(2 3 4 5 6 7 8 9 10 11 12 13 14 15 16);
+    }
 
     #[test]
     fn levels_fill_the_words() {

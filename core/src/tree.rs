@@ -7,7 +7,7 @@ use bytemuck::{Pod, Zeroable};
 use crate::importance::DefaultImportance;
 use crate::instance::Instance;
 pub use crate::light::INVALID;
-pub use crate::model::{AnyKind, Masked, Model, Paper, Triangles};
+pub use crate::model::{AnyKind, Masked, Model, Paper, ReceiverOf, Triangles};
 use crate::node::DefaultNode;
 use crate::trail::{BitTrail, Path, max_levels, place_parts};
 
@@ -122,33 +122,6 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
             steps += 1;
         }
         trail
-    }
-
-    /// The nodes of the top level, or of the bottom levels. On a device both stand in one buffer: pointers into two cannot be told apart
-    /// there.
-    #[inline(always)]
-    fn nodes_of(&self, _is_top: bool) -> &'a [N] {
-        #[cfg(target_arch = "spirv")]
-        return self.nodes;
-        #[cfg(not(target_arch = "spirv"))]
-        if _is_top { self.top } else { self.nodes }
-    }
-
-    /// Node `index` of the top level, or of a bottom level. An index out of range (hostile words) reads node 0.
-    #[inline(always)]
-    pub(crate) fn node(&self, is_top: bool, index: u32) -> &'a N {
-        let nodes = self.nodes_of(is_top);
-        &nodes[if self.has_node(is_top, index) {
-            index as usize
-        } else {
-            0
-        }]
-    }
-
-    /// Whether there is such a node.
-    #[inline(always)]
-    pub(crate) fn has_node(&self, is_top: bool, index: u32) -> bool {
-        index < self.nodes_of(is_top).len() as u32
     }
 
     /// Trail of a triangle in the tree that holds it.

@@ -38,6 +38,13 @@ pub fn length_squared(v: Vec3) -> f32 {
     dot(v, v)
 }
 
+/// Whether all components are zero.
+#[inline(always)]
+#[must_use]
+pub fn is_zero(v: Vec3) -> bool {
+    (v.x == 0.0) & (v.y == 0.0) & (v.z == 0.0)
+}
+
 /// Component-wise magnitude.
 #[inline(always)]
 #[must_use]

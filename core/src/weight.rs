@@ -18,7 +18,7 @@ const LEAST_DISTANCE: f32 = pow2(-50);
 /// A frame this much smaller than its distance counts as this small: its square is far below LEAST_DISTANCE's part of 1.
 const LEAST_FRAME: i32 = -40;
 
-/// What all children of a node share of the evaluation at a point: one power of two makes every length about 1.
+/// Shared by all children of a node at a point: one power of two makes every length about 1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     /// Origin minus point, scaled.
@@ -109,7 +109,7 @@ pub(crate) fn weight(l: &Lobe, side: &Side) -> f32 {
     let turn = dot(side.for_m, l.m);
     let incident_spread = SOFT + u * (1.0 + l.less * (turn * turn));
     let incident = dot(side.n, l.x) * inverse;
-    // What lies above the horizon is no more than the box allows: its top, where it is low, cuts the tail.
+    // The box limits the part above the horizon: a low top cuts the tail.
     let cut = exact::min(exact::max(incident + l.reach * u, FLOOR), incident_spread);
     let (n1, d1) = soft(incident, incident_spread, cut);
 

@@ -55,7 +55,7 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
             false => scene.refit(),
         }
         check(&model, &scene);
-        let plan = scene.plan(&mut cursor);
+        let plan = cursor.plan(&scene);
         if !is_done && !is_swapped && !is_rebuilt && frame > 0 {
             let written = plan.written_nodes.len() + plan.written_top.len() + plan.written_instances.len();
             assert_eq!((plan.computed(), written), (0, 0), "nothing changed");
@@ -102,7 +102,7 @@ fn place<N: LightNode<W>, const W: usize>(
     u: &mut Unstructured<'_>,
     scene: &Bvh<(N, ()), W>,
 ) -> Result<ShadingPoint> {
-    let mut world = scene.world_lights();
+    let mut world = scene.view().world_lights();
     if world.is_empty() {
         world.push(lightbvh::EmissiveTriangle {
             p: [[0.0; 3]; 3],
@@ -121,11 +121,11 @@ fn before_refit<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     point: &ShadingPoint,
     random: u32,
 ) {
-    let tree = scene.by::<I>();
+    let tree = scene.tree().by::<I>();
     for i in 0..4_u32 {
         let sampled = tree.sample(point, random.wrapping_add(i.wrapping_mul(0x9e37_79b9)));
         if sampled.light != INVALID {
-            let id = scene.instance_id(sampled.instance);
+            let id = scene.view().instance_id(sampled.instance);
             let own = model.instances.iter().find(|placed| Some(placed.id) == id);
             assert!(own.expect("it is there").lights.contains(&sampled.light));
             let pmf = tree.pmf(point, sampled.light, sampled.instance);
@@ -136,7 +136,7 @@ fn before_refit<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 
 /// Every invariant, and every light against the model.
 fn check<N: LightNode<W>, const W: usize>(model: &Model, scene: &Bvh<(N, ()), W>) {
-    scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
+    scene.view().validate().expect("valid");
     assert_eq!(scene.tree().live as usize, model.instances.len());
     model.check_lights(scene);
 }
@@ -150,11 +150,11 @@ fn sampled<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 ) -> Result<()> {
     let point = place(u, scene)?;
     let random: u32 = u.arbitrary()?;
-    let mut pmfs = vec![0f32; scene.light_end() as usize];
+    let mut pmfs = vec![0f32; scene.view().light_end() as usize];
     let mut any = false;
     for instance in &model.instances {
         for (light, local) in instance.lights.clone().zip(model.triangles(instance.mesh)) {
-            let pmf = scene.by::<I>().pmf(&point, light, instance.id.index());
+            let pmf = scene.tree().by::<I>().pmf(&point, light, instance.id.index());
             let shines = instance.radiance.iter().any(|&x| x > 0.0) && input::shines::<N, W>(local);
             assert_eq!(pmf > 0.0, shines, "light {light} at {point:?}");
             any |= shines;
@@ -162,15 +162,15 @@ fn sampled<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         }
     }
     for &gone in &model.gone_instances {
-        assert_eq!(scene.lights_of(gone), None);
-        assert_ne!(scene.instance_id(gone.index()), Some(gone));
+        assert_eq!(scene.view().lights_of(gone), None);
+        assert_ne!(scene.view().instance_id(gone.index()), Some(gone));
     }
     if any {
         input::sum_is_one(&pmfs, 0, &point);
     }
     for i in 0..4_u32 {
         let sampled = scene
-            .by::<I>()
+            .tree().by::<I>()
             .sample(&point, random.wrapping_add(i.wrapping_mul(0x9e37_79b9)));
         assert_eq!(sampled.light != INVALID, any, "{point:?}");
         if any {

@@ -231,8 +231,8 @@ pub fn pmf_of<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     light: u32,
 ) -> f32 {
     let instance = match lights.all().get(light as usize) {
-        Some(triangle) if !bvh.is_single_level() => triangle.mesh,
+        Some(triangle) if !bvh.view().is_single_level() => triangle.mesh,
         _ => INVALID,
     };
-    bvh.by::<I>().pmf(point, light, instance)
+    bvh.tree().by::<I>().pmf(point, light, instance)
 }

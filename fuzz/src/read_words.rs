@@ -32,7 +32,7 @@ where
         _ => Bvh::two_level(&lights, &params),
     };
     if bits & 4 != 0
-        && let Some(instance) = written.instance_id(u.arbitrary::<u8>()?.into())
+        && let Some(instance) = written.view().instance_id(u.arbitrary::<u8>()?.into())
     {
         // A single level refuses it.
         let _ = written.apply(vec![Edit::RemoveInstance(instance)]);
@@ -67,18 +67,18 @@ where
     assert!(copy.to_words() == again);
     let random: u32 = u.arbitrary()?;
     for i in 0..3 {
-        let sampled = bvh.sample(&point, random.wrapping_add(i));
-        let pmf = copy.pmf(&point, sampled.light, sampled.instance);
+        let sampled = bvh.tree().sample(&point, random.wrapping_add(i));
+        let pmf = copy.tree().pmf(&point, sampled.light, sampled.instance);
         assert_eq!(pmf.to_bits(), sampled.pmf.to_bits());
     }
-    let mesh = (0..bvh.roots().len() as u32).find_map(|mesh| bvh.mesh_id(mesh));
+    let mesh = bvh.view().mesh_ids().next();
     if let Some(mesh) = mesh {
         // Refused where it is a single level, or there is no room.
         let _ = bvh.add_instance(mesh, Transform::IDENTITY);
     }
     bvh.refit();
-    bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
+    bvh.view().validate().expect("valid");
     bvh.rebuild();
-    bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
+    bvh.view().validate().expect("valid");
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use arbitrary::{Result, Unstructured};
 use bytemuck::cast_slice;
+use lightbvh::device::bvh::follow;
 use lightbvh::{
     BuildParams, Bvh, CompactNode, Defensive, Eq4, INVALID, ImportanceModel, LightNode, Lights, MomentNode,
     Moments, Random64, ShadingPoint,
@@ -65,22 +66,22 @@ fn tree<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         0 => Bvh::<(N, ()), W>::two_level(lights, params),
         _ => Bvh::single_level(lights, params),
     };
-    bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
-    assert!(bvh.bytes() > 0 && bvh.depth() > 0);
+    bvh.view().validate().expect("valid");
+    assert!(bvh.view().bytes() > 0 && bvh.view().depth() > 0);
     if let Some((points, random)) = &rest.points {
         distributions::<N, I, W>(&bvh, lights, points, *random);
     }
     if let Some(moved) = &rest.moved {
         let first = words(&bvh);
-        bvh.follow(lights).expect("as many lights");
+        follow(&mut bvh, lights).expect("as many lights");
         assert!(first == words(&bvh), "refit of unchanged lights changes a word");
-        let first = bvh.nodes().to_vec();
-        bvh.follow(moved).expect("as many lights");
-        bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
-        bvh.follow(lights).expect("as many lights");
+        let first = bvh.view().nodes().to_vec();
+        follow(&mut bvh, moved).expect("as many lights");
+        bvh.view().validate().expect("valid");
+        follow(&mut bvh, lights).expect("as many lights");
         // The top level may differ: instances that moved far were inserted elsewhere.
         assert!(
-            cast_slice::<N, u8>(&first) == cast_slice::<N, u8>(bvh.nodes()),
+            cast_slice::<N, u8>(&first) == cast_slice::<N, u8>(bvh.view().nodes()),
             "there and back"
         );
     }
@@ -90,8 +91,8 @@ fn tree<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 fn words<N: LightNode<W>, const W: usize>(bvh: &Bvh<(N, ()), W>) -> Vec<u8> {
     let (tree, links) = (bvh.tree(), bvh.tree().links);
     [
-        cast_slice(bvh.nodes()),
-        cast_slice(bvh.top_nodes()),
+        cast_slice(bvh.view().nodes()),
+        cast_slice(bvh.view().top_nodes()),
         cast_slice(tree.instances),
         cast_slice(tree.trails),
         cast_slice(links.above),
@@ -118,7 +119,7 @@ fn distributions<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
             assert_eq!(*pmf > 0.0, *shines || I::UNIFORM_HALVINGS > 0);
         }
         let sampled = |number: Random64| {
-            let sampled = bvh.by::<I>().sample(point, number);
+            let sampled = bvh.tree().by::<I>().sample(point, number);
             if sampled.light == INVALID {
                 assert!(!shines.contains(&true) && sampled.pmf == 0.0, "{sampled:?}");
             } else {

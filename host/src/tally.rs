@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use bytemuck::{NoUninit, cast_slice};
 use lightbvh::INVALID;
 use lightbvh::exact::hash;
+use lightbvh_gpu::DeviceBuffer;
 use lightbvh_kernels::query::Query;
 use serde::Serialize;
 
-use crate::backend::{Backend, PMF_RECORD, SAMPLED_RECORD};
+use crate::backend::{Backend, Held, PMF_RECORD, SAMPLED_RECORD};
 use crate::error::HostError;
 use crate::scene::SceneLight;
 use crate::words::{Record, compare_words};
@@ -18,7 +19,10 @@ use crate::words::{Record, compare_words};
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub(crate) enum Kind {
+    /// And roots: what a refit computes.
     Nodes,
+    /// The other arrays of a light BVH.
+    Uploads,
     Samples,
     Pmfs,
     Pixels,
@@ -43,7 +47,7 @@ pub(crate) struct Words {
 pub(crate) struct Tally {
     pub compared: u64,
     pub different: u64,
-    /// Nodes, samples, pmfs and pixels, each counted as such.
+    /// Records by kind.
     #[serde(flatten)]
     pub records: BTreeMap<Kind, u64>,
     /// Words by kind; together `compared` and `different`.
@@ -81,6 +85,21 @@ impl Tally {
         }
         Ok(())
     }
+
+    /// Compares the buffers of a light BVH on a device with the CPU's.
+    pub fn take_held(&mut self, what: &str, cpu: &[Held], device: &[Held]) -> Result<(), HostError> {
+        cpu.iter().zip(device).try_for_each(|(own, found)| {
+            self.take(kind_of(own.buffer), what, &own.record, &own.words, &found.words)
+        })
+    }
+}
+
+/// What a device, or the CPU, holds of a light BVH after a refit.
+fn kind_of(buffer: DeviceBuffer) -> Kind {
+    match buffer {
+        DeviceBuffer::Nodes | DeviceBuffer::Roots => Kind::Nodes,
+        _ => Kind::Uploads,
+    }
 }
 
 /// A backend, or a method, on the CPU and on each device.
@@ -106,18 +125,33 @@ impl<B: ?Sized> Side<'_, B> {
         }
         Ok(expected)
     }
-}
 
-impl<L: SceneLight> Side<'_, dyn Backend<L> + '_> {
+    /// Compares the words in use of each buffer.
+    pub fn compare_held(
+        &mut self,
+        tallies: &mut Tallies,
+        what: &str,
+        held: impl Fn(&mut B) -> Result<Vec<Held>, HostError>,
+    ) -> Result<(), HostError> {
+        let expected = held(self.cpu)?;
+        for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
+            tally.take_held(what, &expected, &held(&mut **device)?)?;
+        }
+        Ok(())
+    }
+
     /// Sample, then pmf: of the light sampled for every query but each eighth, which asks for some of the `lights` in the
     /// world, of one level or two. What the CPU evaluates again must be what it sampled.
-    pub fn compare_queries(
+    pub fn compare_queries<L: SceneLight>(
         &mut self,
         tallies: &mut Tallies,
         what: &dyn Fn(&str) -> String,
         mut asked: Vec<Query>,
         (lights, single): (&[L], bool),
-    ) -> Result<(), HostError> {
+    ) -> Result<(), HostError>
+    where
+        B: Backend<L>,
+    {
         let sampled = self.compare(
             tallies,
             Kind::Samples,
@@ -158,7 +192,7 @@ mod tests {
 
     use super::*;
     use crate::backend::{
-        BackendError, Bvh, CpuBackend, Integrator, PIXEL_RECORD, Sampler, SceneArrays, Timed,
+        BackendError, Bvh, CpuBackend, Follow, Integrator, PIXEL_RECORD, Sampler, SceneArrays, Timed,
     };
     use crate::scene::Scene;
     use crate::workload::{arrays_at, build, queries, render_params};
@@ -180,15 +214,6 @@ mod tests {
     }
 
     impl Backend for Corrupt {
-        fn node_record(&self) -> Record {
-            self.inner.node_record()
-        }
-
-        fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
-            let nodes = self.inner.nodes()?;
-            Ok(self.turned(Kind::Nodes, Timed::of(|| nodes)).value)
-        }
-
         fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError> {
             let sampled = self.inner.sample(queries)?;
             Ok(self.turned(Kind::Samples, sampled))
@@ -211,6 +236,21 @@ mod tests {
         }
     }
 
+    impl Follow<Paper, 4> for Corrupt {
+        fn follow(&mut self, bvh: &Bvh<Paper, 4>) -> Result<Timed<()>, BackendError> {
+            self.inner.follow(bvh)
+        }
+
+        fn held(&mut self, bvh: &Bvh<Paper, 4>) -> Result<Vec<Held>, BackendError> {
+            let mut held = self.inner.held(bvh)?;
+            let wrong = held
+                .iter_mut()
+                .find(|own| Some(kind_of(own.buffer)) == self.wrong);
+            wrong.into_iter().for_each(|own| own.words[7] ^= 1);
+            Ok(held)
+        }
+    }
+
     #[test]
     fn a_wrong_bit_of_anything_is_found_and_named() {
         let scene = Scene::open("street").expect("built in");
@@ -219,7 +259,8 @@ mod tests {
         let bvh: Bvh<Paper, 4> = build(&arrays.lights, Sampler::SingleLevel, &params);
         for (wrong, said) in [
             (None, ""),
-            (Some(Kind::Nodes), "street nodes: node "),
+            (Some(Kind::Nodes), "street refit: nodes 0, word 7: "),
+            (Some(Kind::Uploads), "street refit: lights 0, word 7: "),
             (Some(Kind::Samples), "street sample: sampled light 32, word 0: "),
             (Some(Kind::Pmfs), "street pmf: pmf 32, word 0: "),
             (Some(Kind::Pixels), "street render: pixel 72, word 0: "),
@@ -233,15 +274,13 @@ mod tests {
                 devices: vec![Tally::default()],
                 ..Tallies::default()
             };
-            let mut side: Side<'_, dyn Backend> = Side {
+            let mut side: Side<'_, dyn Follow<Paper, 4>> = Side {
                 cpu: &mut cpu,
                 devices: vec![&mut device],
             };
-            let (what, record) = (|kernel: &str| format!("street {kernel}"), side.cpu.node_record());
-            side.compare(&mut tallies, Kind::Nodes, &what("nodes"), &record, |backend| {
-                Ok(backend.nodes()?)
-            })
-            .expect("nodes");
+            let what = |kernel: &str| format!("street {kernel}");
+            side.compare_held(&mut tallies, &what("refit"), |backend| Ok(backend.held(&bvh)?))
+                .expect("arrays");
             let lights = (arrays.lights.all(), true);
             side.compare_queries(&mut tallies, &what, queries(&arrays, 1, 0, 64), lights)
                 .expect("answers");

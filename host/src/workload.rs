@@ -7,7 +7,7 @@ use lightbvh::{BuildParams, Bvh, INVALID, Lights, Random64, ShadingPoint};
 use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
 
-use crate::backend::{Sampler, SceneArrays, nodes_in_use};
+use crate::backend::{Sampler, SceneArrays};
 use crate::error::HostError;
 use crate::render::{RayBvh, camera};
 use crate::scene::{Scene, SceneLight, TextureArrays};
@@ -76,7 +76,7 @@ pub fn arrays_lit_by<L: SceneLight>(
         TextureArrays::default()
     };
     let camera = camera(&data.camera, width, height);
-    Ok(SceneArrays::new(rays, data.materials, lights, camera).painted(textures))
+    Ok(SceneArrays::new(rays, data.materials, lights, camera).textured(textures))
 }
 
 /// The light BVH that `sampler` walks; the other samplers walk none and get the two-level one.
@@ -98,17 +98,9 @@ pub fn instance_of<M: Model<W>, const W: usize>(
     light: u32,
 ) -> u32 {
     match lights.all().get(light as usize) {
-        Some(light) if !bvh.is_single_level() => light.mesh(),
+        Some(light) if !bvh.view().is_single_level() => light.mesh(),
         _ => INVALID,
     }
-}
-
-/// The words of nodes in use, out of those of all nodes in the order of [`node_words`](crate::backend::node_words): the others
-/// may differ on a device.
-pub fn words_in_use<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>, words: &[u32]) -> Vec<u32> {
-    let width = size_of::<M::Node>() / size_of::<u32>();
-    let used = nodes_in_use(bvh).into_iter().map(|node| node as usize * width);
-    used.flat_map(|at| words[at..at + width].to_vec()).collect()
 }
 
 /// `count` queries numbered from `first`: most on surfaces of the scene, some in volumes, some anywhere in and around

@@ -3,6 +3,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::{UVec3, Vec3};
+use lightbvh::device::vector::flush3;
 use lightbvh::exact::hash;
 use lightbvh::light::AnyLight;
 use lightbvh::{EmissiveTriangle, Instance};
@@ -13,7 +14,7 @@ use crate::invocation;
 use crate::shading::camera::Camera;
 use crate::shading::direct::reflected;
 use crate::shading::emitter::Emitter;
-use crate::shading::grid::{TINY, div, flush_vector};
+use crate::shading::grid::{TINY, div};
 use crate::shading::material::Material;
 pub use crate::shading::params::RenderParams;
 use crate::shading::path::path_radiance;
@@ -72,7 +73,7 @@ pub fn path_pixel<L: Emitter, P: PickLight>(
         sum += path_radiance(scene, &ray, background, picker, bounces, seed);
     }
     let count = if params.samples == 0 { 1 } else { params.samples };
-    let mean = flush_vector(sum * div(1.0, count as i32 as f32), TINY);
+    let mean = flush3(sum * div(1.0, count as i32 as f32), TINY);
     [mean.x, mean.y, mean.z]
 }
 
@@ -175,7 +176,7 @@ render_passes!(
     AnyTree,
     AnyLight,
     AnyNode,
-    [9 corners: Corner, 10 paint: u32],
-    TextureView { corners, words: paint },
+    [9 corners: Corner, 10 textures: u32],
+    TextureView { corners, words: textures },
     11
 );

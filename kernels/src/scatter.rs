@@ -65,44 +65,11 @@ pub fn scatter(
 
 #[cfg(test)]
 mod tests {
-    use super::{LANES, Run, ScatterPush, scatter};
+    use super::{LANES, ScatterPush, scatter};
     use glam::UVec3;
 
     fn run(push: ScatterPush, invocations: u32, from: &[u32], to: &mut [u32]) {
         (0..invocations).for_each(|i| scatter(UVec3::new(i, 0, 0), &push, from, to));
-    }
-
-    #[test]
-    fn runs_of_any_length_go_to_their_places() {
-        let lengths = [1, 3, LANES - 1, LANES, LANES + 1, 5 * LANES + 7];
-        let words: u32 = lengths.iter().sum();
-        let (mut list, mut expected) = (Vec::new(), vec![u32::MAX; 3 * words as usize]);
-        let mut from: Vec<u32> = vec![77; 5];
-        let mut first = 0;
-        for (k, length) in (0..).zip(lengths) {
-            // The last one first, a word between any two.
-            let to = 2 * words - first - length - k;
-            list.push(Run {
-                from: first,
-                to,
-                words: length,
-            });
-            for word in 0..length {
-                from.push(1000 + first + word);
-                expected[(to + word) as usize] = 1000 + first + word;
-            }
-            first += length;
-        }
-        let push = ScatterPush {
-            runs: lengths.len() as u32,
-            list: from.len() as u32,
-            first: 5,
-        };
-        from.extend(list.iter().flat_map(|run| [run.from, run.to, run.words]));
-        let mut to = vec![u32::MAX; expected.len()];
-        // More invocations than are needed, as dispatches have.
-        run(push, push.runs * LANES + 64, &from, &mut to);
-        assert_eq!(to, expected);
     }
 
     #[test]

@@ -5,8 +5,9 @@ use std::sync::OnceLock;
 
 use bytemuck::cast_slice;
 use lightbvh::BuildParams;
+use lightbvh::device::bvh::follow;
 use lightbvh_host::backend::{
-    Backend, Bvh, CpuBackend, DeviceBackend, Follow, PMF_RECORD, SAMPLED_RECORD, Sampler,
+    Backend, Bvh, CpuBackend, DeviceBackend, Follow, PMF_RECORD, SAMPLED_RECORD, Sampler, held,
 };
 use lightbvh_host::scene::Scene;
 use lightbvh_host::vulkan::{Device, DeviceInfo, Exactness, Options};
@@ -67,15 +68,15 @@ fn different(device: &Device) -> [u64; 3] {
     let mut asked = queries(&arrays, 1, 0, QUERIES);
     let mut cpu = CpuBackend::<Paper, 4>::new(bvh.clone());
     let mut other = DeviceBackend::<Paper, 4>::new(device, &bvh).expect("an upload");
-    cpu.bvh_mut().follow(&lights[1]).expect("the same lights");
-    let nodes = cpu.nodes().expect("nodes");
+    follow(cpu.bvh_mut(), &lights[1]).expect("the same lights");
+    let nodes = &held(cpu.bvh())[0];
     other.follow(cpu.bvh()).expect("copies and a refit");
-    let found = other.nodes().expect("nodes");
-    let of_nodes = compare_words(&cpu.node_record(), &nodes, &found).expect("whole records");
+    let found = &other.held(cpu.bvh()).expect("a read")[0];
+    let of_nodes = compare_words(&nodes.record, &nodes.words, &found.words).expect("whole records");
     // Each kernel by itself: samples are of the right nodes.
     let own = cpu.bvh();
     other
-        .write_nodes(own.nodes(), own.top_nodes())
+        .write_nodes(own.view().nodes(), own.view().top_nodes())
         .expect("an upload");
     let sampled = cpu.sample(&asked).expect("samples").value;
     let found = other.sample(&asked).expect("samples").value;

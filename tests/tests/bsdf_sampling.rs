@@ -112,9 +112,9 @@ fn directions_have_their_density() {
     }
 }
 
-/// What is told of a sampled direction, and of any other, is the density by its formula.
+/// Of sampled directions and of others.
 #[test]
-fn told_densities_are_the_formula_s() {
+fn density_matches_formula() {
     let mut random = Random::new(6);
     let mut seen = 0;
     for i in 0..100_000_u32 {
@@ -158,7 +158,7 @@ fn albedo(material: &Material, wo: Vec3, side: u32) -> f64 {
         let squared = (f64::from(i / side) + 0.5) / f64::from(side);
         let turns = (f64::from(i % side) + 0.5) / f64::from(side);
         let wi = direction((1.0 - squared).sqrt(), turns).as_vec3();
-        sum += f64::from(material.eval(Vec3::Z, wi, wo).x) * PI;
+        sum += f64::from(material.scatter(Vec3::Z, wi, wo).reflectance.x) * PI;
     }
     sum / f64::from(side * side)
 }

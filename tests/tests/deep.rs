@@ -59,11 +59,12 @@ fn deepest(lights: &Lights) -> u32 {
             Bvh::<(N, ()), W>::two_level(lights, params),
             Bvh::single_level(lights, params),
         ] {
-            bvh.validate().unwrap_or_else(|v| panic!("{v}"));
-            let levels = if bvh.is_single_level() { 1 } else { 2 };
-            assert!(bvh.depth() <= levels * max_levels(W), "depth {}", bvh.depth());
-            if bvh.is_single_level() {
-                *deepest = bvh.depth().max(*deepest);
+            bvh.view().validate().expect("valid");
+            let (depth, is_single) = (bvh.view().depth(), bvh.view().is_single_level());
+            let levels = if is_single { 1 } else { 2 };
+            assert!(depth <= levels * max_levels(W), "depth {depth}");
+            if is_single {
+                *deepest = depth.max(*deepest);
             }
         }
     }
@@ -93,8 +94,8 @@ fn trees_stay_within_the_levels_of_a_trail() {
     }
     let lights = deep_in_both(48, 48);
     let bvh = Bvh::<(CompactNode<2>, ()), 2>::two_level(&lights, &split(Heuristic::Sah, 2));
-    bvh.validate().unwrap_or_else(|v| panic!("{v}"));
-    assert!(bvh.depth() > 2 * 33, "only {} levels", bvh.depth());
+    bvh.view().validate().expect("valid");
+    assert!(bvh.view().depth() > 2 * 33, "only {} levels", bvh.view().depth());
     assert_eq!(bvh.tree().trail_words, 2);
 }
 
@@ -115,16 +116,17 @@ where
         let at = Transform::at([0.0, 0.0, count as f32]);
         instances.push(scene.add_instance(mesh, at).expect("an instance"));
         scene.refit();
-        scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
+        scene.view().validate().expect("valid");
         assert_eq!(scene.tree().trail_words, words, "{count} lights");
-        assert_eq!(scene.tree().trails.len(), scene.lights().len() * words as usize);
+        let lights = scene.view().lights().len();
+        assert_eq!(scene.tree().trails.len(), lights * words as usize);
         for _ in 0..20 {
             let d = exact::pow2(38 - random.below(100) as i32);
             let point = ShadingPoint {
                 p: random.direction().map(|x| x * d),
                 n: [0.0; 3],
             };
-            let tree = scene.by::<Eq4>();
+            let tree = scene.tree().by::<Eq4>();
             let sampled = tree.sample(&point, random.bits());
             assert_eq!(
                 tree.pmf(&point, sampled.light, sampled.instance).to_bits(),
@@ -132,7 +134,7 @@ where
             );
             let mut pmfs = Vec::new();
             for &id in &instances {
-                let lights = scene.lights_of(id).expect("there");
+                let lights = scene.view().lights_of(id).expect("there");
                 pmfs.extend(lights.map(|light| tree.pmf(&point, light, id.index())));
             }
             sum_is_one(&pmfs, 0, &point);

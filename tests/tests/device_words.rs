@@ -4,6 +4,7 @@
 use std::fmt::Debug;
 
 use bytemuck::{Pod, bytes_of};
+use lightbvh::device::bvh::follow;
 use lightbvh::device::point::Receiver;
 use lightbvh::importance::{DefaultImportance, ImportanceModel, LinkedPoint};
 use lightbvh::light::Light;
@@ -14,7 +15,7 @@ use lightbvh::{
     ShadingPoint,
 };
 use lightbvh_gpu::{EQ4, Kernel, KernelSet, LinkedQuery, MOMENTS, Query, query_push};
-use lightbvh_host::backend::{Mirrored, nodes_in_use};
+use lightbvh_host::backend::{Mirrored, held};
 use lightbvh_host::vulkan::{Device, Options};
 use lightbvh_kernels::bvh::{AnyNode, Node as MomentsNode, PaperNode};
 use lightbvh_kernels::query::PointsPush;
@@ -91,19 +92,9 @@ impl<'d, N: Node<W>, const W: usize> Held<'d, N, W> {
         random: &mut Random,
     ) -> Vec<(P, SampledLight)> {
         self.arrays.follow(bvh).expect("a frame");
-        let (device, tree) = (self.arrays.device(), bvh.by::<I>());
-        let (nodes, own) = (
-            self.arrays.nodes().expect("a read"),
-            [bvh.nodes(), bvh.top_nodes()].concat(),
-        );
-        for node in nodes_in_use(bvh) {
-            let node = node as usize..node as usize + 1;
-            same(device, "node", &nodes[node.clone()], &own[node]);
-        }
-        let roots = self.arrays.roots().expect("a read");
-        for root in bvh.plan_of_everything().roots {
-            let root = root as usize..root as usize + 1;
-            same(device, "root", &roots[root.clone()], &bvh.roots()[root]);
+        let (device, tree) = (self.arrays.device(), bvh.tree().by::<I>());
+        for (own, found) in held(bvh).iter().zip(self.arrays.held(bvh).expect("a read")) {
+            same(device, own.record.name, &found.words, &own.words);
         }
 
         let receivers: Vec<P> = points.iter().map(|&point| P::at(point, random)).collect();
@@ -163,7 +154,7 @@ impl<'d, N: Node<W>, const W: usize> Held<'d, N, W> {
         let expected: Vec<_> = (0..picked.len())
             .map(|k| {
                 let SampledLight { light, instance, .. } = picked[k];
-                let light = world_light(bvh.lights(), tree.instances, light, instance);
+                let light = world_light(bvh.view().lights(), tree.instances, light, instance);
                 light.point_for(points[k].position(), uv[k])
             })
             .collect();
@@ -264,8 +255,8 @@ where
             if frame % every == 0 {
                 let sampled = held.compare::<I, P>(&bvh, &points, random).into_iter();
                 seen.extend(sampled.map(|(own, sample)| {
-                    let light = bvh.light(sample.light, sample.instance);
-                    let mask = |light| (light, bvh.instances()[sample.instance as usize].mask);
+                    let light = bvh.view().light(sample.light, sample.instance);
+                    let mask = |light| (light, bvh.view().instances()[sample.instance as usize].mask);
                     (own, light.map(mask))
                 }));
             }
@@ -288,7 +279,7 @@ fn built<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(device: &Dev
         {
             let mut bvh = build(&lights, &params);
             held.compare::<I, ShadingPoint>(&bvh, &points, random);
-            bvh.follow(&later).expect("as many lights");
+            follow(&mut bvh, &later).expect("as many lights");
             held.compare::<I, ShadingPoint>(&bvh, &points, random);
         }
     }

@@ -3,6 +3,7 @@
 #![cfg(target_arch = "x86_64")]
 
 use bytemuck::{Pod, cast_slice};
+use lightbvh::bvh::Cursor;
 use lightbvh::device::point::Receiver;
 use lightbvh::importance::{
     DefaultImportance, Flux, Glossy, ImportanceModel, Leveled, Linked, LinkedPoint, RaySegment, Subtended,
@@ -44,9 +45,10 @@ fn words<T: Pod>(values: &[T]) -> Vec<u32> {
 /// All nodes and roots, computed anew in the order of the passes, child by child.
 #[inline(never)]
 fn refitted<N: Node<W>, const W: usize, const ROWS: usize>(bvh: &Bvh<(N, ()), W>) -> (Vec<u32>, Vec<u32>) {
-    let (plan, triangles, instances) = (bvh.plan_of_everything(), bvh.lights(), bvh.tree().instances);
-    let (mut nodes, mut roots) = ([bvh.nodes(), bvh.top_nodes()].concat(), bvh.roots().to_vec());
-    let first = bvh.nodes().len() as u32;
+    let (plan, view) = (Cursor::default().plan(bvh), bvh.view());
+    let (triangles, instances) = (view.lights(), view.instances());
+    let (mut nodes, mut roots) = ([view.nodes(), view.top_nodes()].concat(), view.roots().to_vec());
+    let first = view.nodes().len() as u32;
     let mut children = [[[0; W]; ROWS]];
     for &index in plan.bottom.nodes() {
         for slot in 0..W {
@@ -84,19 +86,19 @@ where
     I: ImportanceModel<N, W, P>,
     P: Receiver,
 {
-    let tree = bvh.by::<I>();
+    let tree = bvh.tree().by::<I>();
     let [high, low, third, fourth] = numbers;
     let sample = tree.sample(receiver, Random64 { high, low });
     let mut all = words(&[sample]);
-    if let Some(id) = bvh.instances().len().checked_sub(1) {
+    if let Some(id) = bvh.view().instances().len().checked_sub(1) {
         let instance = third % (id as u32 + 1);
-        let of = &bvh.instances()[instance as usize];
+        let of = &bvh.view().instances()[instance as usize];
         all.push(
             tree.pmf(receiver, of.first + fourth % of.count.max(1), instance)
                 .to_bits(),
         );
     }
-    if let Some(light) = bvh.light(sample.light, sample.instance) {
+    if let Some(light) = bvh.view().light(sample.light, sample.instance) {
         all.extend(words(&[light]));
         let (u, v) = (exact::unit_f32(third), exact::unit_f32(fourth));
         for uv in [[u, v], [u, u], [1.0 - u, u], [f32::MIN_POSITIVE, v]] {
@@ -128,8 +130,8 @@ where
         let (bvh, sizes) = scenes::scene::<N, W>(random);
         let [plain, flushed] = in_both(|| refitted::<N, W, ROWS>(&bvh));
         // What the passes compute is what the tree holds.
-        let held = [bvh.nodes(), bvh.top_nodes()].concat();
-        assert_eq!(plain, (words(&held), words(bvh.roots())), "scene {seed}");
+        let held = [bvh.view().nodes(), bvh.view().top_nodes()].concat();
+        assert_eq!(plain, (words(&held), words(bvh.view().roots())), "scene {seed}");
         same("roots", &[plain.1, flushed.1]);
         same("nodes", &[plain.0, flushed.0]);
         for _ in 0..8 {

@@ -57,7 +57,7 @@ fn images_by_instances_are_those_by_lights_in_the_world() {
     let (bvh, _) = world();
     // A floor under the lights, which can be seen too.
     let floor = quad([-9.0, 0.0, 6.0], [18.0, 0.0, 0.0], [0.0, 0.0, -15.0]);
-    let world = World::new(bvh.world_lights(), &floor, glossy(0.6, 0.2, 4));
+    let world = World::new(bvh.view().world_lights(), &floor, glossy(0.6, 0.2, 4));
     let view = View {
         eye: [0.0, 3.0, 9.0],
         right: [1.0, 0.0, 0.0],
@@ -71,7 +71,7 @@ fn images_by_instances_are_those_by_lights_in_the_world() {
         ..render_params(SIZE, 4, 11, BACKGROUND)
     };
     let own = Emitters {
-        lights: bvh.lights(),
+        lights: bvh.view().lights(),
         instances: bvh.tree().instances,
     };
     assert!(own.lights.len() * 4 < world.lights.len(), "meshes are shared");
@@ -105,17 +105,17 @@ fn images_by_instances_are_those_by_lights_in_the_world() {
 fn one_instance_is_meant_by_any_name() {
     let (bvh, ids) = world();
     let all = bvh.tree().instances;
-    let light_of = |k: usize| bvh.lights_of(ids[k]).expect("there").start;
+    let light_of = |k: usize| bvh.view().lights_of(ids[k]).expect("there").start;
     for count in [1, 2, 3] {
         let emitters = Emitters {
-            lights: bvh.lights(),
+            lights: bvh.view().lights(),
             instances: &all[..count],
         };
         for instance in (0..4).chain((count == 1).then_some(INVALID)) {
             for (k, id) in ids.iter().enumerate().take(3) {
                 let own = id.index();
                 let found = emitters.light(light_of(k), instance);
-                let expected = bvh.light(light_of(k), own).expect("a light");
+                let expected = bvh.view().light(light_of(k), own).expect("a light");
                 let is_meant = (own as usize) < count && (instance == own || count == 1);
                 let radiance = if is_meant { expected.radiance } else { [0.0; 3] };
                 assert_eq!(

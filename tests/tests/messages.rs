@@ -2,6 +2,7 @@
 
 use std::error::Error;
 
+use lightbvh::device::bvh::follow;
 use lightbvh::device::point::MAX_REACH;
 use lightbvh::error::{EditError, EditReason};
 use lightbvh::light::{Light, MAX_RADIANCE, TWO_SIDED};
@@ -63,13 +64,9 @@ fn lights() {
         change(&mut lamps);
         says(&Lights::new(lamps).expect_err("wrong"), words);
     };
-    let nan = ["emissive triangle 2", "coordinate x", "NaN"];
+    let nan = ["light 2", "coordinate x", "NaN"];
     refused(&|lamps| lamps[2].p[0][0] = f32::NAN, &nan);
-    let gap = [
-        "emissive triangle 3",
-        "mesh light 7",
-        "expected 1 or the one before",
-    ];
+    let gap = ["light 3", "mesh light 7", "expected 1 or the one before"];
     refused(&|lamps| lamps[3].mesh = 7, &gap);
 }
 
@@ -137,12 +134,19 @@ fn edits() {
 fn lights_that_cannot_be_followed() {
     let lights = |count| Lights::new(vec![LAMP; count]).expect("lamps of one mesh light");
     let mut bvh = lightbvh::LightBvh::two_level(&lights(2), &lightbvh::BuildParams::default());
-    let error = bvh.follow(&lights(3)).expect_err("one more");
+    let error = follow(&mut bvh, &lights(3)).expect_err("one more");
     says(&error, &["mesh light 0: 3 lights, expected 2", "build it anew"]);
-    // An edit by itself names no batch.
-    let mesh = bvh.mesh_id(0).expect("the first");
-    let error = bvh.remove_mesh(mesh).expect_err("in use").to_string();
-    assert!(error.starts_with("the mesh still has 1 instance;"), "{error}");
+    // An edit by itself names no batch, and a light by itself no place in a mesh.
+    let instance = bvh.view().instance_id(0).expect("the first");
+    let error = bvh
+        .set_radiance(instance, [-1.0; 3])
+        .expect_err("negative")
+        .to_string();
+    assert!(error.starts_with("factor on radiance"), "{error}");
+    let mut lamp = LAMP;
+    lamp.radiance[2] = f32::NAN;
+    let error = bvh.add_light(lamp).expect_err("single level or NaN").to_string();
+    assert!(error.contains("blue") && !error.contains("light 0"), "{error}");
 }
 
 #[test]
@@ -197,7 +201,7 @@ fn points_beyond_all_bounds() {
             let message = message.downcast_ref::<String>().expect("a message").clone();
             assert!(message.starts_with("not a shading point"), "{message}");
         };
-        stops(&|| bvh.sample(&point, 1u32).pmf);
-        stops(&|| bvh.pmf(&point, 0, 0));
+        stops(&|| bvh.tree().sample(&point, 1u32).pmf);
+        stops(&|| bvh.tree().pmf(&point, 0, 0));
     }
 }

@@ -94,21 +94,18 @@ fn town(seed: u32) -> (Tree, MeshId) {
 /// Moves, adds and removes instances: alike in equal scenes.
 fn edit(seed: u32, scene: &mut Tree) {
     let random = &mut Random::new(seed);
-    let all = 0..scene.instances().len() as u32;
-    let ids: Vec<_> = all.filter_map(|k| scene.instance_id(k)).collect();
+    let ids: Vec<_> = scene.view().instance_ids().collect();
     let count = ids.len() as u32;
-    let mesh = scene.mesh_of(ids[0]).expect("its mesh");
+    let mesh = scene.view().mesh_of(ids[0]).expect("its mesh");
     let mut at = || placing::transform(random, Kind::Similar, REACH);
     let (moved, added) = (at(), at());
     let instance = ids[random.below(count) as usize];
     scene.set_transform(instance, moved).expect("there");
     scene.add_instance(mesh, added).expect("a mesh");
-    scene
-        .remove_instance(ids[random.below(count) as usize])
-        .expect("there");
+    scene.remove(ids[random.below(count) as usize]).expect("there");
     scene.take_removed_lights();
     scene.refit();
-    scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
+    scene.view().validate().expect("valid");
 }
 
 /// The words of the scene with rebuilt trees.
@@ -158,7 +155,7 @@ fn edits_during_a_build_lose_nothing_and_wait_for_nothing() {
     assert!(built > Duration::ZERO, "building takes time");
     scene.refit();
     converge(&mut rebuilder, &mut scene);
-    assert_eq!(scene.world_lights(), twin.world_lights());
+    assert_eq!(scene.view().world_lights(), twin.view().world_lights());
     assert!(scene.to_words() == rebuilt(&scene));
 }
 
@@ -170,9 +167,13 @@ fn a_panic_is_reported_once_and_the_next_build_is_sound() {
         let mut rebuilder = rebuilder(swap);
         // Builds of the top level and of the mesh, in turn.
         for _ in 0..4 {
-            let mut triangles = scene.mesh_lights(mesh).expect("there").to_vec();
+            let mut triangles = scene.view().mesh_lights(mesh).expect("there").to_vec();
             triangles.rotate_left(7);
-            scene.set_lights(mesh, triangles).expect("as many");
+            let edit = Edit::SetLights {
+                mesh,
+                lights: triangles,
+            };
+            scene.apply(vec![edit]).expect("as many");
             scene.refit();
             let before = scene.to_words();
             *lock(&GATE) = true;
@@ -197,6 +198,6 @@ fn a_panic_is_reported_once_and_the_next_build_is_sound() {
         *lock(&GATE) = false;
         converge(&mut rebuilder, &mut scene);
         assert!(scene.to_words() == rebuilt(&scene));
-        scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
+        scene.view().validate().expect("valid");
     }
 }

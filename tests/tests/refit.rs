@@ -1,5 +1,6 @@
 //! Validation: no wrong word unnoticed.
 
+use lightbvh::bvh::Cursor;
 use lightbvh::{BuildParams, Instance, LightNode, Lights, bvh};
 use lightbvh_tests::each_node;
 use lightbvh_tests::generate;
@@ -12,7 +13,7 @@ fn no_wrong_word_goes_unnoticed<N: LightNode<W>, const W: usize>(two: bool, seed
     let triangles = generate::small_triangles(11, 4, 10.0, 1.0, true, seed);
     let lights = Lights::new(triangles).expect("lights");
     let bvh = built::<N, W>(&lights, &BuildParams::default(), two);
-    bvh.validate().expect("valid as built");
+    bvh.view().validate().expect("valid as built");
     type Part<N> = fn(bvh::Parts<'_, N>) -> &mut [u32];
     let arrays: [(&str, Part<N>); 6] = [
         ("instances", |p| {
@@ -24,7 +25,7 @@ fn no_wrong_word_goes_unnoticed<N: LightNode<W>, const W: usize>(two: bool, seed
         ("places of nodes", |p| p.above),
         ("places of instances", |p| p.places),
     ];
-    let used = bvh.plan_of_everything();
+    let used = Cursor::default().plan(&bvh);
     let words = size_of::<N>() / 4;
     for (name, array) in arrays.into_iter().take(if two { 6 } else { 3 }) {
         let mut wrong = bvh.clone();
@@ -35,14 +36,14 @@ fn no_wrong_word_goes_unnoticed<N: LightNode<W>, const W: usize>(two: bool, seed
             for mask in (0..32).map(|b| 1_u32 << b).chain([u32::MAX]) {
                 array(wrong.parts_mut())[i] ^= mask;
                 assert!(
-                    wrong.validate().is_err(),
+                    wrong.view().validate().is_err(),
                     "{} {W}, two levels {two}: word {i} of the {name} with bits {mask:#x} turned",
                     N::NAME
                 );
                 array(wrong.parts_mut())[i] ^= mask;
             }
         }
-        wrong.validate().expect("all put back");
+        wrong.view().validate().expect("all put back");
     }
 }
 

@@ -60,7 +60,7 @@ fn a_defensive_mixture_keeps_the_uniform_share() {
             }
             // The first 2^-H of the numbers choose uniformly, the others by importance.
             let end = 1u64 << (64 - H);
-            let light = |bits: u64| bvh.by::<Defensive<Eq4, H>>().sample(&point, bits).light;
+            let light = |bits: u64| bvh.tree().by::<Defensive<Eq4, H>>().sample(&point, bits).light;
             assert_eq!(light(0), if two { bvh.tree().instances[0].first } else { 0 });
             assert_eq!(light(end - 1), 99);
             let first = leaves(&bvh.tree())
@@ -111,7 +111,7 @@ fn numbers_are_ordered<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize
     let random = &mut Random::new(22);
     for _ in 0..3 {
         let point = generate::point(random, 10.0);
-        let place = |bits: u64| places[bvh.by::<I>().sample(&point, bits).light as usize];
+        let place = |bits: u64| places[bvh.tree().by::<I>().sample(&point, bits).light as usize];
         let mut numbers: Vec<u64> = (0..4000)
             .map(|_| u64::from(random.bits()) << 32 | u64::from(random.bits()))
             .collect();
@@ -122,7 +122,7 @@ fn numbers_are_ordered<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize
         // The same by the upper half, whose lower half a hash fills in.
         let halves: Vec<usize> = numbers
             .iter()
-            .map(|&bits| places[bvh.by::<I>().sample(&point, (bits >> 32) as u32).light as usize])
+            .map(|&bits| places[bvh.tree().by::<I>().sample(&point, (bits >> 32) as u32).light as usize])
             .collect();
         assert!(halves.is_sorted(), "{} {W} at {point:?}", N::NAME);
 

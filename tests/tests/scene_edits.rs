@@ -27,14 +27,14 @@ fn motion_costs_two_paths_at_most_and_no_bottom_level() {
     let batch = (0..1000).map(|_| add(random)).collect();
     let ids = scene.apply(batch).expect("instances").instances;
     scene.refit();
-    scene.validate().expect("valid");
-    assert_eq!(scene.roots().len(), 1, "one bottom level serves all");
+    scene.view().validate().expect("valid");
+    assert_eq!(scene.view().roots().len(), 1, "one bottom level serves all");
 
     let mut cursor = Cursor::default();
-    assert!(scene.plan(&mut cursor).everything);
+    assert!(cursor.plan(&scene).everything);
     scene.apply(Vec::new()).expect("nothing");
     scene.refit();
-    let plan = scene.plan(&mut cursor);
+    let plan = cursor.plan(&scene);
     assert_eq!((plan.computed(), plan.written_instances.len()), (0, 0));
 
     let instance = ids[123];
@@ -46,12 +46,12 @@ fn motion_costs_two_paths_at_most_and_no_bottom_level() {
             transform.translation[0] += 0.001;
             transform
         });
-        let depth = scene.depth() as usize;
+        let depth = scene.view().depth() as usize;
         scene
             .apply(vec![Edit::SetTransform { instance, transform }])
             .expect("moved");
         scene.refit();
-        let plan = scene.plan(&mut cursor);
+        let plan = cursor.plan(&scene);
         let (bottom, roots) = (plan.bottom.nodes(), &plan.roots);
         assert!(bottom.is_empty() && roots.is_empty() && plan.written_nodes.is_empty());
         assert!(plan.written_lights.is_empty() && plan.written_trails.is_empty());
@@ -66,13 +66,13 @@ fn motion_costs_two_paths_at_most_and_no_bottom_level() {
         let paths = if place.is_some() { 2 } else { 1 };
         assert!(plan.top.nodes().len() <= paths * (depth + 1), "{transform:?}");
         assert!(place.is_some() || plan.written_top.is_empty());
-        scene.validate().expect("valid");
+        scene.view().validate().expect("valid");
     }
 }
 
 /// The map of an instance, as its record has it.
 fn scene_transform(scene: &Tree, instance: InstanceId) -> Transform {
-    let own = &scene.instances()[instance.index() as usize];
+    let own = &scene.view().instances()[instance.index() as usize];
     Transform {
         columns: own.columns,
         translation: own.translation,
@@ -90,15 +90,18 @@ fn numbers_that_nobody_takes_come_back_and_are_still_told() {
     let mut forgot = 0;
     for _ in 0..300_000 / count {
         scene.apply(vec![Edit::RemoveInstance(one)]).expect("there");
-        let told = scene.removed_lights();
-        let gone = told.iter().any(|range| range.contains(&(scene.light_end() - 1)));
+        let told = scene.view().removed_lights();
+        let gone = told
+            .iter()
+            .any(|range| range.contains(&(scene.view().light_end() - 1)));
         forgot += u32::from(gone && told.len() == 1);
         assert!(told.len() as u32 <= 65_536 / count + 2);
         one = add(&mut scene);
-        let own = scene.lights_of(one).expect("there");
-        assert!(scene.light_end() <= 65_536 + 2 * count, "{own:?}");
-        if !told_all(scene.removed_lights()) {
+        let own = scene.view().lights_of(one).expect("there");
+        assert!(scene.view().light_end() <= 65_536 + 2 * count, "{own:?}");
+        if !told_all(scene.view().removed_lights()) {
             let given_again = scene
+                .view()
                 .removed_lights()
                 .iter()
                 .any(|gone| gone.contains(&own.start));
@@ -110,14 +113,14 @@ fn numbers_that_nobody_takes_come_back_and_are_still_told() {
     assert!(told_all(&told) && told[0].end >= 65_536, "{told:?}");
     assert!(scene.take_removed_lights().is_empty());
     // No number was lost: what is live and what comes next fill the numbers from 0.
-    let all = (0..scene.light_end() / count).map(|_| add(&mut scene));
+    let all = (0..scene.view().light_end() / count).map(|_| add(&mut scene));
     let greatest = all
         .collect::<Vec<_>>()
         .into_iter()
-        .map(|id| scene.lights_of(id).expect("there").end)
+        .map(|id| scene.view().lights_of(id).expect("there").end)
         .max();
-    assert_eq!(greatest, Some(scene.light_end()));
-    assert_eq!(scene.light_count() as u32, scene.light_end());
+    assert_eq!(greatest, Some(scene.view().light_end()));
+    assert_eq!(scene.view().light_count() as u32, scene.view().light_end());
 }
 
 /// Whether all numbers were given back unasked.

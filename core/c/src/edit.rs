@@ -1,7 +1,7 @@
 //! Functions that change a light BVH.
 
 use lightbvh::bvh::{EditError, EditReason};
-use lightbvh::{Edit, EmissiveTriangle, Transform};
+use lightbvh::{Edit, EmissiveTriangle, LightBvh, Transform};
 
 use crate::error::{Fault, Status};
 use crate::held::Handle;
@@ -27,6 +27,13 @@ impl From<CTransform> for Transform {
 
 fn refused(reason: EditReason) -> Fault {
     Fault::new(Status::Refused, reason)
+}
+
+/// Applies an edit by itself.
+fn change(bvh: &mut LightBvh, edit: Edit) -> Result<(), Fault> {
+    bvh.apply(vec![edit])
+        .map(|_| ())
+        .map_err(|error| refused(error.reason))
 }
 
 /// A new mesh.
@@ -146,12 +153,13 @@ pub unsafe extern "C" fn lightbvh_set_triangle_range(
         Handle::change(bvh, |bvh| {
             let mesh = mesh.id()?;
             // Before they are read: a wrong count is one of memory that the caller has not.
-            let own = bvh.mesh_lights(mesh).map(<[_]>::len);
+            let own = bvh.view().mesh_lights(mesh).map(<[_]>::len);
             if let Some(lights) = own.filter(|&own| own.saturating_sub(first as usize) < count) {
                 return Err(refused(EditReason::Range { first, count, lights }));
             }
             let lights = raw::at_most_lights(triangles, count, "triangles")?;
-            bvh.set_light_range(mesh, first, lights.to_vec()).map_err(refused)
+            let lights = lights.to_vec();
+            change(bvh, Edit::SetLightRange { mesh, first, lights })
         })
     }
 }
@@ -163,7 +171,7 @@ pub unsafe extern "C" fn lightbvh_set_triangle_range(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lightbvh_remove_instance(bvh: *mut Handle, instance: CInstance) -> Status {
     // SAFETY: the caller's promise.
-    unsafe { Handle::change(bvh, |bvh| bvh.remove_instance(instance.id()?).map_err(refused)) }
+    unsafe { Handle::change(bvh, |bvh| bvh.remove(instance.id()?).map_err(refused)) }
 }
 
 /// A mesh without instances removed.
@@ -173,7 +181,7 @@ pub unsafe extern "C" fn lightbvh_remove_instance(bvh: *mut Handle, instance: CI
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lightbvh_remove_mesh(bvh: *mut Handle, mesh: CMesh) -> Status {
     // SAFETY: the caller's promise.
-    unsafe { Handle::change(bvh, |bvh| bvh.remove_mesh(mesh.id()?).map_err(refused)) }
+    unsafe { Handle::change(bvh, |bvh| change(bvh, Edit::RemoveMesh(mesh.id()?))) }
 }
 
 /// Computes the nodes that edits touched.

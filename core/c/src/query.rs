@@ -29,7 +29,7 @@ pub unsafe extern "C" fn lightbvh_sample_light(
     unsafe {
         Handle::ask(bvh, |bvh| {
             let point = raw::shared(point, "point")?.checked().map_err(bad_point)?;
-            raw::place(sample, "sample")?.write(bvh.sample(&point, random));
+            raw::place(sample, "sample")?.write(bvh.tree().sample(&point, random));
             Ok(())
         })
     }
@@ -61,7 +61,7 @@ pub unsafe extern "C" fn lightbvh_sample_batch(
             let points = checked.collect::<Result<Vec<_>, _>>()?;
             let randoms: Vec<_> = randoms.iter().map(|&bits| Random64::from(bits)).collect();
             let mut sampled = vec![SampledLight::NONE; count];
-            bvh.sample_batch(&points, &randoms, &mut sampled);
+            bvh.tree().sample_batch(&points, &randoms, &mut sampled);
             for (place, sampled) in samples.iter_mut().zip(sampled) {
                 place.write(sampled);
             }
@@ -86,7 +86,7 @@ pub unsafe extern "C" fn lightbvh_pmf(
     unsafe {
         Handle::ask(bvh, |bvh| {
             let point = raw::shared(point, "point")?.checked().map_err(bad_point)?;
-            raw::place(pmf, "pmf")?.write(bvh.pmf(&point, light, instance));
+            raw::place(pmf, "pmf")?.write(bvh.tree().pmf(&point, light, instance));
             Ok(())
         })
     }
@@ -109,6 +109,7 @@ pub unsafe extern "C" fn lightbvh_lights_of(
             let (first, count) = (raw::place(first, "first")?, raw::place(count, "count")?);
             let id = instance.id()?;
             let lights = bvh
+                .view()
                 .lights_of(id)
                 .ok_or_else(|| Fault::new(Status::Refused, EditReason::UnknownInstance(id)))?;
             first.write(lights.start);
@@ -143,7 +144,7 @@ pub unsafe extern "C" fn lightbvh_point_of(
                 let message = format!("no light {light} in an instance {instance}");
                 Fault::new(Status::NoLight, message)
             };
-            let triangle = bvh.light(light, instance).ok_or_else(missing)?;
+            let triangle = bvh.view().light(light, instance).ok_or_else(missing)?;
             place.write(triangle.point([u, v]));
             Ok(())
         })
@@ -176,7 +177,7 @@ pub unsafe extern "C" fn lightbvh_removed_lights(
         Handle::ask(bvh, |bvh| {
             let places = raw::places(ranges, capacity, "ranges")?;
             let count = raw::place(count, "count")?;
-            let removed = bvh.removed_lights();
+            let removed = bvh.view().removed_lights();
             for (place, range) in places.iter_mut().zip(removed) {
                 place.write(CRange {
                     first: range.start,

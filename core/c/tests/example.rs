@@ -57,9 +57,13 @@ fn expected() -> String {
     bvh.set_transform(lamps[40], Transform::at([40.0, 2.0, 0.0]))
         .unwrap();
     bvh.set_radiance(lamps[41], [0.5, 0.25, 0.125]).unwrap();
-    bvh.remove_instance(lamps[42]).unwrap();
+    bvh.remove(lamps[42]).unwrap();
     lamp.p[1][0] = 0.0625;
-    bvh.set_lights(mesh, vec![lamp]).unwrap();
+    bvh.apply(vec![Edit::SetLights {
+        mesh,
+        lights: vec![lamp],
+    }])
+    .unwrap();
     bvh.refit();
     let mut text = String::new();
     for range in bvh.take_removed_lights() {
@@ -94,13 +98,17 @@ fn expected() -> String {
         let start = rebuilder.begin_frame(&mut bvh).unwrap();
         trees += u32::from(start.swapped) + start.meshes;
         meshes += start.meshes;
-        bvh.set_lights(mesh, arrange(frame)).unwrap();
+        bvh.apply(vec![Edit::SetLights {
+            mesh,
+            lights: arrange(frame),
+        }])
+        .unwrap();
         bvh.refit();
         rebuilder.end_frame(&bvh);
     }
     assert!(meshes > 0 && trees > meshes, "both kinds of trees");
     writeln!(text, "{trees} trees were built").unwrap();
-    let lights = bvh.lights_of(lamps[40]).unwrap();
+    let lights = bvh.view().lights_of(lamps[40]).unwrap();
     writeln!(
         text,
         "lamp 40 has lights from {} on, {} of them",
@@ -114,8 +122,8 @@ fn expected() -> String {
             n: [0.0, 1.0, 0.0],
         };
         let random = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(u64::from(k) + 1);
-        let sample = bvh.sample(&point, random);
-        let triangle = bvh.light(sample.light, sample.instance).unwrap();
+        let sample = bvh.tree().sample(&point, random);
+        let triangle = bvh.view().light(sample.light, sample.instance).unwrap();
         let on = triangle.point([0.25, 0.5]);
         let [pmf, x, density] = [sample.pmf, on.p[0], on.density].map(f32::to_bits);
         writeln!(
@@ -125,7 +133,7 @@ fn expected() -> String {
         )
         .unwrap();
     }
-    let error = bvh.remove_mesh(mesh).unwrap_err();
+    let error = bvh.apply(vec![Edit::RemoveMesh(mesh)]).unwrap_err().reason;
     writeln!(text, "{error}").unwrap();
     text
 }

@@ -2,10 +2,9 @@
 
 use super::*;
 use crate::Transform;
-use crate::kit::Random;
+use crate::kit::{Random, narrow};
 
-/// Lamps stood outside of their own beams where a mesh far from its own origin is brought back: two of 34,000 lit lights were
-/// told that they do not reach a point.
+/// If the map moves a mesh back from far away, its beam still holds all places.
 #[test]
 fn a_beam_holds_what_a_map_brings_back() {
     let mut random = Random(7);
@@ -54,6 +53,31 @@ fn a_beam_holds_what_a_map_brings_back() {
     };
     let instance = Transform::at([1000.0, 20.0, -3.0]).instance(1.0);
     assert_eq!(still.to_world(&instance).radius, 0.0);
+}
+
+/// The sum of the angle between the axes and the beam's own, hardly widened.
+#[test]
+fn cosine_about_holds_all_directions() {
+    let (mut random, mut seen) = (Random(5), [0; 2]);
+    for _ in 0..20_000 {
+        let [x, y, _] = random.axes();
+        let towards = |angle: f64| narrow([0, 1, 2].map(|k| x[k] * angle.cos() + y[k] * angle.sin()));
+        let [between, own] = [0; 2].map(|_| 1.4 * f64::from(random.unit() * random.unit()));
+        let beam = Beam {
+            axis: towards(between),
+            cos_theta_e: own.cos() as f32,
+            ..Beam::ANYWHERE
+        };
+        let found = f64::from(beam.cosine_about(towards(0.0) * (0.1 + 0.9 * random.unit())));
+        let sum = between + own;
+        let is_right = match found > 0.0 {
+            true => found <= sum.cos() && found.acos() - sum < 4e-3,
+            false => found == -1.0 && sum.cos() < 0.01,
+        };
+        assert!(is_right, "{between} {own}: {found}");
+        seen[usize::from(found > 0.0)] += 1;
+    }
+    assert!(seen.iter().all(|&count| count > 500), "{seen:?}");
 }
 
 /// Columns of lengths `lengths` times `scale`, turned, with `by` of the first axis added to the second, of the second to the

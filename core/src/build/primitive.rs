@@ -1,4 +1,4 @@
-//! What the builder sorts: a triangle or a mesh light, as two boxes.
+//! Primitives of the builder: a light or a mesh light, as two boxes.
 
 use crate::bounds::LightBounds;
 use crate::cone::sine_of;

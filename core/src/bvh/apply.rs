@@ -2,122 +2,26 @@
 
 use alloc::vec::Vec;
 
-use super::edit::{Edit, EditError, InstanceId, MeshId};
+use super::edit::{InstanceId, MeshId};
 use super::log::Entry;
 use super::records::put;
 use super::{Bvh, InstanceState};
-use crate::build::{Topology, build_each};
 use crate::instance::Instance;
 use crate::model::Model;
 use crate::transform::Transform;
 
-/// What a batch of edits made.
+/// Ids that a batch of edits made.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Added {
-    /// Ids of the meshes added, in the order of their edits.
+    /// The id of each mesh added, in the order of the edits that add one.
     pub meshes: Vec<MeshId>,
-    /// Ids of the instances added, in the order of their edits.
+    /// The id of each instance and light by itself added, in the order of the edits that add one.
     pub instances: Vec<InstanceId>,
 }
 
 impl<M: Model<W>, const W: usize> Bvh<M, W> {
-    /// Applies a batch of edits in their order, all or none. The next [`refit`](Self::refit) restores the quality of sampling.
-    /// Until then probabilities are exact and no removed light is returned, but a sample may be none if a light was removed,
-    /// and added lights have the uniform share alone.
-    ///
-    /// Time is in proportion to the edits, to the lights in them, and to the instances of each mesh that is deformed as a
-    /// whole, reaches farther than before, or gets its first [surface](crate::light::Light::is_surface) or loses its
-    /// last, as often as it is. A mesh is built within the call that adds it: 0.2 to 0.4 µs for each triangle. The top level
-    /// is edited by the next refit (measured: `docs/dynamics.md`).
-    ///
-    /// # Errors
-    /// [`EditError`] naming the first edit that cannot be done; the scene is as before then.
-    pub fn apply(&mut self, mut edits: Vec<Edit<M::Light>>) -> Result<Added, EditError> {
-        for (mesh, reach) in self.check(&mut edits)? {
-            self.meshes[mesh.index as usize].reach = reach;
-        }
-        let new_meshes = edits.iter().filter_map(|edit| match edit {
-            Edit::AddMesh { lights } => Some(&**lights),
-            _ => None,
-        });
-        let mut topologies = build_each(&new_meshes.collect::<Vec<_>>(), &self.params).into_iter();
-        let mut updated = Added::default();
-        for edit in edits {
-            match edit {
-                Edit::AddMesh { lights } => {
-                    let mesh = topologies
-                        .next()
-                        .map(|topology| self.insert_mesh(&lights, &topology));
-                    updated.meshes.extend(mesh);
-                }
-                Edit::AddInstance {
-                    mesh,
-                    transform,
-                    radiance,
-                    mask,
-                } => {
-                    updated
-                        .instances
-                        .push(self.insert_instance(mesh, transform, radiance, mask));
-                }
-                Edit::AddLight { light, mask } => {
-                    // A mesh of one light has no tree.
-                    let (nodes, trails, depth) = (Vec::new(), Vec::new(), 0);
-                    let none = Topology { nodes, trails, depth };
-                    let mesh = self.insert_mesh(&[light], &none);
-                    self.meshes[mesh.index as usize].is_light = true;
-                    updated
-                        .instances
-                        .push(self.insert_instance(mesh, Transform::IDENTITY, [1.0; 3], mask));
-                }
-                Edit::SetLight { instance, light } => {
-                    let mesh = self.placed[instance.index as usize].mesh;
-                    self.write_triangles(mesh, 0, &[light]);
-                }
-                // Engines send all their transforms in every frame: what is set as it was is no change.
-                Edit::SetTransform { instance, transform } => self.set_place(instance.index, transform),
-                Edit::SetRadiance { instance, radiance } => {
-                    let own = &mut self.placed[instance.index as usize].radiance;
-                    if core::mem::replace(own, radiance).map(f32::to_bits) != radiance.map(f32::to_bits) {
-                        self.place(instance.index);
-                    }
-                }
-                Edit::SetMask { instance, mask } => {
-                    let own = &mut self.placed[instance.index as usize].mask;
-                    if core::mem::replace(own, mask) != mask {
-                        self.place(instance.index);
-                    }
-                }
-                Edit::SetLights { mesh, lights } => self.write_triangles(mesh.index, 0, &lights),
-                Edit::SetLightRange { mesh, first, lights } => {
-                    self.write_triangles(mesh.index, first, &lights)
-                }
-                Edit::RemoveInstance(id) => self.take_instance(id.index),
-                Edit::RemoveMesh(id) => self.take_mesh(id.index),
-            }
-        }
-        self.bound_log();
-        Ok(updated)
-    }
-
-    /// Applies each edit of a batch that is sound, in order. Returns the ids that were added, and the errors of the others.
-    /// [`apply`](Self::apply) is all or none, and builds several meshes at a time.
-    pub fn apply_each(&mut self, edits: Vec<Edit<M::Light>>) -> (Added, Vec<EditError>) {
-        let (mut added, mut refused) = (Added::default(), Vec::new());
-        for (index, edit) in edits.into_iter().enumerate() {
-            match self.apply(alloc::vec![edit]) {
-                Ok(own) => {
-                    added.meshes.extend(own.meshes);
-                    added.instances.extend(own.instances);
-                }
-                Err(error) => refused.push(EditError { edit: index, ..error }),
-            }
-        }
-        (added, refused)
-    }
-
-    fn set_place(&mut self, index: u32, transform: Transform) {
+    pub(super) fn set_place(&mut self, index: u32, transform: Transform) {
         let own = &mut self.placed[index as usize].transform;
         let bits = |column: &[f32; 3]| column.map(f32::to_bits);
         let is_turned = own.columns.each_ref().map(bits) != transform.columns.each_ref().map(bits);
@@ -169,7 +73,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         self.id_of_instance(index)
     }
 
-    fn take_instance(&mut self, index: u32) {
+    pub(super) fn take_instance(&mut self, index: u32) {
         self.mark_stale(index);
         if (index as usize) < self.top.places.len() {
             self.top.take_out::<W>(index);

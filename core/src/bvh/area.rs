@@ -4,8 +4,7 @@ use super::Bvh;
 use crate::light::Light;
 use crate::model::Model;
 
-/// Whether flux goes by area: that of surfaces does. If a mesh has other lights too, their weights are as far off as their flux is from
-/// it, and positive all the same.
+/// Whether flux goes by area, as that of surfaces does. Other lights of the mesh get a wrong, but positive, weight.
 pub(super) fn is_by_area<L: Light>(lights: &[L]) -> bool {
     lights.is_empty() || lights.iter().any(Light::is_surface)
 }

@@ -28,7 +28,7 @@ struct Batch {
     added: BTreeMap<MeshId, Vec<Transform>>,
     /// Whether a later edit may ask for those.
     deforms: bool,
-    /// Ends of the numbers of instances, of lights and of lights.
+    /// Ends of the numbers of instances, of lights in the world and of lights of meshes.
     instances: usize,
     numbers: usize,
     lights: usize,
@@ -89,7 +89,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                 batch.numbers += count;
             }
             Edit::AddLight { light, mask: _ } => {
-                checked(core::slice::from_mut(light))?;
+                *light = light.checked().map_err(EditReason::Alone)?;
                 batch.instances += 1;
                 batch.numbers += 1;
                 batch.lights += 1;
@@ -99,7 +99,8 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                 if !self.meshes[mesh.index as usize].is_light {
                     return Err(EditReason::NoLight(*instance));
                 }
-                self.check_triangles(batch, mesh, core::slice::from_mut(light))?;
+                *light = light.checked().map_err(EditReason::Alone)?;
+                self.check_lights(batch, mesh, core::slice::from_mut(light))?;
             }
             &mut Edit::SetTransform { instance, transform } => {
                 let mesh = self.known_instance(batch, instance)?;
@@ -123,7 +124,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                     let found = lights.len();
                     return Err(EditReason::Count { expected, found });
                 }
-                self.check_triangles(batch, *mesh, lights)?;
+                self.check_lights(batch, *mesh, lights)?;
             }
             Edit::SetLightRange { mesh, first, lights } => {
                 let all = self.known_mesh(batch, *mesh)?;
@@ -135,7 +136,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                         lights: all,
                     });
                 }
-                self.check_triangles(batch, *mesh, lights)?;
+                self.check_lights(batch, *mesh, lights)?;
             }
             &mut Edit::RemoveInstance(id) => {
                 let mesh = self.known_instance(batch, id)?;
@@ -163,7 +164,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
 
     /// Number of lights of a mesh that is there.
     fn known_mesh(&self, batch: &Batch, id: MeshId) -> Result<usize, EditReason> {
-        let known = self.mesh_lights(id);
+        let known = self.view().mesh_lights(id);
         let known = known.filter(|_| !batch.removed_meshes.contains(&id));
         known.map(<[_]>::len).ok_or(EditReason::UnknownMesh(id))
     }
@@ -189,7 +190,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     }
 
     /// Whether lights of a mesh may become these: all its instances, those of the batch included, stay within the domain.
-    fn check_triangles(
+    fn check_lights(
         &self,
         batch: &mut Batch,
         mesh: MeshId,
@@ -220,9 +221,9 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
 
 /// Brings lights into the domain up to the first that cannot be.
 fn checked<L: Light>(lights: &mut [L]) -> Result<(), EditReason> {
-    for (index, triangle) in lights.iter_mut().enumerate() {
-        let checked = triangle.checked();
-        *triangle = checked.map_err(|error| EditReason::Light { index, error })?;
+    for (index, light) in lights.iter_mut().enumerate() {
+        let checked = light.checked();
+        *light = checked.map_err(|error| EditReason::Light { index, error })?;
     }
     Ok(())
 }

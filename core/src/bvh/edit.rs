@@ -1,4 +1,4 @@
-//! What may change in a scene, and why a change may be refused.
+//! Edits of a scene, and reasons to refuse them.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -51,9 +51,9 @@ id!(
 id!(
     /// A mesh's place in the world; stays the same as long as the instance is in the scene, and never means another one.
     InstanceId,
-    /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its lights belong
+    /// Index of the instance among [`View::instances`](super::View::instances), and of the mesh light that its lights belong
     /// to. The index is reused as soon as the instance is removed. Identify lights over frames by ids, or by their numbers
-    /// (see [`Bvh::removed_lights`](super::Bvh::removed_lights)).
+    /// (see [`View::removed_lights`](super::View::removed_lights)).
 );
 
 /// One change of a scene.
@@ -61,7 +61,7 @@ id!(
 #[non_exhaustive]
 pub enum Edit<L = EmissiveTriangle> {
     /// A new mesh, not in the world yet. Lights are in the mesh's own space; their `mesh` is ignored. Its bottom level is
-    /// built within the call, 0.2 to 0.4 µs for each triangle.
+    /// built within the call, 0.2 to 0.4 µs for each light.
     AddMesh {
         /// At least one.
         lights: Vec<L>,
@@ -77,8 +77,8 @@ pub enum Edit<L = EmissiveTriangle> {
         /// Which receivers it lights, as bits; `u32::MAX` for all. See [`Linked`](crate::importance::Linked).
         mask: u32,
     },
-    /// A light by itself, in the world: an instance at the identity of a mesh of its own, which goes with it. The next id among
-    /// [`Added::instances`](super::Added::instances) is its.
+    /// A light by itself, in the world: an instance at the identity of a mesh of its own, which goes with it. Its id is among
+    /// [`Added::instances`](super::Added::instances).
     AddLight {
         /// In the world; its `mesh` is ignored.
         light: L,
@@ -120,8 +120,10 @@ pub enum Edit<L = EmissiveTriangle> {
         /// As many lights as before.
         lights: Vec<L>,
     },
-    /// New vertices or new emission of some lights of a mesh, in all its instances. The others are not looked at: see
-    /// [`set_light_range`](crate::Bvh::set_light_range).
+    /// New vertices or new emission of some lights of a mesh, in all its instances. Takes time in proportion to them and to the
+    /// depth of the mesh's tree, of which a [`refit`](crate::Bvh::refit) then computes the paths to them; all of it where they are
+    /// more than a sixteenth of the mesh. If they reach farther from the mesh's origin than any light did since the mesh was set as
+    /// a whole, each instance of the mesh is looked at. A mesh of points and spots alone is looked at as a whole.
     SetLightRange {
         /// Which mesh.
         mesh: MeshId,
@@ -148,7 +150,7 @@ pub struct EditError {
     pub reason: EditReason,
 }
 
-/// What is wrong with an edit: the error of single ones.
+/// Reason to refuse an edit: the error of single ones.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EditReason {
@@ -158,9 +160,11 @@ pub enum EditReason {
     UnknownInstance(InstanceId),
     /// An instance is of a mesh, no light by itself.
     NoLight(InstanceId),
-    /// A mesh has no triangle.
+    /// A mesh has no light.
     EmptyMesh,
-    /// A triangle of a mesh is outside the domain.
+    /// A light by itself is outside the domain.
+    Alone(DomainError),
+    /// A light of a mesh is outside the domain.
     Light {
         /// Its index in the edit.
         index: usize,
@@ -195,7 +199,7 @@ pub enum EditReason {
         /// Their number.
         instances: usize,
     },
-    /// More than 2^30 numbers of lights or lights, free ones below the greatest included, or 2^27 instances.
+    /// More than 2^30 lights of meshes, 2^30 numbers of lights, free ones below the greatest included, or 2^27 instances.
     TooMany,
     /// A single-level BVH has one mesh and one instance, which stay.
     SingleLevel,
@@ -223,17 +227,17 @@ impl fmt::Display for EditReason {
             ),
             Self::NoLight(id) => write!(
                 f,
-                "instance {} is of a mesh; change the mesh's lights by `set_lights`",
+                "instance {} is of a mesh; change the mesh's lights by `Edit::SetLights`",
                 id.index
             ),
             Self::EmptyMesh => write!(f, "a mesh without lights; leave it out"),
             Self::Light { index, error } => write!(f, "light {index}: {error}"),
-            Self::Transform(error) => write!(f, "{error}"),
+            Self::Alone(error) | Self::Transform(error) => write!(f, "{error}"),
             Self::Radiance { value } => write!(
                 f,
                 "factor on radiance {}, expected 0 or a number from 2^-60 to 2^60 (8.7e-19 to 1.2e18){}",
                 Number(*value),
-                // A greater or smaller one is told in two; no factor makes light negative.
+                // A larger factor can be split between mesh and instance.
                 if *value > 0.0 {
                     "; put the rest into the mesh"
                 } else if *value < 0.0 {
@@ -262,7 +266,7 @@ impl fmt::Display for EditReason {
             }
             Self::TooMany => write!(
                 f,
-                "more than 2^30 lights or lights, or 2^27 instances; numbers of removed lights count until `take_removed_lights`; or split the scene"
+                "more than 2^30 lights, or 2^27 instances; numbers of removed lights count until `take_removed_lights`; or split the scene"
             ),
             Self::SingleLevel => write!(
                 f,
@@ -289,7 +293,7 @@ mod tests {
     fn words_of_no_id_are_refused() {
         let lamp = triangle([[0.0, 3.0, 0.0], [1.0, 3.0, 0.0], [0.0, 3.0, 1.0]]);
         let (mut bvh, ids): (LightBvh, _) = scattered(vec![lamp], 1, |_| [0.0; 3]);
-        let (instance, mesh) = (ids[0], bvh.mesh_of(ids[0]).unwrap());
+        let (instance, mesh) = (ids[0], bvh.view().mesh_of(ids[0]).unwrap());
         bvh.set_radiance(InstanceId::from_bits(instance.to_bits()), [2.0; 3])
             .unwrap();
         for word in 0..3 {

@@ -106,7 +106,7 @@ pub struct RefitPlan {
     pub written_parts: Vec<Range<u32>>,
     /// Nodes of bottom levels to compute.
     pub bottom: Levels,
-    /// Meshes whose roots are to be computed. A mirror takes the node's index from [`Bvh::roots`] and computes
+    /// Meshes whose roots are to be computed. A mirror takes the node's index from [`View::roots`](super::View::roots) and computes
     /// [`refit::root`](crate::refit::root) from its own nodes.
     pub roots: Vec<u32>,
     /// Nodes of the top level to compute.
@@ -145,30 +145,30 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         self.log
             .bound(2 * (self.instances.len() + self.nodes.len()) + LEAST);
     }
+}
 
-    /// Lists changes by refits since the last call with this cursor, for a mirror of the arrays, as on a device. Call it after
-    /// [`refit`](Self::refit); each mirror has its own cursor. Everything is to be copied at the first call, if the cursor is of
+impl Cursor {
+    /// Lists changes by refits since the last call, for a mirror of the arrays, as on a device. Call it after
+    /// [`refit`](Bvh::refit); each mirror has its own cursor. Everything is to be copied at the first call, if the last was of
     /// another BVH, or if the log has dropped changes since.
     ///
     /// If an array has grown, the mirror's must grow too. New places may hold anything: a list names a place once it is in use,
     /// and no walk reaches it before. Places that are no longer in use may differ from a mirror's.
     #[must_use]
-    pub fn plan(&self, cursor: &mut Cursor) -> RefitPlan {
-        let from = core::mem::replace(
-            cursor,
-            Cursor {
-                tree: self.id.0,
-                at: self.log.end(),
-            },
-        );
-        if from.tree != self.id.0 || from.at < self.log.start {
-            return self.plan_of_everything();
+    pub fn plan<M: Model<W>, const W: usize>(&mut self, bvh: &Bvh<M, W>) -> RefitPlan {
+        let now = Self {
+            tree: bvh.id.0,
+            at: bvh.log.end(),
+        };
+        let from = core::mem::replace(self, now);
+        if from.tree != bvh.id.0 || from.at < bvh.log.start {
+            return bvh.plan_of_everything();
         }
         let mut plan = RefitPlan::default();
         let (mut instances, mut links) = (Vec::new(), Vec::new());
         let (mut meshes, mut trees, mut paths) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
         let (mut computed, mut is_computed) = (Vec::new(), false);
-        for entry in self.log.entries.range((from.at - self.log.start) as usize..) {
+        for entry in bvh.log.entries.range((from.at - bvh.log.start) as usize..) {
             match entry {
                 Entry::Instance(index) => instances.push(*index),
                 Entry::Links(node) => links.push(*node),
@@ -184,49 +184,49 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         plan.written_lights = joined(plan.written_lights);
         plan.written_instances = indices(instances);
         // A mesh may have been removed since.
-        let is_live = |mesh: &u32| self.meshes[*mesh as usize].live;
+        let is_live = |mesh: &u32| bvh.meshes[*mesh as usize].live;
         trees.retain(is_live);
         meshes.retain(is_live);
-        let with_trees = trees.iter().map(|&mesh| &self.meshes[mesh as usize]);
+        let with_trees = trees.iter().map(|&mesh| &bvh.meshes[mesh as usize]);
         plan.written_nodes = joined(with_trees.clone().map(|own| own.nodes.clone()).collect());
         plan.written_trails = joined(with_trees.map(|own| own.lights.clone()).collect());
         meshes.extend(trees);
         let mut pairs = Vec::new();
         let mut roots = meshes.clone();
         for (mesh, range) in paths.into_iter().filter(|(mesh, _)| is_live(mesh)) {
-            let own = &self.meshes[mesh as usize].lights;
+            let own = &bvh.meshes[mesh as usize].lights;
             let range = range.start.max(own.start)..range.end.min(own.end);
             if !meshes.contains(&mesh) && !range.is_empty() {
                 roots.insert(mesh);
-                pairs.extend(self.path_nodes(mesh, range));
+                pairs.extend(bvh.path_nodes(mesh, range));
             }
         }
-        meshes
-            .iter()
-            .for_each(|&mesh| pairs.extend(self.mesh_nodes(mesh)));
+        meshes.iter().for_each(|&mesh| pairs.extend(bvh.mesh_nodes(mesh)));
         plan.bottom = Levels::by_height(&sorted(pairs));
         let changed: Vec<u32> = roots.into_iter().collect();
-        plan.roots = self.with_roots(&changed);
+        plan.roots = bvh.with_roots(&changed);
         if !plan.whole_top {
-            self.plan_links(&mut plan, links.clone());
+            bvh.plan_links(&mut plan, links.clone());
         }
         if plan.whole_top || is_computed {
-            plan.top = Levels::by_height(&self.top.by_height());
+            plan.top = Levels::by_height(&bvh.top.by_height());
         } else {
-            let users = changed.iter().flat_map(|&mesh| &self.meshes[mesh as usize].users);
-            let known = users.filter(|&&user| (user as usize) < self.top.places.len());
+            let users = changed.iter().flat_map(|&mesh| &bvh.meshes[mesh as usize].users);
+            let known = users.filter(|&&user| (user as usize) < bvh.top.places.len());
             let leaves = known.flat_map(|&user| {
-                let parts = self.top.links_of(user);
-                parts.map(move |part| self.top.place_of(user, part))
+                let parts = bvh.top.links_of(user);
+                parts.map(move |part| bvh.top.place_of(user, part))
             });
             let leaves = leaves.filter(|&at| at != INVALID);
             let starts = computed.into_iter().chain(links);
             let starts = starts.chain(leaves.map(|at| place_parts::<W>(at).0));
-            plan.top = Levels::by_height(&self.top.above_some::<W>(starts));
+            plan.top = Levels::by_height(&bvh.top.above_some::<W>(starts));
         }
         plan
     }
+}
 
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Adds the copies of links to the plan: of nodes whose children changed, and of leaves.
     fn plan_links(&self, plan: &mut RefitPlan, mut nodes: Vec<u32>) {
         nodes.sort_unstable();
@@ -254,10 +254,8 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         plan.written_places = indices(places);
     }
 
-    /// Lists everything, for a mirror that copies all arrays. To compare a mirror, compare the listed nodes and roots, the live
-    /// instances, and what [`light`](Self::light) and these name.
-    #[must_use]
-    pub fn plan_of_everything(&self) -> RefitPlan {
+    /// Lists everything.
+    fn plan_of_everything(&self) -> RefitPlan {
         let used = (0u32..).zip(&self.meshes).filter(|(_, mesh)| mesh.live);
         let meshes: Vec<u32> = used.map(|(index, _)| index).collect();
         let pairs = meshes.iter().flat_map(|&mesh| self.mesh_nodes(mesh)).collect();
@@ -295,8 +293,8 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     pub(super) fn path_nodes(&self, mesh: u32, lights: Range<u32>) -> Vec<(u32, u32)> {
         let own = &self.meshes[mesh as usize];
         let mut pairs = Vec::new();
-        for triangle in lights {
-            let trail = self.trail_of(triangle);
+        for light in lights {
+            let trail = self.trail_of(light);
             let mut node = own.nodes.start;
             for level in 0..own.depth {
                 pairs.push((own.depth - level, node));

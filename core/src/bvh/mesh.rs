@@ -70,7 +70,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             index,
             BlasRoot::new(INVALID, &<SummaryOf<M, W>>::EMPTY),
         );
-        self.put_triangles(index, 0, lights);
+        self.put_lights(index, 0, lights);
         if self.is_alone(lights.len()) {
             // An old trail may stay: none is followed.
             self.log.push(Entry::Tree(index));
@@ -85,8 +85,8 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     pub(super) fn take_mesh(&mut self, index: u32) {
         let mesh = &mut self.meshes[index as usize];
         mesh.live = false;
-        let (nodes, lights) = (mesh.nodes.start..mesh.room, mesh.lights.clone());
-        (mesh.nodes, mesh.room, mesh.lights) = (0..0, 0, 0..0);
+        let (nodes, lights) = (mesh.nodes.start..mesh.capacity, mesh.lights.clone());
+        (mesh.nodes, mesh.capacity, mesh.lights) = (0..0, 0, 0..0);
         self.node_ranges.give(nodes);
         self.light_ranges.give(lights);
         self.mesh_ranges.give(index..index + 1);
@@ -95,11 +95,11 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     }
 
     /// Writes lights of a mesh from its `first`-th on, and marks them for refit.
-    pub(super) fn write_triangles(&mut self, index: u32, first: u32, lights: &[M::Light]) {
+    pub(super) fn write_lights(&mut self, index: u32, first: u32, lights: &[M::Light]) {
         if lights.is_empty() {
             return;
         }
-        let range = self.put_triangles(index, first, lights);
+        let range = self.put_lights(index, first, lights);
         let mesh = &mut self.meshes[index as usize];
         let count = mesh.lights.len();
         mesh.version += 1;
@@ -121,7 +121,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         }
     }
 
-    fn put_triangles(&mut self, index: u32, first: u32, lights: &[M::Light]) -> Range<u32> {
+    fn put_lights(&mut self, index: u32, first: u32, lights: &[M::Light]) -> Range<u32> {
         let start = self.meshes[index as usize].lights.start + first;
         let range = start..start + lights.len() as u32;
         if self.lights.len() < range.end as usize {
@@ -145,18 +145,18 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
 
     /// Replaces the tree of a mesh; the nodes' summaries are copied as they are. If the nodes exceed the reserved capacity, they
     /// move, and all instances get the new root.
-    fn place_tree(&mut self, index: u32, topology: &Topology<M::Node>) {
+    pub(super) fn place_tree(&mut self, index: u32, topology: &Topology<M::Node>) {
         let count = topology.nodes.len() as u32;
         let mesh = &self.meshes[index as usize];
         let (mut start, first) = (mesh.nodes.start, mesh.lights.start);
-        if mesh.room - start < count {
-            self.node_ranges.give(start..mesh.room);
+        if mesh.capacity - start < count {
+            self.node_ranges.give(start..mesh.capacity);
             // A later tree over as many lights may have a few nodes more.
-            let room = self.node_ranges.take(count + count / 8);
-            start = room.start;
-            self.meshes[index as usize].room = room.end;
-            if self.nodes.len() < room.end as usize {
-                self.nodes.resize(room.end as usize, M::Node::EMPTY);
+            let reserved = self.node_ranges.take(count + count / 8);
+            start = reserved.start;
+            self.meshes[index as usize].capacity = reserved.end;
+            if self.nodes.len() < reserved.end as usize {
+                self.nodes.resize(reserved.end as usize, M::Node::EMPTY);
             }
             for user in self.meshes[index as usize].users.clone() {
                 self.instances[user as usize].root = start;
@@ -224,20 +224,20 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             // All trails changed: mirrors copy everything.
             self.log = super::Log::after(&self.log);
         }
-        for &(triangle, trail) in &topology.trails {
-            self.set_trail(mesh.start + triangle, trail);
+        for &(light, trail) in &topology.trails {
+            self.set_trail(mesh.start + light, trail);
         }
     }
 
-    pub(super) fn set_trail(&mut self, triangle: u32, trail: BitTrail) {
+    pub(super) fn set_trail(&mut self, light: u32, trail: BitTrail) {
         let words = self.trail_words as usize;
-        let at = triangle as usize * words;
+        let at = light as usize * words;
         self.trails[at..at + words].copy_from_slice(&[trail.low, trail.high][..words]);
     }
 
-    /// The trail of a triangle.
-    pub(super) fn trail_of(&self, triangle: u32) -> BitTrail {
-        let at = triangle as usize * self.trail_words as usize;
+    /// The trail of a light of a mesh.
+    pub(super) fn trail_of(&self, light: u32) -> BitTrail {
+        let at = light as usize * self.trail_words as usize;
         BitTrail {
             low: self.trails[at],
             high: if self.trail_words == 2 {
@@ -245,24 +245,6 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             } else {
                 0
             },
-        }
-    }
-
-    /// Refits, then rebuilds the trees of meshes that changed since theirs was built, and the top level, within the call. A
-    /// [`Rebuilder`](crate::Rebuilder) does so in the background. Takes the time of a build.
-    pub fn rebuild(&mut self) {
-        self.refit();
-        for index in core::mem::take(&mut self.reshaped) {
-            let mesh = &self.meshes[index as usize].lights;
-            let own = &self.lights[mesh.start as usize..mesh.end as usize];
-            let topology = build_over::<M::Node, W>(own, &self.params);
-            self.place_tree(index, &topology);
-            self.sweep_mesh(index);
-        }
-        self.refit();
-        if !self.single {
-            self.top.build(&self.params);
-            self.log_top();
         }
     }
 

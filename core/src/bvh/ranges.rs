@@ -1,11 +1,8 @@
-//! Ranges of an index space that grows: handed out first fit, taken back and joined, each in time of the logarithm of the
-//! number of free ranges, plus that of those before the first fit which have half its length.
+//! Index ranges in a space that grows, first fit. Taking and giving back cost the logarithm of the number of free ranges, plus the free
+//! ranges before the first fit that have half its length.
 //!
-//! What is live is never moved: numbers of lights and indices of instances are their users'. So no rule of fit keeps the space
-//! within a constant factor of what is live, whatever is asked for (Robson 1971, 1974: where ranges are of 1 to *n* indices, at
-//! least log2(*n*) / 2 times the most that was ever live at once, for some sequence of edits). First fit needs at most about
-//! log2(*n*) times that (Robson 1977), and is the best rule known in that respect; best fit may need *n* times. Where all
-//! ranges are equally long, as those of instances, meshes and single nodes, the space is the most that was live at once.
+//! Used ranges never move, so no rule of fit bounds the space by a constant factor (Robson 1971, 1974). First fit needs at most about log2(n)
+//! times the most in use, for ranges of up to n (Robson 1977). Ranges of equal length take no more than the most in use.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
@@ -65,7 +62,7 @@ impl Ranges {
         if length > count {
             self.insert(start + count, length - count);
         }
-        // What is free at the end is part of a new range.
+        // Free indices at the end become part of a new range.
         self.end = self.end.max(start + count);
         start..start + count
     }

@@ -19,8 +19,8 @@ pub(super) struct Mesh {
     pub users: Vec<u32>,
     /// The nodes of its tree, in depth-first order; none where it is one light of two levels.
     pub nodes: Range<u32>,
-    /// End of the capacity reserved for its nodes: a new tree overwrites the old one.
-    pub room: u32,
+    /// End of the places reserved for its nodes: a new tree overwrites the old one.
+    pub capacity: u32,
     pub lights: Range<u32>,
     pub depth: u32,
     /// Greatest magnitude of a coordinate that its lights reached since all of them were set.

@@ -22,23 +22,6 @@ pub(super) const SWEPT: usize = 16;
 const BEHIND: usize = 16;
 
 impl<M: Model<W>, const W: usize> Bvh<M, W> {
-    /// Brings the trees in line with the edits since the last call, and touches no other node. Computes the nodes of meshes that
-    /// changed. In the top level, removes and inserts leaves, inserts again those that moved far from their siblings, and computes
-    /// all nodes above: in time in proportion to the changed instances times the depth, at most that of a whole build.
-    pub fn refit(&mut self) {
-        for (mesh, ranges) in core::mem::take(&mut self.dirty) {
-            let changed: usize = ranges.iter().map(ExactSizeIterator::len).sum();
-            let all = self.meshes[mesh as usize].lights.len();
-            if changed == 0 || changed * SWEPT > all {
-                self.sweep_mesh(mesh);
-            } else {
-                ranges.iter().for_each(|range| self.refit_paths(mesh, range));
-                self.compute_root(mesh);
-            }
-        }
-        self.refit_top();
-    }
-
     /// Updates the top level by the edits and by the roots of meshes.
     pub(super) fn refit_top(&mut self) {
         if !self.stale.is_empty() {
@@ -63,7 +46,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         self.log_top();
     }
 
-    fn refit_paths(&mut self, mesh: u32, lights: &Range<u32>) {
+    pub(super) fn refit_paths(&mut self, mesh: u32, lights: &Range<u32>) {
         let pairs = self.path_nodes(mesh, lights.clone());
         widest(
             #[inline(always)]

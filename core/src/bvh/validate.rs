@@ -10,8 +10,8 @@ use core::ops::Range;
 pub use self::violation::Violation;
 use self::violation::{equal, same_words};
 pub(super) use self::walk::Found;
-use super::Bvh;
 use super::apply::NO_INSTANCE;
+use super::{Bvh, View};
 use crate::instance::Instance;
 use crate::light::Light;
 use crate::node::{Node, kind};
@@ -20,14 +20,14 @@ use crate::summary::Summary;
 use crate::trail::{leaf_parts, place};
 use crate::tree::{INVALID, OPENED};
 
-impl<M: Model<W>, const W: usize> Bvh<M, W> {
-    /// Checks every invariant, after a [`refit`](Self::refit):
+impl<M: Model<W>, const W: usize> View<'_, M, W> {
+    /// Checks every invariant, after a [`refit`](Bvh::refit):
     /// - each node in use is reached once, through links that are in range, and knows its place above;
-    /// - each live instance, or each of its parts, is a leaf of the top level exactly once, each triangle of a mesh a leaf of its
+    /// - each live instance, or each of its parts, is a leaf of the top level exactly once, each light of a mesh a leaf of its
     ///   tree exactly once, and their trails lead there;
     /// - the nodes of a mesh are in depth-first order; heights are those of what is below;
     /// - every node of the top level but its root has two children or more;
-    /// - ranges of nodes, lights and lights in use do not overlap;
+    /// - ranges of nodes and of numbers of lights do not overlap;
     /// - no path is longer than [`depth`](Self::depth), and [`light_count`](Self::light_count) counts the lights;
     /// - an instance's words are those of its transform and mesh, and its leaf in the top level is that of a refit;
     /// - every word of every node is what refit makes of lights and instances from scratch.
@@ -38,41 +38,44 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// # Errors
     /// The first [`Violation`].
     pub fn validate(&self) -> Result<(), Violation> {
-        let mut seen = alloc::vec![false; self.nodes.len()];
+        let bvh = self.0;
+        let mut seen = alloc::vec![false; bvh.nodes.len()];
         let (mut used_nodes, mut used_lights, mut lights, mut depth) = (Vec::new(), Vec::new(), 0, 0);
-        let mut again = alloc::vec![M::Node::EMPTY; self.nodes.len()];
-        for (index, mesh) in (0u32..).zip(&self.meshes).filter(|(_, mesh)| mesh.live) {
-            let found = self.check_mesh(index, &mut seen, &mut again)?;
+        let mut again = alloc::vec![M::Node::EMPTY; bvh.nodes.len()];
+        for (index, mesh) in (0u32..).zip(&bvh.meshes).filter(|(_, mesh)| mesh.live) {
+            let found = bvh.check_mesh(index, &mut seen, &mut again)?;
             depth = depth.max(found.depth);
-            used_nodes.push(mesh.nodes.start..mesh.room);
+            used_nodes.push(mesh.nodes.start..mesh.capacity);
         }
         disjoint(used_nodes)?;
-        for (index, placed) in (0u32..).zip(&self.placed) {
+        for (index, placed) in (0u32..).zip(&bvh.placed) {
             if placed.live {
                 lights += placed.numbers.end - placed.numbers.start;
                 used_lights.push(placed.numbers.clone());
-                self.check_instance(index)?;
+                bvh.check_instance(index)?;
             } else {
-                let record = &self.instances[index as usize];
+                let record = &bvh.instances[index as usize];
                 let nothing = Instance {
                     listed: record.listed,
                     ..NO_INSTANCE
                 };
                 same_words(INVALID, index, &nothing, record)?;
             }
-            if index as usize >= self.live.len() {
-                let listed = self.instances[index as usize].listed;
+            if index as usize >= bvh.live.len() {
+                let listed = bvh.instances[index as usize].listed;
                 equal(INVALID, index, "list entry", NO_INSTANCE.listed, listed)?;
             }
         }
         disjoint(used_lights)?;
-        if !self.single || self.meshes.is_empty() {
-            depth += self.check_top()?.depth;
+        if !bvh.single || bvh.meshes.is_empty() {
+            depth += bvh.check_top()?.depth;
         }
-        equal(INVALID, INVALID, "lights", lights, self.light_count as u32)?;
+        equal(INVALID, INVALID, "lights", lights, bvh.light_count as u32)?;
         equal(INVALID, INVALID, "depth", depth.max(self.depth()), self.depth())
     }
+}
 
+impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// The tree of a mesh, its trails, and every word of its nodes. Each of its lights is in one leaf, and of this mesh: no two meshes
     /// have one.
     fn check_mesh(&self, index: u32, seen: &mut [bool], again: &mut [M::Node]) -> Result<Found, Violation> {

@@ -1,11 +1,11 @@
 //! The paper's importance, Eq. 4.
 
-use super::sight::{LEAST_ALONG, MIN_DISTANCE_SQUARED, offset, over_distance};
+use super::sight::{LEAST_ALONG, MIN_DISTANCE_SQUARED, offset, over_distance, root};
 use super::{ImportanceModel, Scaled, Space, on_one_scale};
 use crate::exact::{self, pow2, rsqrt_rough};
 use crate::node::{BoundsNode, Cluster};
 use crate::point::ShadingPoint;
-use crate::vector::{dot, length_squared};
+use crate::vector::{dot, is_zero, length_squared};
 
 /// Slack of the cosines, 2^-8: the least that the receiver's counts where its bound is not zero, and what is added to the emitters'.
 const SLACK: f32 = 0.003_906_25;
@@ -68,7 +68,6 @@ impl Eq4 {
         let inside = r_squared >= d_squared;
 
         // The incident cosine that the highest corner of the box has, as seen at the centre's distance; 1 in a volume.
-        let in_volume = (n.x == 0.0) & (n.y == 0.0) & (n.z == 0.0);
         let reach_up = (exact::abs(n.x) * cluster.extent.x + exact::abs(n.y) * cluster.extent.y)
             + exact::abs(n.z) * cluster.extent.z;
         let cos_incident = (dot(n, v) + reach_up) * inverse;
@@ -78,7 +77,7 @@ impl Eq4 {
         } else {
             bounded
         };
-        let incident = if in_volume { 1.0 } else { above };
+        let incident = if is_zero(n) { 1.0 } else { above };
 
         // cos θ' = cos max(0, θ − θ_o − θ_u), with α = θ_o + θ_u; an α above π shows in its negative sine.
         let cos_alpha = cluster.cos_theta_o * tangent - cluster.sin_theta_o * radius;
@@ -95,12 +94,4 @@ impl Eq4 {
         let factor = exact::max(incident * orientation, FLOOR);
         over_distance(cluster.phi, d_squared + r_squared * SOFTENING, factor)
     }
-}
-
-/// Square root by the rough reciprocal root; 2^-62 for anything below 2^-124.
-#[inline(always)]
-fn root(x: f32) -> f32 {
-    const LEAST: f32 = pow2(-124);
-    let bounded = exact::max(x, LEAST);
-    bounded * rsqrt_rough(bounded)
 }

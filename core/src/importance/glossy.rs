@@ -20,8 +20,7 @@ use crate::vector::{length_squared, vector};
 /// - κ = k/4: about the mirror direction r the lobe is e^(−κ (1 − l·r)), l the direction of the child's centre;
 /// - u² is half the variance of the lights' positions over d²: a Gaussian so wide, seen through the lobe, widens it to
 ///   κ' = κ / (1 + κ u²), and lowers it as much;
-/// - q = 1 / (1 + z/4)^4 with z = κ' (1 − l·r), in the place of e^−z: between it and 2.2 times it for z up to 3, and never nearly zero, as a
-///   product of two rounded means should not be.
+/// - q = 1 / (1 + z/4)^4 with z = κ' (1 − l·r), in place of e^−z. At most 2.2 e^−z for z ≤ 3; decays slowly, so the weight stays away from zero.
 ///
 /// The factor is at least 2^-20, so that no light is lost. `Defensive<Glossy<Moments>, 6>` adds a share of uniform choice.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +36,7 @@ impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W,
         for slot in 0..W {
             let summary = node.summary(slot);
             let reflected = reflectance(summary.center(), summary.spread(), receiver);
-            // Nothing is known of where a child without flux is.
+            // A child without flux has no centre.
             weights[slot] = if weights[slot] > 0.0 {
                 exact::clamp(weights[slot] * reflected, pow2(-MOST), pow2(MOST))
             } else {

@@ -8,9 +8,9 @@ use crate::exact::{self, pow2};
 /// The importance `I`, with a least share: at each node every child that `I` gives weight has at least about 2^-`HALVINGS` of the weight of all.
 /// `HALVINGS` is from 1 to 20.
 ///
-/// What [`Defensive`](super::Defensive) is to a tree this is to each of its nodes. It knows nothing of how many lights there are, so it goes to
-/// the children that `I` allows alone, and [`Linked`](super::Linked) takes it. The bound that it gives is weaker: a light that is underrated at
-/// k nodes of its path keeps 2^-`HALVINGS` k times over.
+/// Like [`Defensive`](super::Defensive), but at each node. Only children that
+/// `I` allows get a share, so [`Linked`](super::Linked) accepts it. The bound is weaker: a light that is underrated at k nodes of its path keeps
+/// 2^-(k · `HALVINGS`).
 #[derive(Clone, Copy, Debug)]
 pub struct Leveled<I, const HALVINGS: u32>(PhantomData<I>);
 

@@ -7,20 +7,20 @@ use crate::exact::{self, exponent, pow2};
 use crate::node::Node;
 use crate::point::LinkedPoint;
 
-/// Light linking: the importance `I` over the lights of instances of whose masks [`LinkedPoint`] has a bit. On layouts that store masks, as
-/// [`LinkedSpotMomentNode`](crate::node::LinkedSpotMomentNode); another does not compile.
+/// Light linking: the importance `I` over the lights whose instance mask shares a bit with the receiver's. Needs a layout with masks, as
+/// [`LinkedSpotMomentNode`](crate::node::LinkedSpotMomentNode); other layouts do not compile.
 ///
 /// The weight of a child is zero where the union of its instances' masks has no bit of the receiver's. Lights without flux are in no union. Masks are of
-/// [instances](crate::Edit::SetMask): a single level has none. So a
-/// light has a positive probability just where it has flux and a common bit; all these probabilities sum to one; no walk comes to a dead end;
-/// and where no light is left, none is chosen. That costs one word per child.
+/// [instances](crate::Edit::SetMask): a single level has none.
+/// A light has a positive probability if and only if it has flux and a common bit; these probabilities sum to one. Without such a light none is
+/// chosen. Costs one word per child.
 ///
-/// Where all masks have a bit of the receiver's, light and probability are those of `I`, to the bit.
+/// If all masks share a bit with the receiver's, light and probability are those of `I`, to the bit.
 ///
 /// A share of uniform choice goes to all lights, those without a common bit among them. So neither `Linked<Defensive<_, _>>` nor
 /// `Defensive<Linked<_>, _>` compiles. [`Leveled`](super::Leveled) takes its place.
 ///
-/// Receivers of other kinds have masks as well: a leaf of two sides, say.
+/// Other receivers take masks too, for example a leaf with two sides.
 /// ```
 /// # use lightbvh::importance::{Leveled, Linked, LinkedPoint, Transmissive, TransmissivePoint};
 /// # use lightbvh::node::LinkedSpotMomentNode;
@@ -69,7 +69,7 @@ impl<N: Node<W>, I: ImportanceModel<N, W, P>, P, const W: usize> ImportanceModel
             weights[slot] = exact::masked(is_common, weights[slot]);
             greatest = exact::max(greatest, weights[slot]);
         }
-        // What is left may be all far below the child that set the scale. A power of two changes no share.
+        // All allowed weights may lie far below the child that set the scale. A power of two changes no share.
         let e = exponent(greatest);
         let up = pow2(if e < 0 { -e } else { 0 });
         for slot in 0..W {

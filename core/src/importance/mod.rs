@@ -9,7 +9,7 @@ mod glossy;
 mod leveled;
 mod linked;
 mod moments;
-mod sight;
+pub(crate) mod sight;
 mod subtended;
 #[cfg(test)]
 mod tests;
@@ -35,7 +35,13 @@ pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, Transmiss
 /// A measure of what the lights below each child of a node may contribute at a point. A type chooses it, so that kernels
 /// contain one only.
 ///
-/// `P` is what it is told of the receiver: a [`ShadingPoint`], or a type that says more.
+/// `P`: the receiver type.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not weigh the children of `{N}`, of width {W}, for a `{P}`",
+    note = "`MaskedLights` takes a `LinkedPoint`, `LightBvh` and `AnyLights` take a `ShadingPoint`",
+    note = "models for a `GlossyPoint`, a `TransmissivePoint` and a `RaySegment`: `(MomentNode<8>, Glossy<Moments>)`, \
+            `(MomentNode<8>, Transmissive<Moments>)`, `(MomentNode<8>, Subtended)`"
+)]
 pub trait ImportanceModel<N, const W: usize, P = ShadingPoint> {
     /// Share of samples that choose among all lights alike, as the number of times that 1 is halved: 5 for 1/32. 0 is for none
     /// and costs nothing. See [`Defensive`].
@@ -45,7 +51,7 @@ pub trait ImportanceModel<N, const W: usize, P = ShadingPoint> {
     const IS_PARTIAL: bool = false;
 
     /// The weights of the children of `node` at `point`, a point in the node's space: each zero where the child has no flux,
-    /// else positive and at most 2^120. Hostile words may give anything.
+    /// else positive and at most 2^120. Malformed nodes may give any value.
     ///
     /// `space` is that space, for the beams of a [`SpotMomentNode`](crate::node::SpotMomentNode). An importance made of others passes it on.
     fn weights_in(node: &N, point: &P, space: Space) -> [f32; W];
@@ -64,7 +70,7 @@ pub trait ImportanceModel<N, const W: usize, P = ShadingPoint> {
 #[derive(Clone, Copy, Debug)]
 pub struct Defensive<I, const HALVINGS: u32>(core::marker::PhantomData<I>);
 
-/// What `LightBvh` chooses children by: moments, and a share of 1/64 of uniform choice.
+/// The importance of `LightBvh`: moments, and a share of 1/64 of uniform choice.
 pub type DefaultImportance = Defensive<Moments, 6>;
 
 impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> ImportanceModel<N, W, P>
@@ -108,7 +114,7 @@ impl Scaled {
     /// `value` · 2^(exponent of `phi` + `exponent`), for a child of flux `phi`, W.
     #[inline(always)]
     pub(crate) fn of(phi: f32, value: f32, exponent: i32) -> Self {
-        // The comparison also turns the NaN of hostile words into "no importance".
+        // The comparison also turns NaN of malformed nodes into zero.
         let shines = (phi > 0.0) & (value > 0.0);
         Self {
             significand: if shines { value } else { 0.0 },

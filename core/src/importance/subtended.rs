@@ -10,7 +10,7 @@ use crate::vector::{dot, length_squared};
 use crate::weight::{SOFT, recip, soft};
 use line::Line;
 
-/// What a [`RaySegment`] receives: flux times the angle under which the lights see the segment, over their least distance from its line (Conty
+/// The light that a [`RaySegment`] receives: flux times the angle under which the lights see the segment, over their least distance from its line (Conty
 /// Estevez & Kulla 2018, their Eq. 4: what 1/d² comes to along a line), times the emitters' cosine, a mean of two places on
 /// the segment. On the layouts of [`Moments`](super::Moments).
 ///
@@ -18,8 +18,7 @@ use line::Line;
 ///   at that distance; s² is the variance of the lights' positions by which [`Moments`](super::Moments) softens distances. The weight
 ///   takes θ/(D L), which has a limit for segments without length: 1/(d² + s²).
 /// - tan(θ/2) = D L/(a b + a·b + s²), a and b from the lights to both ends. Its arc is x/(1 + 0.28 x²), or π/2 less that of 1/x: within 1 %.
-/// - The emitters' cosine is that of [`Moments`](super::Moments) where a quarter and three quarters of the angle lie before: bisectors, found by the
-///   theorem, not by a tangent.
+/// - The emitters' cosine is that of [`Moments`](super::Moments) evaluated at 1/4 and 3/4 of the angle, found by the angle bisector theorem.
 ///
 /// Phase functions and transmittance are the caller's. A weight is positive wherever there is flux.
 #[derive(Clone, Copy, Debug)]

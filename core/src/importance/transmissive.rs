@@ -9,7 +9,7 @@ use crate::point::TransmissivePoint;
 /// The importance `I` from both sides of a [`TransmissivePoint`]: front · w(n) + back · w(−n), w the weight that `I` gives at a normal. On the
 /// layouts of `I`; twice its work.
 ///
-/// A weight is positive wherever there is flux. Where no part is positive both count alike: nothing is received, whatever is chosen.
+/// A weight is positive wherever there is flux. If both parts are zero, both sides get equal weight.
 /// A point whose normal is zero is one in a volume. `Defensive<Transmissive<Moments>, 6>` adds a share of uniform choice.
 ///
 /// `I` gives weights of a node one scale for both normals, as all importances of this crate do.

@@ -99,15 +99,15 @@ pub fn scattered<M: Model<W>, const W: usize>(
 
 /// The ids of all instances.
 pub fn instances<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> Vec<InstanceId> {
-    let all = 0..bvh.instances().len() as u32;
-    all.filter_map(|k| bvh.instance_id(k)).collect()
+    bvh.view().instance_ids().collect()
 }
 
 /// All lights, each with its instance.
 pub fn lights<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> Vec<(u32, u32)> {
     let all = instances(bvh).into_iter();
     all.flat_map(|id| {
-        bvh.lights_of(id)
+        bvh.view()
+            .lights_of(id)
             .unwrap_or(0..0)
             .map(move |light| (light, id.index()))
     })
@@ -124,8 +124,7 @@ pub fn edits<M: Model<W>, const W: usize>(
 where
     M::Light: Lamp,
 {
-    let meshes = 0..bvh.roots().len() as u32;
-    let mut meshes: Vec<_> = meshes.filter_map(|k| bvh.mesh_id(k)).collect();
+    let mut meshes: Vec<_> = bvh.view().mesh_ids().collect();
     let mut all = instances(bvh);
     let mut out = Vec::new();
     for _ in 0..count {
@@ -151,7 +150,7 @@ where
                 light: M::Light::any(random),
                 mask: 1 << random.below(20),
             },
-            (12, _, Some(instance)) if bvh.is_light(instance) => Edit::SetLight {
+            (12, _, Some(instance)) if bvh.view().is_light(instance) => Edit::SetLight {
                 instance,
                 light: M::Light::any(random),
             },
@@ -160,7 +159,7 @@ where
                 mask: 1 << random.below(20),
             },
             (6, Some(mesh), _) => {
-                let end = bvh.mesh_lights(mesh).map_or(1, <[_]>::len) as u32;
+                let end = bvh.view().mesh_lights(mesh).map_or(1, <[_]>::len) as u32;
                 let first = random.below(end);
                 let count = 1 + random.below((end - first).min(3));
                 Edit::SetLightRange {
@@ -171,11 +170,11 @@ where
             }
             (7, Some(mesh), _) => Edit::SetLights {
                 mesh,
-                lights: lamps(random, bvh.mesh_lights(mesh).map_or(1, <[_]>::len) as u32),
+                lights: lamps(random, bvh.view().mesh_lights(mesh).map_or(1, <[_]>::len) as u32),
             },
             (8 | 9, _, Some(_)) => Edit::RemoveInstance(all.swap_remove(on)),
             (10, Some(mesh), _)
-                if random.below(20) == 0 || !all.iter().any(|&own| bvh.mesh_of(own) == Some(mesh)) =>
+                if random.below(20) == 0 || !all.iter().any(|&own| bvh.view().mesh_of(own) == Some(mesh)) =>
             {
                 Edit::RemoveMesh(meshes.swap_remove(at))
             }
@@ -219,12 +218,12 @@ where
 {
     let mut all = Vec::new();
     for (k, point) in (0..).zip(points(16)) {
-        let sampled = bvh.sample(&point, number(k));
+        let sampled = bvh.tree().sample(&point, number(k));
         if sampled != SampledLight::NONE {
-            let pmf = bvh.pmf(&point, sampled.light, sampled.instance);
+            let pmf = bvh.tree().pmf(&point, sampled.light, sampled.instance);
             assert_eq!(pmf.to_bits(), sampled.pmf.to_bits(), "{sampled:?}");
             assert!(
-                bvh.light(sampled.light, sampled.instance).is_some(),
+                bvh.view().light(sampled.light, sampled.instance).is_some(),
                 "{sampled:?}"
             );
         }
@@ -238,15 +237,15 @@ pub fn sound<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>)
 where
     M::Importance: ImportanceModel<M::Node, W>,
 {
-    bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
+    bvh.view().validate().expect("valid");
     sound_samples(bvh);
-    if crate::Summary::phi(&bvh.summary()) == 0.0 {
+    if crate::Summary::phi(&bvh.view().summary()) == 0.0 {
         return;
     }
     for point in points(2) {
         let pmfs = lights(bvh)
             .into_iter()
-            .map(|(light, own)| bvh.pmf(&point, light, own));
+            .map(|(light, own)| bvh.tree().pmf(&point, light, own));
         let sum: f64 = pmfs.map(f64::from).sum();
         assert!((sum - 1.0).abs() < 1e-5, "{sum} at {point:?}");
     }

@@ -14,7 +14,7 @@ use crate::exact::{self, pow2};
 use crate::instance::Instance;
 use crate::vector::{abs3, dot, flush3, greatest_exponent, max3, vector};
 
-/// What tells the two shapes apart.
+/// The difference of the two shapes.
 #[derive(Clone, Copy)]
 struct Shape {
     /// The inverse of area over the length of the half axes' product.

@@ -4,9 +4,9 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::{MIN_OFFSET, TWO_SIDED};
-use crate::exact;
+use crate::exact::{self, div, flush, pow2};
 use crate::point::ShadingPoint;
-use crate::vector::{dot, flush3, greatest_exponent, length_squared, vector};
+use crate::vector::{dot, flush3, greatest_exponent, is_zero, length_squared, vector};
 
 /// A point on a light, and the density with which it was chosen. Plain words, the same on devices.
 #[repr(C)]
@@ -71,9 +71,12 @@ impl LightPoint {
             per_distance,
         } = self.seen_from(receiver.position());
         let n = receiver.normal();
-        let in_volume = (n.x == 0.0) & (n.y == 0.0) & (n.z == 0.0);
         let incident = dot(d, n) * per_distance;
-        let incident = if in_volume { 1.0 } else { exact::max(incident, 0.0) };
+        let incident = if is_zero(n) {
+            1.0
+        } else {
+            exact::max(incident, 0.0)
+        };
         let emitted = self.emitted(d, per_distance);
         let cosines = exact::flush(incident * emitted, exact::pow2(-40));
         let is_near = (squared < 0.25) | (self.density <= 0.0);
@@ -103,7 +106,7 @@ impl LightPoint {
     }
 }
 
-/// What lies between a receiver and a point on a light.
+/// The segment from a receiver to a point on a light.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
     /// From the receiver to the point, in units of 2^`exponent` metres, its squared length, and the inverse of its length.
@@ -177,6 +180,30 @@ impl LightPoint {
 
 /// Greatest density over area, 1/m².
 const MAX_DENSITY: f32 = exact::pow2(120);
+
+/// Ratios of densities below this count as zero, so that their squares are normal numbers.
+const LEAST_RATIO: f32 = pow2(-60);
+
+/// The power heuristic with exponent 2 (E. Veach and L. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo
+/// Rendering", 1995, section 5.2; one sample by each technique): the weight of a direction found with density `own`, which
+/// the other finds with density `other`; both finite. 1 where `own` is 0: points and spots, which no ray meets. On devices densities
+/// are 0 or at least 2^-100, and at most 2^104.
+///
+/// The weights of the two techniques, each the other's `other`, sum to one within one rounding of each.
+#[cfg_attr(target_arch = "spirv", inline(never))]
+#[cfg_attr(not(target_arch = "spirv"), inline)]
+#[must_use]
+pub fn mis_weight(own: f32, other: f32) -> f32 {
+    let less = own < other;
+    let greater = if less { other } else { own };
+    let smaller = if less { own } else { other };
+    let mut ratio = 0.0;
+    if smaller > 0.0 {
+        ratio = flush(div(smaller, greater), LEAST_RATIO);
+    }
+    let squared = ratio * ratio;
+    div(if less & (own > 0.0) { squared } else { 1.0 }, 1.0 + squared)
+}
 
 /// A uniformly distributed point on the triangle at `p0` with edges `e1` and `e2`, from two numbers in [0, 1): a point of the
 /// parallelogram, folded over its diagonal (G. Turk, "Generating random points in triangles", Graphics Gems, 1990). No root,

@@ -63,7 +63,7 @@ const THIRD: f32 = 1.0 / 3.0;
 /// The length of the mean direction of a diffuse emitter is 2/3; a mean normal is that over it.
 const PER_MEAN_DIRECTION: f32 = 1.5;
 
-/// What is known of a light without size.
+/// Moments of a light without size.
 #[inline(always)]
 fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
     LightMoments {

@@ -33,7 +33,7 @@ const LEAST_OWN: f32 = pow2(56);
 /// A constant of its own: rust-gpu does not fold an expression of literals.
 const THIRD: f32 = 1.0 / 3.0;
 
-/// What sets are given in relation to.
+/// Origin and units of sets.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     pub origin: Vec3,
@@ -184,7 +184,7 @@ impl<const W: usize> Framed<W> {
         });
         sums(&mut squares);
         maxima(&mut h);
-        // What is shorter than a coordinate counts as zero: no sum of two such numbers is subnormal.
+        // Lengths shorter than a coordinate count as zero: no sum of two such numbers is subnormal.
         let shortest = MIN_COORDINATE_EXPONENT - self.frame.unit_exponent;
         let (least_length, least_square) = (least(shortest), least(shortest + shortest));
         let total = exact::flush((squares[0][0] * per_flux) * SQUARE_UNIT, least_square);

@@ -32,7 +32,7 @@ const UNITS: f32 = 65536.0;
 const PER_UNIT: f32 = pow2(-16);
 const PER_GAIN: f32 = 4.0;
 const GAIN_UNIT: f32 = 0.25;
-/// A slack that takes all points in, and the least that counts.
+/// The slack at which all points count as inside, and the least slack.
 const ALL_OF_SPACE: f32 = 256.0;
 const LEAST_SLACK: f32 = pow2(-60);
 /// A longer reach counts as this one, metres: all of space, at any scale.
@@ -44,7 +44,7 @@ const EXTENT_CODE: f32 = EXTENT_RANGE * pow2(-6);
 const CENTER_CODES: f32 = pow2(-12);
 /// Lengths along an axis count as zero below this, in units of the scale: their squares are then normal numbers.
 const LEAST_AWAY: f32 = pow2(-30);
-/// What absorbs the rounding of a squared length, as `LEAST_DISTANCE` of the weights.
+/// Absorbs the rounding of a squared length, as `LEAST_DISTANCE` of the weights.
 const LEAST_SQUARED: f32 = pow2(-50);
 
 /// The length of a code, in units of the frame.
@@ -53,8 +53,7 @@ fn length_of(word: u32) -> f32 {
     f32::from_bits((((word >> 8) & 255) << LENGTH_SHIFT).wrapping_add(LENGTH_BIAS << 23))
 }
 
-/// The word of the lights that keep to `beam`, of a child whose moments are stored as `stored` in a frame of which one unit is 1/`per_unit`
-/// metres.
+/// Encodes the beam. `stored`: moments as the node has them. `per_unit`: units of the frame per metre.
 #[inline(always)]
 pub(super) fn beam_word(beam: &Beam, stored: &LightMoments, per_unit: f32) -> u32 {
     let m = flush3(stored.m, pow2(-30));
@@ -82,7 +81,7 @@ pub(super) fn beam_word(beam: &Beam, stored: &LightMoments, per_unit: f32) -> u3
     }
 }
 
-/// The beam that the word tells, with lengths in units of which one is `unit` metres.
+/// Decodes the beam. `unit`: metres per unit of the frame.
 #[inline(always)]
 pub(super) fn beam_of(word: u32, stored: &LightMoments, unit: f32) -> Beam {
     let m = flush3(stored.m, pow2(-30));
@@ -104,8 +103,9 @@ pub(super) fn beam_of(word: u32, stored: &LightMoments, unit: f32) -> Beam {
     }
 }
 
-/// The word of light that ends `end` metres of the world beyond the box of `set`, of a child whose moments are stored as `stored` in a frame of
-/// which one unit is `unit` metres. A stored box that does not hold all lights has no end: what it lacks is a length of another space.
+/// Encodes the end. `end`: metres from the box of `set`. `unit`: metres per unit of the frame.
+///
+/// A stored box that does not hold all lights gets no end: the part outside is a length of another space.
 #[inline(always)]
 pub(super) fn end_word(end: f32, set: &LightMoments, stored: &LightMoments, unit: f32) -> u32 {
     let needed = abs3(set.c - stored.c) + set.h;
@@ -127,10 +127,10 @@ fn widened(breadth: f32, unit: f32) -> Vec3 {
     Vec3::new(by, by, by)
 }
 
-/// What all children's tests of cones and ends share.
+/// Shared by the tests of all children's cones and ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
-    /// Where rounding may have moved it by s, in units of the scale: 2 s. With v from the apex, v·m − cos θ m |v| changes by as much at most.
+    /// Slack: twice the rounding error of the point, in units of the scale.
     pub slack: f32,
     /// A metre of the world in metres of the space, and one of these in units of the scale.
     per_world: f32,
@@ -150,9 +150,10 @@ impl Near {
         }
     }
 
-    /// The part of its light that a child with this end sends to the point: `h` are the half extents of its box in breadths, and a unit of the
-    /// frame is `unit` of the scale. Of the windows 1 − (d / end)⁴ of the nearest and the farthest of the box and of its centre, the square of the mean:
-    /// most lights end nearer than the greatest end, which is stored. `docs/walk.md` has what was measured.
+    /// Factor of the end on the child's weight. `h`: half extents of its box, in breadths. `unit`: of the frame, in units of the scale.
+    ///
+    /// The squared mean of the window 1 − (d / end)⁴ at the box's nearest point, its farthest point and its centre. The square accounts for
+    /// lights whose own end is less than the stored maximum (`docs/walk.md`).
     #[inline(always)]
     pub fn within(&self, end: u32, lobe: &Lobe, h: Vec3, unit: f32) -> f32 {
         let (x, h) = (abs3(lobe.x), h * lobe.breadth + widened(lobe.breadth, unit));
@@ -170,8 +171,8 @@ impl Near {
     }
 }
 
-/// The factor on the weight of a child with this word and these moments, its mean normal in units of which one is `m_unit`; lengths are in
-/// units of the scale, of which one of the frame has `unit`; a point counts as in the cone by [`Near::slack`] `slack`.
+/// Factor of the beam on the child's weight. `m_unit`: unit of the mean normal. `unit`: of the frame, in units of the scale. `slack`:
+/// [`Near::slack`].
 #[inline(always)]
 pub(super) fn beam_factor(word: u32, lobe: &Lobe, m_unit: f32, unit: f32, slack: f32) -> f32 {
     let (x, m) = (lobe.x, lobe.m);

@@ -160,7 +160,7 @@ pub(super) fn breadth_code(deviation: f32, per_unit: f32) -> u32 {
     (rounded >> BREADTH_SHIFT).wrapping_sub((BREADTH_BIAS as u32) << 3)
 }
 
-/// What brings a shifted breadth code to its length, in a frame of which a unit is `unit`, a power of two.
+/// Factor from a shifted breadth code to its length. `unit`: of the frame, a power of two.
 #[inline(always)]
 pub(super) fn breadth_bias(unit: f32) -> u32 {
     unit.to_bits()

@@ -241,7 +241,7 @@ fn pack_cone(cos_theta_o: f32) -> u32 {
     }
 }
 
-/// Least integer not below `x`, for `x` in `[0, 2^22)`; any other from hostile words.
+/// Least integer not below `x`, for `x` in `[0, 2^22)`; any other from malformed words.
 #[inline(always)]
 fn ceil_u32(x: f32) -> u32 {
     let down = exact::floor_small(x);

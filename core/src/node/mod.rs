@@ -32,7 +32,7 @@ pub type DefaultNode = MomentNode<8>;
 /// Version of the node layouts' words; raised whenever a layout changes.
 pub const NODE_FORMAT: u32 = 3;
 
-/// What a child's link leads to.
+/// Target of a child's link.
 pub mod kind {
     /// No child in this slot.
     pub const EMPTY: u32 = 0;
@@ -44,15 +44,19 @@ pub mod kind {
     pub const MESH: u32 = 3;
 }
 
-/// What the lights of a tree with such nodes are.
+/// The light type of a tree with such nodes.
 pub trait Holds: Pod + Debug + Send + Sync {
     /// The lights that leaves are: emissive triangles, unless the node's type names others.
     type Light: Light;
 }
 
 /// A node of width `W`: plain words.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no layout of nodes of width {W}",
+    note = "a light BVH is as wide as its layout: `Bvh<(CompactNode<4>, Eq4), 4>`"
+)]
 pub trait Node<const W: usize>: Holds {
-    /// What a node stores of each child.
+    /// The summary that a node stores of each child.
     type Summary: Summary;
 
     /// A node without children.
@@ -68,7 +72,7 @@ pub trait Node<const W: usize>: Holds {
     fn kind(&self, slot: usize) -> u32;
     /// Index of what the child is; see [`kind`].
     fn link(&self, slot: usize) -> u32;
-    /// What is known of the child, as it is stored.
+    /// The summary of the child, as stored.
     fn summary(&self, slot: usize) -> Self::Summary;
     /// Sets what the child is; refit computes its summary.
     fn set_child(&mut self, slot: usize, kind: u32, link: u32);
@@ -78,14 +82,13 @@ pub trait Node<const W: usize>: Holds {
     /// [`Summary::EMPTY`].
     fn set_lanes(&mut self, summaries: &Lanes<W>);
 
-    /// The union of the masks of the child's lights, of those that have flux; all bits where the layout stores none. Never zero where a light
-    /// below has flux and a bit.
+    /// Union of the masks of the child's lights with flux; all bits if the layout stores none.
     #[inline(always)]
     fn mask(&self, _slot: usize) -> u32 {
         u32::MAX
     }
 
-    /// Where the light of the child goes; anywhere where the layout stores no beams.
+    /// The beam of the child; [`Beam::ANYWHERE`] if the layout stores none.
     #[inline(always)]
     fn beam(&self, _slot: usize) -> Beam {
         Beam::ANYWHERE
@@ -115,7 +118,7 @@ pub trait Node<const W: usize>: Holds {
         self.set_lanes(&Lanes::of(summaries));
     }
 
-    /// What is known of all children together.
+    /// The merged summary of all children.
     #[inline(always)]
     fn merged(&self) -> Self::Summary {
         let mut children = Lanes::<W>::all(&Self::Summary::EMPTY);
@@ -133,7 +136,7 @@ pub trait LightNode<const W: usize>: Node<W> + Holds<Light = EmissiveTriangle> {
 
 impl<N: Node<W> + Holds<Light = EmissiveTriangle>, const W: usize> LightNode<W> for N {}
 
-/// What [`Eq4`](crate::Eq4) needs to know of the lights below a child; a node layout decodes it.
+/// The input of [`Eq4`](crate::Eq4) for a child, decoded by a node layout.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct Cluster {
@@ -155,6 +158,10 @@ pub struct Cluster {
 
 /// A layout that stores [`LightBounds`].
 #[doc(hidden)]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` stores no bounds of width {W}",
+    note = "`Eq4` takes layouts of bounds, such as `CompactNode`; `Moments` takes `MomentNode` and its kin"
+)]
 pub trait BoundsNode<const W: usize>: Node<W, Summary = LightBounds> {
     /// The child's bounds as [`Eq4`](crate::Eq4) needs them.
     fn cluster(&self, slot: usize) -> Cluster;
@@ -162,6 +169,10 @@ pub trait BoundsNode<const W: usize>: Node<W, Summary = LightBounds> {
 
 /// A layout that stores [`LightMoments`].
 #[doc(hidden)]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` stores no moments of width {W}",
+    note = "`Moments` takes `MomentNode` and its kin; `Eq4` takes layouts of bounds, such as `CompactNode`"
+)]
 pub trait MomentLayout<const W: usize>: Node<W, Summary = LightMoments> {
     /// The weights of the children at the point `p` with the normal `n`, in the node's space, by the operations `M`; see
     /// [`ImportanceModel::weights`](crate::ImportanceModel::weights). `space` is [`Instance::space`](crate::Instance::space).

@@ -32,7 +32,7 @@ const ORIENTED: usize = 6;
 const TWO_SIDED: usize = 5;
 const SPOT: usize = ORIENTED + 2;
 const LINKED_SPOT: usize = SPOT + 1;
-/// What the row of normals holds for a mean normal of zero: all fields at their nearest, the spread at its greatest.
+/// Word of a mean normal of zero: fields nearest to zero, greatest spread.
 const NO_NORMAL: u32 = !0;
 
 /// √2 breadths as a deviation, and the range of half extents, in units of the words.
@@ -53,13 +53,14 @@ pub type MomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, 
 pub type TwoSidedMomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, TWO_SIDED, L>;
 
 /// A node of 32 bytes per child for scenes with spots and ranges: the words of [`MomentNode`], a cone that holds all light of the child
-/// ([`Light::beam`](crate::light::Light::beam)), and how far from its box it ends ([`Light::end`](crate::light::Light::end)). A child whose cone or end a point lies outside of counts for 2^-16 of what it would; one
-/// whose cone it lies in for as much more as its light is gathered. Of lights without a range that are no spots, nor sets of spots that point about
-/// the same way, nothing is stored, and weights are those of [`MomentNode`], to the bit.
+/// ([`Light::beam`](crate::light::Light::beam)), and how far from its box it ends ([`Light::end`](crate::light::Light::end)).
+///
+/// For a point outside the child's cone or range the weight is multiplied by 2^-16. For a point in the cone it grows as the light is gathered.
+/// Children without a range and without a common spot direction store nothing. Their weights are those of [`MomentNode`], to the bit.
 ///
 /// `Bvh<(SpotMomentNode<8, SpotLight>, DefaultImportance)>` is a tree over [`SpotLight`](crate::light::SpotLight)s.
 ///
-/// They count in instances whose maps are similarities alone, for others change angles.
+/// Beams and ends are ignored if the instance's map is not a similarity.
 pub type SpotMomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, SPOT, L>;
 
 /// A node of 36 bytes per child that also knows which lights a receiver may take: the words of [`SpotMomentNode`], and the union of the
@@ -67,8 +68,8 @@ pub type SpotMomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode
 /// chooses as by [`SpotMomentNode`], to the bit.
 pub type LinkedSpotMomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, LINKED_SPOT, L>;
 
-/// What [`MomentNode`] (`ROWS` is 6), [`TwoSidedMomentNode`] (5, without word 2), [`SpotMomentNode`] (8, with beams) and
-/// [`LinkedSpotMomentNode`] (9, with beams and masks) are, over lights `L`. `W` is at least 4.
+/// The common layout of [`MomentNode`] (`ROWS` is 6), [`TwoSidedMomentNode`] (5, without word 2), [`SpotMomentNode`] (8, with beams)
+/// and [`LinkedSpotMomentNode`] (9, with beams and masks), over lights `L`. `W` is at least 4.
 ///
 /// | word | content |
 /// |---|---|

@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{Receiver, ShadingPoint};
+use super::{Receiver, ShadingPoint, is_unit_or_zero};
 use crate::domain::DomainError;
 use crate::exact;
 use crate::instance::Instance;
@@ -12,7 +12,7 @@ use crate::vector::vector;
 const MAX_EXPONENT: f32 = 65_536.0;
 
 /// A [`ShadingPoint`] and how its surface reflects towards the viewer: a diffuse part, and a lobe about the direction in which a mirror
-/// would send the view. What [`Glossy`](crate::importance::Glossy) is told; walks that are not told it carry none of it.
+/// would send the view. The receiver of [`Glossy`](crate::importance::Glossy).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct GlossyPoint {
@@ -81,5 +81,14 @@ impl Receiver for GlossyPoint {
             mirror: instance.direction_to_local(mirror).to_array(),
             ..*self
         }
+    }
+
+    fn is_within_reach(&self) -> bool {
+        let is_part = |value: f32| (0.0..=1.0).contains(&value);
+        self.point.is_within_reach()
+            && is_unit_or_zero(vector(&self.mirror))
+            && is_part(self.diffuse)
+            && is_part(self.specular)
+            && (1.0..=MAX_EXPONENT).contains(&self.exponent)
     }
 }

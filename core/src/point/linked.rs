@@ -3,13 +3,13 @@
 use super::{Receiver, ShadingPoint};
 use crate::instance::Instance;
 
-/// A receiver with a mask, for [`Linked`](crate::importance::Linked): lit by the instances of
-/// whose masks it has a bit, and by no other. Around a [`ShadingPoint`](super::ShadingPoint), or any other receiver.
+/// A receiver with a mask, for [`Linked`](crate::importance::Linked): lit by the instances
+/// whose mask shares a bit with its own, and by no others. Around a [`ShadingPoint`](super::ShadingPoint), or any other receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkedPoint<P> {
-    /// Where, and what else is known of it.
+    /// The receiver without a mask.
     pub point: P,
-    /// Its bits. With 0 no light lights it.
+    /// Its mask; no light lights 0.
     pub mask: u32,
 }
 
@@ -27,5 +27,9 @@ impl<P: Receiver> Receiver for LinkedPoint<P> {
             point: self.point.to_local(instance),
             mask: self.mask,
         }
+    }
+
+    fn is_within_reach(&self) -> bool {
+        self.point.is_within_reach()
     }
 }

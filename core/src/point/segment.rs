@@ -7,8 +7,8 @@ use crate::domain::{DomainError, MIN_OFFSET};
 use crate::instance::Instance;
 use crate::vector::{flush3, vector};
 
-/// A piece of a ray through a volume, from one point to another: light reaches it everywhere. What
-/// [`Subtended`](crate::importance::Subtended) is told to choose a light by.
+/// A piece of a ray through a volume, from one point to another: light reaches it everywhere. The receiver of
+/// [`Subtended`](crate::importance::Subtended).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RaySegment {
@@ -57,5 +57,10 @@ impl Receiver for RaySegment {
             from: instance.to_local(&from).p,
             to: instance.to_local(&to).p,
         }
+    }
+
+    fn is_within_reach(&self) -> bool {
+        let [from, to] = self.ends();
+        from.is_within_reach() && to.is_within_reach()
     }
 }

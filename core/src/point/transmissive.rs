@@ -8,7 +8,7 @@ use crate::exact;
 use crate::instance::Instance;
 
 /// A point of a surface that light reaches from both sides: a leaf, a lampshade, a sheet of glass. The viewer takes a part of what comes from
-/// the side of the normal, and a part of what comes from the other. What [`Transmissive`](crate::importance::Transmissive) is told.
+/// the side of the normal, and a part of what comes from the other. The receiver of [`Transmissive`](crate::importance::Transmissive).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct TransmissivePoint {
@@ -70,5 +70,10 @@ impl Receiver for TransmissivePoint {
             point: instance.to_local(&self.point),
             ..*self
         }
+    }
+
+    fn is_within_reach(&self) -> bool {
+        let is_part = |value: f32| (0.0..=1.0).contains(&value);
+        self.point.is_within_reach() && is_part(self.front) && is_part(self.back)
     }
 }

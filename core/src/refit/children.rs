@@ -43,7 +43,7 @@ const C: usize = COS_THETA_E + 1;
 const RADIUS: usize = C + 3;
 const END: usize = RADIUS + 1;
 
-/// What a refit computes of one child.
+/// Summary and limits of one child.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Child<S> {
     /// Of its lights.
@@ -174,7 +174,7 @@ pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
     child
 }
 
-/// What a light is to its parent.
+/// A light as a child.
 #[inline(always)]
 fn light_child<N: Node<W>, const W: usize>(light: &N::Light) -> Child<N::Summary> {
     Child {
@@ -187,7 +187,7 @@ fn light_child<N: Node<W>, const W: usize>(light: &N::Light) -> Child<N::Summary
     }
 }
 
-/// What node `link` is to its parent.
+/// Node `link` as a child.
 #[inline(always)]
 fn inner_child<N: Node<W>, const W: usize>(nodes: &[N], link: u32) -> Child<N::Summary> {
     let summary = nodes[link as usize].merged();

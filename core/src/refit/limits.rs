@@ -41,7 +41,7 @@ pub(crate) fn limits_below<N: Node<W>, const W: usize>(
     limits
 }
 
-/// What `light` is to a node with limits.
+/// Limits of a light.
 #[inline(always)]
 pub(super) fn limits_of_light<N: Node<W>, const W: usize>(light: &N::Light) -> Limits {
     Limits {

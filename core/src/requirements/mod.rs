@@ -21,7 +21,7 @@ use crate::model::Model;
 
 pub use choice::{Choice, Layout};
 
-/// What the caller says of the frames to come, edit by edit. Nothing of it can be seen in a scene as it stands.
+/// Edits that the caller will make. A scene does not show them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Declared {
     /// Instances move ([`Edit::SetTransform`](crate::Edit::SetTransform)).
@@ -66,8 +66,8 @@ impl Requirements {
         bvh: &Bvh<M, W>,
         declared: Declared,
     ) -> Self {
-        let meshes = (0..bvh.roots().len() as u32).filter_map(|mesh| bvh.mesh_id(mesh));
-        let meshes = meshes.filter_map(|mesh| bvh.mesh_lights(mesh));
+        let view = bvh.view();
+        let meshes = view.mesh_ids().filter_map(|mesh| view.mesh_lights(mesh));
         let one_sided = meshes.clone().flatten().filter(|own| !own.is_two_sided());
         let mut found = Self {
             declared,
@@ -76,8 +76,8 @@ impl Requirements {
             one_sided: one_sided.count(),
             ..Self::default()
         };
-        let mut users = alloc::vec![0_usize; bvh.roots().len()];
-        for own in bvh.instances().iter().filter(|own| own.count > 0) {
+        let mut users = alloc::vec![0_usize; view.roots().len()];
+        for own in view.instances().iter().filter(|own| own.count > 0) {
             found.instances += 1;
             found.lights += own.count as usize;
             users[own.blas as usize] += 1;

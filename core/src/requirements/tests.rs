@@ -27,7 +27,7 @@ fn scene(flags: u32, instances: u32) -> LightBvh {
         bvh.set_radiance(own, [[1.0, 0.5, 0.0][k as usize % 3]; 3])
             .expect("a factor");
         if k == instances {
-            bvh.remove_instance(own).expect("there");
+            bvh.remove(own).expect("there");
         }
     }
     bvh

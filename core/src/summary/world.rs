@@ -1,4 +1,4 @@
-//! What is known of a mesh, in the world.
+//! Summaries of a mesh in the world.
 
 use glam::Vec3;
 

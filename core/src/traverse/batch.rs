@@ -39,10 +39,10 @@ pub(super) fn sample_batch<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver,
 
 /// Brings the first walks, one for each point, to their ends.
 #[inline(always)]
-fn turns<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
-    tree: &LightTree<'_, N, I, W>,
+fn turns<'a, N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
+    tree: &LightTree<'a, N, I, W>,
     points: &[P],
-    walks: &mut [Started<P>; TURNS],
+    walks: &mut [Started<'a, N, P>; TURNS],
 ) {
     let mut left = true;
     while left {
@@ -51,7 +51,7 @@ fn turns<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
             if !walk.walk.done {
                 walk.walk.step(tree, point);
                 left |= !walk.walk.done;
-                walk.walk.fetch_node(tree);
+                walk.walk.fetch_node();
             }
         }
     }

@@ -11,9 +11,9 @@ use crate::tree::LightTree;
 
 /// Walks that have come the same way.
 #[derive(Clone, Copy)]
-struct Group<P> {
+struct Group<'a, N, P> {
     /// Any of them.
-    started: Started<P>,
+    started: Started<'a, N, P>,
     /// The first of them; the numbers of all are in order, so others follow it.
     first: usize,
     count: usize,
@@ -34,7 +34,7 @@ pub(super) fn sample_spaced<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver
 ) {
     let mut first = first;
     for together in sampled.chunks_mut(TOGETHER) {
-        // What is on the stack is written first, which few walks would not be worth.
+        // Few walks are not worth writing the stack.
         match together {
             [one] => *one = sample(tree, point, random.spaced(first, count)),
             few if few.len() <= 8 => by_rows::<N, I, P, W, 8>(tree, point, random, first, count, few),
@@ -148,7 +148,7 @@ fn in_rows<
                     let sampled = child.started.end(tree);
                     out[child.first..k].fill(sampled);
                 } else {
-                    child.started.walk.fetch_node(tree);
+                    child.started.walk.fetch_node();
                     next[left] = child;
                     left += 1;
                 }

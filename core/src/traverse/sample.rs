@@ -63,8 +63,8 @@ pub(super) fn sample<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const
 
 /// A walk, and what it was started for.
 #[derive(Clone, Copy)]
-pub(super) struct Started<P = ShadingPoint> {
-    pub walk: Walk<P>,
+pub(super) struct Started<'a, N, P = ShadingPoint> {
+    pub walk: Walk<'a, N, P>,
     /// The light of a uniform choice, or [`INVALID`].
     light: u32,
     /// Its instance, or [`INVALID`].
@@ -73,18 +73,18 @@ pub(super) struct Started<P = ShadingPoint> {
 
 /// Starts a walk by a random number: down the tree, or for a share of the numbers along the path to a light out of all alike.
 #[inline(always)]
-pub(super) fn begin<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
-    tree: &LightTree<'_, N, I, W>,
+pub(super) fn begin<'a, N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
+    tree: &LightTree<'a, N, I, W>,
     point: &P,
     random: Random64,
-) -> Started<P> {
+) -> Started<'a, N, P> {
     let taken = uniform_numbers::<N, I, P, W>();
     let (mut light, mut instance, mut path) = (INVALID, INVALID, Path::default());
     if taken > 0 && (random.high >> (32 - FULL_BITS)) < taken {
         // The numbers below `taken` are all numbers halved so often.
         let stretched = random.shifted(I::UNIFORM_HALVINGS);
         (light, instance) = uniform(tree, stretched);
-        path = tree.path_of(triangle_of(tree, light, instance), instance);
+        path = tree.path_of(mesh_light_of(tree, light, instance), instance);
     }
     Started {
         walk: Walk::start(tree, point, random, taken, light != INVALID, path),
@@ -93,13 +93,16 @@ pub(super) fn begin<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const 
     }
 }
 
-impl<P: Receiver> Started<P> {
+impl<'a, N, P: Receiver> Started<'a, N, P> {
     /// The light at the end of the walk.
     #[inline(always)]
-    pub fn end<N: Node<W>, I: ImportanceModel<N, W, P>, const W: usize>(
+    pub fn end<I: ImportanceModel<N, W, P>, const W: usize>(
         &self,
-        tree: &LightTree<'_, N, I, W>,
-    ) -> SampledLight {
+        tree: &LightTree<'a, N, I, W>,
+    ) -> SampledLight
+    where
+        N: Node<W>,
+    {
         let walk = &self.walk;
         let chosen = self.light != INVALID;
         // The path of an instance that is not in the tree yet leads to another one.
@@ -130,7 +133,7 @@ pub(super) fn pmf<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W:
 ) -> f32 {
     // A single level has one instance, whichever is named.
     let instance = if tree.live > 0 { instance } else { INVALID };
-    let triangle = triangle_of(tree, light, instance);
+    let triangle = mesh_light_of(tree, light, instance);
     let path = tree.path_of(triangle, instance);
     let number = Random64 { high: 0, low: 0 };
     let taken = uniform_numbers::<N, I, P, W>();
@@ -194,7 +197,7 @@ fn uniform_probability<N: Node<W>, I: ImportanceModel<N, W, P>, P, const W: usiz
     probability
 }
 
-/// A count to divide by. It stays below 2^31, also in hostile words: conversions from `u32` above are wrong on one device.
+/// A count to divide by. It stays below 2^31, also in malformed words: conversions from `u32` above are wrong on one device.
 #[inline(always)]
 fn at_least_one(count: u32) -> f32 {
     let bounded = count & 0x7fff_ffff;
@@ -202,7 +205,7 @@ fn at_least_one(count: u32) -> f32 {
 }
 
 #[inline(always)]
-fn triangle_of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, light: u32, instance: u32) -> u32 {
+fn mesh_light_of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, light: u32, instance: u32) -> u32 {
     if instance < tree.instances.len() as u32 && tree.live > 0 {
         tree.instances[instance as usize].triangle_of(light)
     } else {

@@ -1,5 +1,8 @@
 //! One walk from the root to a light, chosen by a number or along a known path.
 
+#[cfg(target_arch = "spirv")]
+use core::marker::PhantomData;
+
 use crate::beam::Space;
 use crate::choose::{FULL, FULL_BITS, Share, choose};
 use crate::exact;
@@ -20,7 +23,12 @@ const MOST_HALVINGS: u32 = 98;
 /// (2^21, 2^22]. Each choice cuts the range down to the child's share and doubles it until it is that long again, bits of
 /// the number following in from below. So the range and the count of doublings are the probability, exactly.
 #[derive(Clone, Copy)]
-pub(super) struct Walk<P = ShadingPoint> {
+pub(super) struct Walk<'a, N, P = ShadingPoint> {
+    /// The nodes of the tree that it is in. Selected once, for each step waits for them; a device has one buffer, and keeps no pointers.
+    #[cfg(not(target_arch = "spirv"))]
+    nodes: &'a [N],
+    #[cfg(target_arch = "spirv")]
+    nodes: PhantomData<&'a [N]>,
     /// The node to look at.
     pub index: u32,
     /// The triangle reached, or [`INVALID`].
@@ -44,11 +52,11 @@ pub(super) struct Walk<P = ShadingPoint> {
     steps: u32,
 }
 
-impl<P: Receiver> Walk<P> {
+impl<'a, N, P: Receiver> Walk<'a, N, P> {
     /// At the root, with the numbers from `taken` on; the others chose another way to a light. With `follow` along `path`.
     #[inline(always)]
-    pub fn start<N, I, const W: usize>(
-        tree: &LightTree<'_, N, I, W>,
+    pub fn start<I, const W: usize>(
+        tree: &LightTree<'a, N, I, W>,
         point: &P,
         number: Random64,
         taken: u32,
@@ -56,6 +64,10 @@ impl<P: Receiver> Walk<P> {
         path: Path,
     ) -> Self {
         let mut walk = Self {
+            #[cfg(not(target_arch = "spirv"))]
+            nodes: tree.top,
+            #[cfg(target_arch = "spirv")]
+            nodes: PhantomData,
             index: tree.root.wrapping_add(tree.first),
             triangle: INVALID,
             instance: INVALID,
@@ -76,11 +88,13 @@ impl<P: Receiver> Walk<P> {
 
     /// Goes one node down. `world` is the point in the world.
     #[inline(always)]
-    pub fn step<N: Node<W>, I: ImportanceModel<N, W, P>, const W: usize>(
+    pub fn step<I: ImportanceModel<N, W, P>, const W: usize>(
         &mut self,
-        tree: &LightTree<'_, N, I, W>,
+        tree: &LightTree<'a, N, I, W>,
         world: &P,
-    ) {
+    ) where
+        N: Node<W>,
+    {
         let node = self.node(tree);
         let weights = I::weights_in(node, &self.point, self.space);
         let share = choose(
@@ -93,10 +107,21 @@ impl<P: Receiver> Walk<P> {
         self.descend(tree, world, node, share);
     }
 
-    /// The node to look at. An index out of range (hostile words) reads node 0.
+    /// The node to look at. An index out of range (malformed words) reads node 0.
     #[inline(always)]
-    pub fn node<'a, N, I, const W: usize>(&self, tree: &LightTree<'a, N, I, W>) -> &'a N {
-        tree.node(self.is_above::<W>(), self.index)
+    pub fn node<I, const W: usize>(&self, tree: &LightTree<'a, N, I, W>) -> &'a N {
+        let nodes = self.nodes(tree);
+        let valid = self.index < nodes.len() as u32;
+        &nodes[if valid { self.index as usize } else { 0 }]
+    }
+
+    /// The nodes of the tree that it is in; on a device those of all trees.
+    #[inline(always)]
+    fn nodes<I, const W: usize>(&self, _tree: &LightTree<'a, N, I, W>) -> &'a [N] {
+        #[cfg(target_arch = "spirv")]
+        return _tree.nodes;
+        #[cfg(not(target_arch = "spirv"))]
+        self.nodes
     }
 
     /// Whether it is in the tree that it started in.
@@ -107,17 +132,12 @@ impl<P: Receiver> Walk<P> {
 
     /// Asks for the node to look at early.
     #[inline(always)]
-    pub fn fetch_node<N: Node<W>, I, const W: usize>(&self, tree: &LightTree<'_, N, I, W>) {
+    pub fn fetch_node(&self)
+    where
+        N: bytemuck::Pod,
+    {
         #[cfg(not(target_arch = "spirv"))]
-        crate::prefetch::fetch(
-            if self.is_above::<W>() {
-                tree.top
-            } else {
-                tree.nodes
-            },
-            self.index,
-        );
-        let _ = tree;
+        crate::prefetch::fetch(self.nodes, self.index);
     }
 
     /// The child that the path to follow takes.
@@ -128,15 +148,18 @@ impl<P: Receiver> Walk<P> {
 
     /// Goes to the child of `node` that has `share`. An index out of range ends the walk. Returns how often the range was doubled.
     #[inline(always)]
-    pub fn descend<N: Node<W>, I: ImportanceModel<N, W, P>, const W: usize>(
+    pub fn descend<I, const W: usize>(
         &mut self,
-        tree: &LightTree<'_, N, I, W>,
+        tree: &LightTree<'a, N, I, W>,
         world: &P,
         node: &N,
         share: Share,
-    ) -> u32 {
+    ) -> u32
+    where
+        N: Node<W>,
+    {
         let is_above = self.is_above::<W>();
-        let valid = tree.has_node(is_above, self.index);
+        let valid = self.index < self.nodes(tree).len() as u32;
         let slot = share.slot as usize;
         let (to, link) = (node.kind(slot), node.link(slot));
         let passes = valid & (share.count > 0) & (share.count <= self.range);
@@ -144,7 +167,7 @@ impl<P: Receiver> Walk<P> {
         let doublings = self.narrow(share.first, count);
 
         let levels = max_levels(W);
-        // Running off the end of a tree's levels (hostile words only) must not look like the next tree's first level.
+        // Running off the end of a tree's levels (malformed words only) must not look like the next tree's first level.
         let last_of_tree = self.position + 1 == levels || self.position + 1 == 2 * levels;
         let (leaf, part) = leaf_parts(link);
         let enters = passes & (to == kind::MESH) & is_above & (leaf < tree.instances.len() as u32);
@@ -157,6 +180,10 @@ impl<P: Receiver> Walk<P> {
             let instance = &tree.instances[leaf as usize];
             self.instance = leaf;
             self.index = instance.root;
+            #[cfg(not(target_arch = "spirv"))]
+            {
+                self.nodes = tree.nodes;
+            }
             // Its mesh is one light.
             let is_alone = instance.root == INVALID;
             self.triangle = if is_alone { instance.first_light } else { INVALID };
@@ -164,7 +191,7 @@ impl<P: Receiver> Walk<P> {
             self.position = levels;
             if part > 0 {
                 // A part begins one level below the root.
-                self.index = tree.node(false, self.index).link((part as usize - 1) % W);
+                self.index = self.node(tree).link((part as usize - 1) % W);
                 self.position += 1;
             }
             self.point = world.to_local(instance);

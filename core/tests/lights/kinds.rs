@@ -4,7 +4,7 @@
 use crate::kit::Random;
 use lightbvh::exact::hash;
 use lightbvh::light::{AnyLight, Light};
-use lightbvh::{Bvh, Defensive, MomentNode, Moments, Random64, Rebuilder, ShadingPoint, Transform};
+use lightbvh::{Bvh, Defensive, Edit, MomentNode, Moments, Random64, Rebuilder, ShadingPoint, Transform};
 
 type Tree = Bvh<(MomentNode<8, AnyLight>, Defensive<Moments, 6>)>;
 
@@ -45,13 +45,13 @@ fn sent(light: &AnyLight, point: &ShadingPoint, random: &mut Random) -> f64 {
 }
 
 fn check_sampling(name: &str, bvh: &Tree, random: &mut Random) {
-    bvh.validate().unwrap_or_else(|error| panic!("{name}: {error}"));
-    let world = bvh.world_lights();
+    bvh.view().validate().expect(name);
+    let world = bvh.view().world_lights();
     for _ in 0..6 {
         let point = random.point(22.0);
         let (mut sum, mut expected, mut squares) = (0.0, 0.0, 0.0);
         for (light, own) in (0..).zip(&world).filter(|(_, own)| own.mesh() != u32::MAX) {
-            let pmf = f64::from(bvh.pmf(&point, light, own.mesh()));
+            let pmf = f64::from(bvh.tree().pmf(&point, light, own.mesh()));
             assert!(
                 !own.has_flux() || pmf > 0.0,
                 "{name}: light {light} is lost at {point:?}"
@@ -68,10 +68,10 @@ fn check_sampling(name: &str, bvh: &Tree, random: &mut Random) {
         const SAMPLES: u32 = 20_000;
         let mut mean = 0.0;
         for _ in 0..SAMPLES {
-            let sampled = bvh.sample(&point, Random64::from(random.word()));
-            let pmf = bvh.pmf(&point, sampled.light, sampled.instance);
+            let sampled = bvh.tree().sample(&point, Random64::from(random.word()));
+            let pmf = bvh.tree().pmf(&point, sampled.light, sampled.instance);
             assert_eq!(sampled.pmf.to_bits(), pmf.to_bits(), "{name}");
-            let light = bvh.light(sampled.light, sampled.instance).expect("a light");
+            let light = bvh.owner(&sampled).expect("a light").light;
             mean += sent(&light, &point, random) / f64::from(pmf) / f64::from(SAMPLES);
         }
         let deviation = (squares / f64::from(SAMPLES)).sqrt();
@@ -98,17 +98,16 @@ fn each_kind_alone_and_all_in_one_tree() {
         let mut rebuilder = Rebuilder::default();
         for _ in 0..12 {
             rebuilder.begin_frame(&mut bvh).expect("no panic");
-            let ids: Vec<_> = (0..bvh.instances().len() as u32)
-                .filter_map(|k| bvh.instance_id(k))
-                .collect();
+            let ids: Vec<_> = bvh.view().instance_ids().collect();
             let id = ids[random.below(ids.len() as u32) as usize];
             bvh.set_transform(id, place(random)).expect("in the domain");
-            let mesh = bvh.mesh_of(id).expect("a mesh");
+            let mesh = bvh.view().mesh_of(id).expect("a mesh");
             let new = (0..PER_MESH).map(|_| light(random)).collect();
-            bvh.set_lights(mesh, new).expect("as many");
-            bvh.set_light_range(mesh, 3, vec![light(random)])
+            let (first, lights) = (3, vec![light(random)]);
+            let some = Edit::SetLightRange { mesh, first, lights };
+            bvh.apply(vec![Edit::SetLights { mesh, lights: new }, some])
                 .expect("in the mesh");
-            bvh.remove_instance(id).expect("it is there");
+            bvh.remove(id).expect("it is there");
             bvh.add_instance(mesh, place(random)).expect("in the domain");
             bvh.refit();
             rebuilder.end_frame(&bvh);
@@ -116,7 +115,7 @@ fn each_kind_alone_and_all_in_one_tree() {
         check_sampling(name, &bvh, random);
         let words = bvh.to_words();
         let read = Tree::from_words(&words).unwrap_or_else(|error| panic!("{name}: {error}"));
-        assert_eq!(read.world_lights(), bvh.world_lights(), "{name}");
+        assert_eq!(read.view().world_lights(), bvh.view().world_lights(), "{name}");
         assert!(read.to_words() == words, "{name}");
         let error = lightbvh::LightBvh::from_words(&words).expect_err("of another kind");
         assert!(error.to_string().contains("emissive triangle"), "{error}");
@@ -144,8 +143,9 @@ fn any_light_is_its_kind() {
         let mut bvh = Tree::default();
         let mesh = bvh.add_mesh(vec![any]).expect("in the domain");
         bvh.add_instance(mesh, place(random)).expect("in the domain");
-        let world = any.in_world(&bvh.instances()[0], 5);
-        assert_eq!(L::try_from(world), Ok(own.in_world(&bvh.instances()[0], 5)));
+        let instance = &bvh.view().instances()[0];
+        let world = any.in_world(instance, 5);
+        assert_eq!(L::try_from(world), Ok(own.in_world(instance, 5)));
     }
     let random = &mut Random(hash(3));
     for _ in 0..200 {

@@ -10,7 +10,7 @@ use lightbvh::light::{AnyLight, Light};
 use lightbvh::node::{LinkedSpotMomentNode, Node, SpotMomentNode};
 use lightbvh::tree::{LightTree, OPENED};
 use lightbvh::{
-    BuildParams, Bvh, Flux, Glossy, GlossyPoint, ImportanceModel, Instance, InstanceId, Lights, MeshId,
+    BuildParams, Bvh, Edit, Flux, Glossy, GlossyPoint, ImportanceModel, Instance, InstanceId, Lights, MeshId,
     MomentNode, Moments, Random64, Rebuilder, Receiver, SampledLight, ShadingPoint, Transform,
 };
 
@@ -78,12 +78,13 @@ struct Known {
 
 fn known(bvh: &Tree) -> Vec<Known> {
     let mut all = Vec::new();
-    for id in (0..bvh.instances().len() as u32).filter_map(|k| bvh.instance_id(k)) {
-        let mesh = bvh.mesh_of(id).expect("of an instance");
-        let own = bvh.mesh_lights(mesh).expect("of a mesh");
-        let Instance { radiance, mask, .. } = bvh.instances()[id.index() as usize];
+    let view = bvh.view();
+    for id in view.instance_ids() {
+        let mesh = view.mesh_of(id).expect("of an instance");
+        let own = view.mesh_lights(mesh).expect("of a mesh");
+        let Instance { radiance, mask, .. } = view.instances()[id.index() as usize];
         let is_on = radiance.iter().any(|&x| x > 0.0);
-        let numbers = bvh.lights_of(id).expect("of an instance");
+        let numbers = view.lights_of(id).expect("of an instance");
         all.extend(numbers.zip(own).map(|(light, own)| Known {
             light,
             instance: id.index(),
@@ -159,14 +160,15 @@ fn check<N: Node<8>, I: ImportanceModel<N, 8, LinkedPoint<P>>, P: Receiver>(
 
 /// The same for receivers of every kind in the bright, masked-out light `near`.
 fn check_all(bvh: &Tree, receivers: u32, random: &mut Random, seen: &mut Seen) {
-    bvh.validate().expect("nodes are what refit makes");
+    bvh.view().validate().expect("nodes are what refit makes");
     let known = known(bvh);
     for _ in 0..receivers {
         let receiver = random.receiver(32.0);
         check(&bvh.tree(), &known, &receiver, random, seen);
     }
     let near = known.get(random.below(known.len().max(1) as u32) as usize);
-    let Some((own, light)) = near.and_then(|own| Some((own, bvh.light(own.light, own.instance)?))) else {
+    let Some((own, light)) = near.and_then(|own| Some((own, bvh.view().light(own.light, own.instance)?)))
+    else {
         return;
     };
     macro_rules! check_by {
@@ -174,7 +176,7 @@ fn check_all(bvh: &Tree, receivers: u32, random: &mut Random, seen: &mut Seen) {
             let (point, mask) = ($point, !own.mask);
             let receiver = LinkedPoint { point, mask };
             check(
-                &bvh.by::<Linked<$importance>>(),
+                &bvh.tree().by::<Linked<$importance>>(),
                 &known,
                 &receiver,
                 random,
@@ -234,19 +236,20 @@ fn two_levels_go_on_by_edits() {
         for frame in 0..30 {
             rebuilder.begin_frame(&mut bvh).expect("no panic");
             let at = random.below(ids.len() as u32) as usize;
-            let mesh = bvh.mesh_of(ids[at]).expect("a mesh");
-            let count = bvh.mesh_lights(mesh).expect("a mesh").len() as u32;
+            let mesh = bvh.view().mesh_of(ids[at]).expect("a mesh");
+            let count = bvh.view().mesh_lights(mesh).expect("a mesh").len() as u32;
             match random.below(7) {
                 0 => bvh.set_transform(ids[at], random.place()).expect("in the domain"),
                 1 => bvh.set_radiance(ids[at], random.factor()).expect("a factor"),
                 2 | 3 => {
                     let first = random.below(count);
                     let some = 1 + random.below(count - first);
-                    bvh.set_light_range(mesh, first, lights(random, some))
+                    let lights = lights(random, some);
+                    bvh.apply(vec![Edit::SetLightRange { mesh, first, lights }])
                         .expect("in the mesh");
                 }
                 4 if ids.len() > 2 => {
-                    bvh.remove_instance(ids.swap_remove(at)).expect("it is there");
+                    bvh.remove(ids.swap_remove(at)).expect("it is there");
                 }
                 5 => bvh.set_mask(ids[at], random.mask()).expect("an instance"),
                 _ => ids.push(put(&mut bvh, mesh, random)),
@@ -286,8 +289,9 @@ fn masks_that_allow_all_change_nothing() {
         Bvh::single_level(&lights, &BuildParams::default());
     // The words of a node but for the last row are those without masks.
     let row = size_of::<[u32; 8]>();
-    assert_eq!(plain.nodes().len(), masked.nodes().len());
-    for (a, b) in plain.nodes().iter().zip(masked.nodes()) {
+    let (a, b) = (plain.view().nodes(), masked.view().nodes());
+    assert_eq!(a.len(), b.len());
+    for (a, b) in a.iter().zip(b) {
         let b = bytemuck::bytes_of(b);
         assert_eq!(bytemuck::bytes_of(a), &b[..b.len() - row]);
     }
@@ -295,12 +299,13 @@ fn masks_that_allow_all_change_nothing() {
         let mut receiver = random.receiver(2.0);
         receiver.mask |= 1 << (k % 32);
         let number = random.word();
+        let (plain, masked) = (plain.tree(), masked.tree());
         let sampled = plain.sample(&receiver.point, number);
         assert_eq!(sampled, masked.sample(&receiver, number));
         assert_eq!(sampled, masked.by::<Moments>().sample(&receiver.point, number));
         assert_eq!(
             plain.pmf(&receiver.point, k % 700, 0).to_bits(),
-            masked.tree().pmf(&receiver, k % 700, 0).to_bits()
+            masked.pmf(&receiver, k % 700, 0).to_bits()
         );
     }
 }
@@ -318,8 +323,8 @@ fn least_shares_bound_probabilities() {
     bvh.refit();
     // What is raised adds to the sum; shares are whole numbers of 2^21 at least.
     let of_node = LEAST / (1.0 + 8.0 * LEAST) - 2f64.powi(-20);
-    let bound = of_node.powi(bvh.depth() as i32);
-    let tree = bvh.by::<Linked<Leveled<Moments, 9>>>();
+    let bound = of_node.powi(bvh.view().depth() as i32);
+    let tree = bvh.tree().by::<Linked<Leveled<Moments, 9>>>();
     let mut below = 0;
     for _ in 0..40 {
         let receiver = random.receiver(30.0);

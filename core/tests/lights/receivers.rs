@@ -5,9 +5,11 @@ use glam::Vec3;
 use lightbvh::error::DomainError;
 use lightbvh::exact::{self, hash, pow2};
 use lightbvh::importance::{
-    Flux, Glossy, ImportanceModel, RaySegment, Receiver, Subtended, Transmissive, TransmissivePoint,
+    Flux, Glossy, ImportanceModel, Linked, LinkedPoint, RaySegment, Receiver, Subtended, Transmissive,
+    TransmissivePoint,
 };
-use lightbvh::node::kind;
+use lightbvh::node::{LinkedSpotMomentNode, kind};
+use lightbvh::tree::Model;
 use lightbvh::{
     BuildParams, Bvh, CompactNode, EmissiveTriangle, Eq4, GlossyPoint, LightMoments, LightNode, MomentNode,
     Moments, Node, ShadingPoint, Transform,
@@ -121,11 +123,11 @@ where
             bvh
         };
         let turned = placed(mesh, map);
-        let world = placed(turned.world_lights(), Transform::IDENTITY);
+        let world = placed(turned.view().world_lights(), Transform::IDENTITY);
         for _ in 0..8 {
             let receiver = receiver(random);
             for light in 0..8 {
-                let [a, b] = [&turned, &world].map(|bvh| bvh.by::<I>().pmf(&receiver, light, 0));
+                let [a, b] = [&turned, &world].map(|bvh| bvh.tree().by::<I>().pmf(&receiver, light, 0));
                 off += f64::from(exact::abs(a - b));
                 count += 1.0;
                 sharp += u32::from(b > 0.7);
@@ -186,7 +188,7 @@ fn weights_are_sums<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>()
             _ => f64::from(part) / f64::from(greatest),
         });
         let rounding = if front * back == 0.0 { 0.0 } else { 4e-7 };
-        for node in bvh.nodes() {
+        for node in bvh.view().nodes() {
             let found = Transmissive::<I>::weights(node, &receiver);
             let (w, v) = (I::weights(node, &receiver.point), I::weights(node, &turned));
             for slot in 0..W {
@@ -414,5 +416,78 @@ fn receivers_are_checked() {
                 "coordinate y of the shading point",
             );
         }
+    }
+}
+
+/// Whether a light is chosen for the receiver: samples and probabilities agree.
+fn has_light<M: Model<8, Light = EmissiveTriangle>, P: Receiver>(receiver: &P) -> bool
+where
+    M::Importance: ImportanceModel<M::Node, 8, P>,
+{
+    let mut bvh = Bvh::<M>::default();
+    let lamp = EmissiveTriangle {
+        p: [[0.0, 3.0, 0.0], [0.0, 3.0, 1.0], [1.0, 3.0, 0.0]],
+        radiance: [1.0; 3],
+        mesh: 0,
+        flags: 1,
+    };
+    let id = bvh.add_light(lamp).expect("in the domain");
+    bvh.refit();
+    let sampled = bvh.sample(receiver, 7_u32);
+    let pmf = bvh.pmf(receiver, id, 0);
+    assert_eq!(sampled.map(|own| own.pmf), pmf);
+    assert_eq!(bvh.pmf(receiver, id, 1), None);
+    pmf.is_some()
+}
+
+/// A light for each sound receiver, and none for one that is not finite, not normalized, or beyond its ranges.
+#[test]
+fn wrong_receivers_get_no_light() {
+    type Of<I> = (MomentNode<8>, I);
+    let (here, up) = ([0.0, 1.0, 0.0], [0.0, 1.0, 0.0]);
+    let of = |p, n| ShadingPoint { p, n };
+    let glossy = |point, mirror, [diffuse, specular, exponent]: [f32; 3]| {
+        has_light::<Of<Glossy<Moments>>, _>(&GlossyPoint {
+            point,
+            mirror,
+            diffuse,
+            specular,
+            exponent,
+        })
+    };
+    let leaf = |point, [front, back]: [f32; 2]| {
+        has_light::<Of<Transmissive<Moments>>, _>(&TransmissivePoint { point, front, back })
+    };
+    for (point, is_sound) in [
+        (of(here, up), true),
+        (of(here, [0.0; 3]), true),
+        (of([f32::NAN, 0.0, 0.0], up), false),
+        (of([0.0, f32::INFINITY, 0.0], up), false),
+        (of([0.0, 0.0, -1.0e19], up), false),
+        (of(here, [0.0, 1.1, 0.0]), false),
+        (of(here, [f32::NAN; 3]), false),
+    ] {
+        let masked = LinkedPoint { point, mask: 1 };
+        let found = [
+            has_light::<Of<Moments>, _>(&point),
+            has_light::<(LinkedSpotMomentNode<8>, Linked<Moments>), _>(&masked),
+            glossy(point, up, [0.5, 0.5, 8.0]),
+            leaf(point, [0.5; 2]),
+        ];
+        assert_eq!(found, [is_sound; 4], "{point:?}");
+        // A segment has no normal.
+        for [from, to] in [[point.p, here], [here, point.p]] {
+            let found = has_light::<Of<Subtended>, _>(&RaySegment { from, to });
+            assert_eq!(found, point.p == here, "{point:?}");
+        }
+    }
+    for wrong in [f32::NAN, -1.0, f32::INFINITY] {
+        assert!(!glossy(of(here, up), [wrong; 3], [0.5, 0.5, 8.0]));
+        for k in 0..3 {
+            let mut parts = [0.5, 0.5, 8.0];
+            parts[k] = wrong;
+            assert!(!glossy(of(here, up), up, parts), "{parts:?}");
+        }
+        assert!(!leaf(of(here, up), [wrong, 0.5]) && !leaf(of(here, up), [0.5, wrong]));
     }
 }

@@ -11,10 +11,10 @@ fn two_sided_moments_lose_no_light() {
     let random = &mut Random(3);
     let lights = room(random);
     let bvh = Bvh::<(TwoSidedMomentNode<8>, Moments)>::two_level(&lights, &BuildParams::default());
-    bvh.validate().expect("nodes are what refit makes");
+    bvh.view().validate().expect("nodes are what refit makes");
     for _ in 0..100 {
         let point = random.point(8.0);
-        let of = |(light, own): (u32, &EmissiveTriangle)| bvh.pmf(&point, light, own.mesh);
+        let of = |(light, own): (u32, &EmissiveTriangle)| bvh.tree().pmf(&point, light, own.mesh);
         let pmfs: Vec<f32> = (0..).zip(lights.all()).map(of).collect();
         assert!(pmfs.iter().all(|&pmf| pmf > 0.0), "{point:?}");
         let sum: f64 = pmfs.into_iter().map(f64::from).sum();

@@ -142,17 +142,18 @@ fn sent(light: &AnyLight, p: [f32; 3]) -> f32 {
     light.point_for(Vec3::from(p), [0.5; 2]).radiance.iter().sum()
 }
 
+fn light_of(bvh: &Tree, own: &Told) -> AnyLight {
+    world_light(bvh.view().lights(), bvh.tree().instances, own.light, own.instance)
+}
+
 fn sends(bvh: &Tree, own: &Told, p: [f32; 3]) -> bool {
-    sent(
-        &world_light(bvh.lights(), bvh.instances(), own.light, own.instance),
-        p,
-    ) > 0.0
+    sent(&light_of(bvh, own), p) > 0.0
 }
 
 /// The least that a beam may leave of the weight of a light that reaches `p`: nearly all of it, or of one that fades by its range
 /// the square of a fourth of what the range leaves of its light.
 fn left(bvh: &Tree, own: &Told, p: [f32; 3]) -> f32 {
-    let light = world_light(bvh.lights(), bvh.instances(), own.light, own.instance);
+    let light = light_of(bvh, own);
     match SpotLight::try_from(light) {
         Ok(spot) if spot.range > 0.0 => {
             let whole = SpotLight { range: 0.0, ..spot };
@@ -175,7 +176,7 @@ impl Seen {
     /// Points in, at the edge of and next to the cones and the ranges of lights of `bvh`, at any distance: no light that shines there is
     /// told not to.
     fn check(&mut self, bvh: &Tree, scale: f32, random: &mut Random, points: u32) {
-        let world = bvh.world_lights();
+        let world = bvh.view().world_lights();
         for _ in 0..points {
             let about = world[random.below(world.len() as u32) as usize];
             let mut point = random.point(2.0 * scale);
@@ -217,7 +218,7 @@ fn put(bvh: &mut Tree, own: Vec<AnyLight>, place: Transform) {
 }
 
 #[test]
-fn no_light_that_reaches_a_point_is_told_not_to() {
+fn lit_points_keep_weight() {
     let mut seen = Seen::default();
     for seed in 0..40 {
         let random = &mut Random(1000 * seed + 3);
@@ -333,7 +334,7 @@ fn where_no_beam_counts_samples_are_those_without() {
             let point = random.point(8.0);
             assert_eq!(with.sample(&point, hash(k)), without.sample(&point, hash(k)));
         }
-        let mut placed = with.instances().iter().filter(|own| own.count > 0);
+        let mut placed = with.view().instances().iter().filter(|own| own.count > 0);
         assert!(placed.all(|own| own.is_even() != has_spots));
     }
 }
@@ -344,7 +345,7 @@ fn points_in_a_cone_see_how_bright_it_is() {
     let share = |own: Vec<AnyLight>, x: f32| {
         let lights = Lights::new(own).expect("in the domain");
         let bvh = Tree::single_level(&lights, &BuildParams::default());
-        bvh.pmf(&floor(x, 0.0), 0, u32::MAX)
+        bvh.tree().pmf(&floor(x, 0.0), 0, u32::MAX)
     };
     let spot = |x: f32, angle: f32| down([x, 0.0, 4.0], 5.0, angle);
     for angle in [2.0_f32, 10.0, 25.0, 50.0] {
@@ -405,12 +406,12 @@ fn points_out_of_range_are_seldom_chosen() {
     let (mut second, mut second_without) = (0.0, 0.0);
     for _ in 0..200 {
         let point = floor(100.0 * random.signed(), 100.0 * random.signed());
-        second += second_moment(&own, &point, |k| with.pmf(&point, k, u32::MAX));
-        second_without += second_moment(&own, &point, |k| without.pmf(&point, k, u32::MAX));
+        second += second_moment(&own, &point, |k| with.tree().pmf(&point, k, u32::MAX));
+        second_without += second_moment(&own, &point, |k| without.tree().pmf(&point, k, u32::MAX));
         let dark = (0..).zip(&own).filter(|(_, light)| sent(light, point.p) == 0.0);
         for (k, _) in dark {
-            lost += f64::from(with.pmf(&point, k, u32::MAX));
-            lost_without += f64::from(without.pmf(&point, k, u32::MAX));
+            lost += f64::from(with.tree().pmf(&point, k, u32::MAX));
+            lost_without += f64::from(without.tree().pmf(&point, k, u32::MAX));
         }
     }
     let found = [lost, lost_without, second, second_without].map(|sum| sum / points);

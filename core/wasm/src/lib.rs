@@ -57,19 +57,19 @@ where
             let transform = Transform::at(random.vector(9.0));
             bvh.add_instance(mesh, transform).expect("in the domain");
         }
-        let index = random.bits() % bvh.instances().len() as u32;
-        if let Some(instance) = bvh.instance_id(index) {
+        let index = random.bits() % bvh.view().instances().len() as u32;
+        if let Some(instance) = bvh.view().instance_id(index) {
             let mut transform = Transform::at(random.vector(9.0));
             transform.columns[0] = random.vector(1.0);
             let edit = Edit::SetTransform { instance, transform };
             bvh.apply(vec![edit]).expect("in the domain");
             if frame % 5 == 0 {
-                bvh.remove_instance(instance).expect("it is there");
+                bvh.remove(instance).expect("it is there");
             }
         }
-        if let Some(mesh) = bvh.mesh_id(frame / 2) {
+        if let Some(mesh) = bvh.view().mesh_id(frame / 2) {
             let bent = triangles(random, 1 + frame / 2);
-            bvh.set_lights(mesh, bent).expect("as many");
+            bvh.apply(vec![Edit::SetLights { mesh, lights: bent }]).expect("as many");
         }
         bvh.refit();
         rebuilder.end_frame(&bvh);
@@ -112,8 +112,8 @@ where
             p: random.vector(10.0),
             n: [0.0, 1.0, 0.0],
         };
-        let sampled = bvh.sample(&point, random.bits());
-        let pmf = bvh.pmf(&point, sampled.light, sampled.instance);
+        let sampled = bvh.tree().sample(&point, random.bits());
+        let pmf = bvh.tree().pmf(&point, sampled.light, sampled.instance);
         for word in [sampled.light, sampled.instance, sampled.pmf.to_bits(), pmf.to_bits()] {
             digest = hash(digest ^ word);
         }

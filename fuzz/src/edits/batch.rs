@@ -128,12 +128,12 @@ fn assert_same<N: LightNode<W> + std::fmt::Debug, const W: usize>(
     fn words<T: bytemuck::NoUninit>(list: &[T]) -> &[u8] {
         bytemuck::cast_slice(list)
     }
-    assert_eq!(words(before.nodes()), words(after.nodes()));
-    assert_eq!(words(before.top_nodes()), words(after.top_nodes()));
-    assert_eq!(words(before.instances()), words(after.instances()));
-    assert_eq!(words(before.lights()), words(after.lights()));
-    assert_eq!(words(before.roots()), words(after.roots()));
-    assert_eq!(before.removed_lights(), after.removed_lights());
+    assert_eq!(words(before.view().nodes()), words(after.view().nodes()));
+    assert_eq!(words(before.view().top_nodes()), words(after.view().top_nodes()));
+    assert_eq!(words(before.view().instances()), words(after.view().instances()));
+    assert_eq!(words(before.view().lights()), words(after.view().lights()));
+    assert_eq!(words(before.view().roots()), words(after.view().roots()));
+    assert_eq!(before.view().removed_lights(), after.view().removed_lights());
     if thorough {
         assert_eq!(format!("{before:?}"), format!("{after:?}"));
     }

@@ -48,14 +48,14 @@ impl Model {
 
     /// The scene's lights against the exact maps in `f64`.
     pub fn check_lights<N: LightNode<W>, const W: usize>(&self, scene: &Bvh<(N, ()), W>) {
-        let world = scene.world_lights();
+        let world = scene.view().world_lights();
         for placed in &self.instances {
-            let lights = scene.lights_of(placed.id).expect("it lives");
+            let lights = scene.view().lights_of(placed.id).expect("it lives");
             assert_eq!(lights, placed.lights, "numbers stay");
             let local = self.triangles(placed.mesh);
             assert_eq!(lights.len(), local.len());
             for (light, local) in lights.zip(local) {
-                let found = scene.light(light, placed.id.index()).expect("one of its lights");
+                let found = scene.view().light(light, placed.id.index()).expect("one of its lights");
                 assert_eq!(bytes(&found), bytes(&world[light as usize]));
                 assert_eq!(found.mesh, placed.id.index());
                 assert_eq!(found.flags, local.flags);

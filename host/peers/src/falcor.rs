@@ -3,11 +3,13 @@
 use core::array;
 
 use lightbvh::ShadingPoint;
+use lightbvh::device::sight::over_distance;
+use lightbvh::device::vector::{dot, is_zero};
 use lightbvh::exact;
 use lightbvh::importance::{ImportanceModel, Space, on_one_scale};
 use lightbvh::node::BoundsNode;
 
-use crate::sight::{FLOOR, Sight, dot, in_volume, over_distance};
+use crate::sight::{FLOOR, Sight};
 
 /// The importance of Falcor's `LightBVHSampler` with its default options: `computeImportance` and `boundCosineTerm`
 /// (`Source/Falcor/Rendering/Lights/LightBVHSampler.slang`; Moreau & Clarberg, Ray Tracing Gems, chapter 18, Eq. 17), cones
@@ -33,7 +35,7 @@ impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W> for Falcor {
             let facing = exact::max(sight.emitted(&cluster), 0.0);
             let orientation = if cluster.cos_theta_o > 0.0 { facing } else { 1.0 };
             let bounded = exact::max(sight.nearest(dot(n, sight.v)), 0.0);
-            let incident = if in_volume(n) { 1.0 } else { bounded };
+            let incident = if is_zero(n) { 1.0 } else { bounded };
             let half = exact::max(exact::max(cluster.extent.x, cluster.extent.y), cluster.extent.z);
             let squared = exact::max(sight.d_squared, half * half);
             let factor = exact::max(incident * orientation, FLOOR);

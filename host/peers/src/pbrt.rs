@@ -3,11 +3,13 @@
 use core::array;
 
 use lightbvh::ShadingPoint;
+use lightbvh::device::sight::{over_distance, root};
+use lightbvh::device::vector::{dot, is_zero};
 use lightbvh::exact;
 use lightbvh::importance::{ImportanceModel, Space, on_one_scale};
 use lightbvh::node::BoundsNode;
 
-use crate::sight::{FLOOR, Sight, dot, in_volume, over_distance, root};
+use crate::sight::{FLOOR, Sight};
 
 /// The importance of pbrt-v4's `BVHLightSampler`: `LightBounds::Importance` (`src/pbrt/lights.cpp`; Pharr, Jakob & Humphreys,
 /// Physically Based Rendering, 4th edition, section 12.6.3). On the layouts that hold bounds.
@@ -36,7 +38,7 @@ impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W> for Pbrt {
             let emitted = sight.emitted(&cluster);
             let reaches = emitted > 0.0;
             let bounded = sight.nearest(exact::abs(dot(n, sight.v)));
-            let incident = if in_volume(n) { 1.0 } else { bounded };
+            let incident = if is_zero(n) { 1.0 } else { bounded };
             let cosines = if reaches { emitted * incident } else { 0.0 };
             let squared = exact::max(sight.d_squared, root(cluster.radius_squared));
             over_distance(cluster.phi, squared, exact::max(cosines, FLOOR))

@@ -3,21 +3,14 @@
 use glam::Vec3;
 
 use lightbvh::ShadingPoint;
-use lightbvh::exact::{self, exponent, pow2, recip_rough, rsqrt_rough, significand};
-use lightbvh::importance::{Cluster, Scaled};
+use lightbvh::device::sight::{LEAST_ALONG, MIN_DISTANCE_SQUARED, offset, root};
+use lightbvh::device::vector::dot;
+use lightbvh::exact::{self, pow2, rsqrt_rough};
+use lightbvh::importance::Cluster;
 
 /// Least product of the cosines, 2^-10, as that of [`Eq4`](lightbvh::importance::Eq4): where a published bound is zero, or less, the lights
 /// keep this share of Φ/d², for a rounded bound is no proof.
 pub const FLOOR: f32 = pow2(-10);
-
-/// Squared distances count as at least this, m²: 2^-100.
-const MIN_DISTANCE_SQUARED: f32 = pow2(-100);
-
-/// Lengths along an axis count as zero below this, metres: their squares are then normal numbers.
-const LEAST_OFFSET: f32 = pow2(-62);
-/// Lengths along a direction count as zero below this, metres: 2^-25 of the least distance. No product of two lengths is then subnormal that a
-/// sum shows: where both are short, both across are about the distance.
-const LEAST_ALONG: f32 = pow2(-75);
 
 /// The direction of a box's centre, and a cone around the box: its angle is θ_u.
 ///
@@ -84,49 +77,4 @@ impl Sight {
             turned
         }
     }
-}
-
-/// `(ax bx + ay by) + az bz`.
-#[inline(always)]
-pub fn dot(a: Vec3, b: Vec3) -> f32 {
-    (a.x * b.x + a.y * b.y) + a.z * b.z
-}
-
-/// From the point to `center`, metres.
-#[inline(always)]
-fn offset(center: Vec3, point: &ShadingPoint) -> Vec3 {
-    let v = center - point.position();
-    let flush = |x| exact::flush(x, LEAST_OFFSET);
-    Vec3::new(flush(v.x), flush(v.y), flush(v.z))
-}
-
-/// Whether the point lies in a volume: its normal is zero.
-#[inline(always)]
-pub fn in_volume(n: Vec3) -> bool {
-    (n.x == 0.0) & (n.y == 0.0) & (n.z == 0.0)
-}
-
-/// Φ · `factor` / `squared`, exponents apart.
-#[inline(always)]
-pub fn over_distance(phi: f32, squared: f32, factor: f32) -> Scaled {
-    let bounded = exact::max(squared, MIN_DISTANCE_SQUARED);
-    let value = significand(phi) * recip_rough(significand(bounded)) * factor;
-    // The comparison also turns the NaN of hostile words into "no importance".
-    let shines = phi > 0.0;
-    if shines & (value > 0.0) {
-        Scaled {
-            significand: value,
-            exponent: exponent(phi) - exponent(bounded),
-        }
-    } else {
-        Scaled::ZERO
-    }
-}
-
-/// Square root by the rough reciprocal root; 2^-62 for anything below 2^-124.
-#[inline(always)]
-pub fn root(x: f32) -> f32 {
-    const LEAST: f32 = pow2(-124);
-    let bounded = exact::max(x, LEAST);
-    bounded * rsqrt_rough(bounded)
 }

@@ -1,68 +1,18 @@
 //! Both importances against their sources' formulas, with the departures that they state.
 
+#[path = "../../../core/src/kit/numbers.rs"]
+#[allow(dead_code, reason = "shared with the tests of core")]
+mod numbers;
 mod published;
 
 use glam::Vec3;
 use lightbvh::ShadingPoint;
-use lightbvh::exact::{hash, pow2, unit_f32};
 use lightbvh::importance::ImportanceModel;
 use lightbvh::node::{BoundsNode, CompactNode, LightBounds};
+use numbers::{Random, Wide, dot, minus, wide};
 use published::Seen;
 
 use crate::{Falcor, Pbrt};
-
-/// Hashes of 1, 2, 3 and so on after its seed.
-struct Random(u32);
-
-impl Random {
-    /// From 0 to 1.
-    fn unit(&mut self) -> f32 {
-        self.0 += 1;
-        unit_f32(hash(self.0))
-    }
-
-    fn below(&mut self, count: u32) -> u32 {
-        (self.unit() * count as f32) as u32
-    }
-
-    /// Components from -1 to 1.
-    fn vector(&mut self) -> Vec3 {
-        Vec3::from_array([0; 3].map(|_| 2.0 * self.unit() - 1.0))
-    }
-
-    /// Half extents of about `size`.
-    fn extents(&mut self, size: f32) -> Vec3 {
-        Vec3::from_array([0; 3].map(|_| self.unit())) * size
-    }
-
-    fn direction(&mut self) -> Vec3 {
-        loop {
-            let v = self.vector();
-            if (0.01..=1.0).contains(&v.length_squared()) {
-                return v.normalize();
-            }
-        }
-    }
-
-    /// From 2^`low` to 2^`high`, as often in each octave.
-    fn power(&mut self, low: i32, high: i32) -> f32 {
-        pow2(low + self.below((high - low) as u32) as i32) * (1.0 + self.unit())
-    }
-}
-
-type Wide = [f64; 3];
-
-fn wide(v: Vec3) -> Wide {
-    v.to_array().map(f64::from)
-}
-
-fn minus(a: Wide, b: Wide) -> Wide {
-    [0, 1, 2].map(|k| a[k] - b[k])
-}
-
-fn dot(a: Wide, b: Wide) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
 
 /// A light straight above the point, or anywhere about a point in a volume, that shines everywhere: its cosines are 1.
 fn known(point: &ShadingPoint, distance: f32) -> LightBounds {
@@ -82,7 +32,7 @@ fn known(point: &ShadingPoint, distance: f32) -> LightBounds {
 fn sight(random: &mut Random) -> (LightBounds, ShadingPoint) {
     let size = random.power(-20, 20);
     let distance = size * random.power(-3, 6);
-    let (center, extent) = (random.vector() * size, random.extents(size));
+    let (center, extent) = (random.vector() * size, (random.vector() + 1.0) * (0.5 * size));
     let theta_o = [0.0, 2.5, 2.5, core::f64::consts::PI][random.below(4) as usize] * f64::from(random.unit());
     let n = match random.below(4) {
         0 => Vec3::ZERO,

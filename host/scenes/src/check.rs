@@ -11,8 +11,8 @@ use super::camera::around;
 use super::error::{SceneError, malformed};
 use super::flush::flush_tiny;
 use super::model::{Channel, Interpolation, Material, Mesh, Node, Primitive, SceneData, emits};
-use super::paint::{MAX_SIDE, Paint, Picture};
 use super::scene::{Counts, Scene};
+use super::textures::{MAX_SIDE, MaterialTextures, Picture};
 use super::transform::Transform;
 
 /// Most triangles of a frame, over all instances: 2^26, some 3 GiB of records, well inside 32-bit indices.
@@ -40,8 +40,8 @@ impl Scene {
         }
         for (index, material) in data.materials.iter().enumerate() {
             check.material(index, material)?;
-            if let Some(paint) = &material.paint {
-                check.paint(index, paint, data.pictures.len())?;
+            if let Some(textures) = &material.textures {
+                check.textures(index, textures, data.pictures.len())?;
             }
         }
         for (m, mesh) in data.meshes.iter().enumerate() {
@@ -147,17 +147,17 @@ impl Check<'_> {
         self.length(name, picture.texels.len(), 4 * texels)
     }
 
-    fn paint(&self, index: usize, paint: &Paint, pictures: usize) -> Result<(), SceneError> {
-        let name = |what: &str| format!("{what} of the paint of material {index}");
-        self.color(|| name("radiance"), paint.radiance)?;
+    fn textures(&self, index: usize, textures: &MaterialTextures, pictures: usize) -> Result<(), SceneError> {
+        let name = |what: &str| format!("{what} of the textures of material {index}");
+        self.color(|| name("radiance"), textures.radiance)?;
         self.within(
             || name("base colour or opacity"),
-            &paint.base,
+            &textures.base,
             0.0..=1.0,
             IS_SHARE,
         )?;
-        self.finite(|| name("cutoff"), &[paint.cutoff])?;
-        for (what, texture) in paint.textures() {
+        self.finite(|| name("cutoff"), &[textures.cutoff])?;
+        for (what, texture) in textures.all() {
             let picture = || name(&format!("picture of the {what}"));
             self.index(picture, texture.picture, pictures)?;
         }

@@ -52,10 +52,10 @@ pub(super) fn flush_tiny(data: &mut SceneData) {
     for material in &mut data.materials {
         flush_all(&mut material.radiance, MIN_RADIANCE);
         flush_all(&mut material.base_color, MIN_RADIANCE);
-        if let Some(paint) = &mut material.paint {
-            flush_all(&mut paint.radiance, MIN_RADIANCE);
-            flush_all(&mut paint.base, SMALLEST_FACTOR);
-            let textures = [&mut paint.base_texture, &mut paint.glow_texture];
+        if let Some(textures) = &mut material.textures {
+            flush_all(&mut textures.radiance, MIN_RADIANCE);
+            flush_all(&mut textures.base, SMALLEST_FACTOR);
+            let textures = [&mut textures.base_texture, &mut textures.glow_texture];
             for texture in textures.into_iter().flatten() {
                 place_all(texture.transform.as_flattened_mut());
             }

@@ -37,10 +37,10 @@ pub struct Frame {
     pub mesh_lights: Vec<MeshRange>,
     /// Lights by formula, numbered after those, and each a mesh light of its own after [`mesh_lights`](Self::mesh_lights).
     pub others: Vec<AnyLight>,
-    /// Where `triangles`, then `emissive` lie on textures; empty where nothing is painted.
+    /// Where `triangles`, then `emissive` lie on textures; empty without textures.
     pub corners: [Vec<Corner>; 2],
-    /// [`TextureArrays::words`](super::TextureArrays); empty where nothing is painted.
-    pub paint: Arc<Vec<u32>>,
+    /// [`TextureArrays::words`](super::TextureArrays); empty without textures.
+    pub textures: Arc<Vec<u32>>,
     /// By [`SurfaceTriangle::material`]; the last one of lights by formula, where there are any.
     pub materials: Vec<SurfaceMaterial>,
     /// Where the frame is seen from.
@@ -50,17 +50,17 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// What is painted on the triangles that `rays` are of.
+    /// Textures of the triangles that `rays` are of.
     pub fn textures(&self, rays: &RayBvh) -> TextureArrays {
-        if self.paint.is_empty() {
+        if self.textures.is_empty() {
             return TextureArrays::default();
         }
         let [surfaces, lights] = &self.corners;
-        let of = |&source: &u32| surfaces.get(source as usize).copied().unwrap_or(UNPAINTED);
+        let of = |&source: &u32| surfaces.get(source as usize).copied().unwrap_or(NO_CORNER);
         let surfaces = rays.sources().iter().map(of);
         TextureArrays {
             corners: surfaces.chain(lights.iter().copied()).collect(),
-            words: Arc::clone(&self.paint),
+            words: Arc::clone(&self.textures),
         }
     }
 
@@ -73,8 +73,8 @@ impl Frame {
     }
 }
 
-/// Where nothing is painted.
-pub(super) const UNPAINTED: Corner = Corner {
+/// Of a triangle without textures.
+pub(super) const NO_CORNER: Corner = Corner {
     uv: [[0.0; 2]; 3],
     material: NONE,
 };

@@ -11,8 +11,8 @@ use super::analytic::{AnalyticKind, AnalyticLight};
 use super::error::{SceneError, malformed};
 use super::gltf_in::{BACKGROUND_EXTRA, RADIANCE_ATTRIBUTE};
 use super::model::{Animation, Interpolation, Material, Primitive, Property};
-use super::paint::Picture;
 use super::scene::Scene;
+use super::textures::Picture;
 use super::transform::Transform;
 
 /// The extension for lights by formula.

@@ -7,8 +7,8 @@ use std::rc::Rc;
 
 use super::error::SceneError;
 use super::files::Load;
-use super::paint::{Picture, Texture};
 use super::shown::Shown;
+use super::textures::{Picture, Texture};
 
 /// Texels looked at for the triangles of one primitive, about: 2^24.
 const MAX_LOOKUPS: u32 = 1 << 24;

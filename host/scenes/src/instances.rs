@@ -187,9 +187,10 @@ mod tests {
                 lights.apply(edits).expect("sound");
                 lights.refit();
                 lights
+                    .view()
                     .validate()
                     .unwrap_or_else(|violation| panic!("{name}: {violation}"));
-                let (expected, found) = (scene.frame(frame).emissive, lights.world_lights());
+                let (expected, found) = (scene.frame(frame).emissive, lights.view().world_lights());
                 assert_eq!(expected.len(), found.len(), "{name}");
                 for (e, f) in expected.iter().zip(&found) {
                     assert_eq!((e.mesh, e.flags), (f.mesh, f.flags), "{name}");

@@ -38,7 +38,6 @@ mod model;
 mod notes;
 #[cfg(feature = "formats")]
 mod obj_in;
-mod paint;
 mod pictures;
 mod place;
 mod random;
@@ -49,6 +48,7 @@ mod shapes;
 mod shown;
 mod srgb;
 mod texture_words;
+mod textures;
 mod track;
 mod transform;
 
@@ -69,9 +69,9 @@ pub use load::{BUILT_IN, STAGE};
 pub use model::{
     Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, SceneData,
 };
-pub use paint::{IN_PLACE, MAX_SIDE, Paint, Picture, Texture, Wrap};
 pub use ray_bvh::{RayBvh, RayBvhError};
 pub use scene::Scene;
 pub use scene_light::SceneLight;
 pub use texture_words::TextureArrays;
+pub use textures::{IN_PLACE, MAX_SIDE, MaterialTextures, Picture, Texture, Wrap};
 pub use transform::Transform;

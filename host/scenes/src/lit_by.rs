@@ -10,7 +10,7 @@ impl Scene {
         if self.has_other_lights() {
             parts.push(format!("{} are left out here", self.other_lights()));
         }
-        if self.data().is_painted() {
+        if self.data().has_textures() {
             parts.push(String::from("textures are shown by their means here"));
         }
         (!parts.is_empty()).then(|| format!("{}; `lightbvh render` and `verify` know them", parts.join("; ")))
@@ -39,10 +39,10 @@ impl Scene {
         self.counts.analytic > 0
     }
 
-    /// Whether only passes over all kinds of light show all of it: it has [other lights](Self::has_other_lights), or something
-    /// is painted on its surfaces.
+    /// Whether only passes over all kinds of light show all of it: it has [other lights](Self::has_other_lights), or
+    /// textures.
     pub fn has_kinds(&self) -> bool {
-        self.has_other_lights() || self.data().is_painted()
+        self.has_other_lights() || self.data().has_textures()
     }
 
     /// For commands that sample emissive triangles.

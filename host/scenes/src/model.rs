@@ -3,7 +3,7 @@
 use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 
 use super::analytic::AnalyticLight;
-use super::paint::{Paint, Picture};
+use super::textures::{MaterialTextures, Picture};
 use super::transform::Transform;
 
 /// Everything a scene is made of, unchecked, open for construction.
@@ -32,11 +32,11 @@ pub struct SceneData {
 }
 
 impl SceneData {
-    /// Whether anything is painted on any material.
-    pub fn is_painted(&self) -> bool {
+    /// Whether any material has textures or cut-outs.
+    pub fn has_textures(&self) -> bool {
         self.materials
             .iter()
-            .any(|material| material.paint.as_ref().is_some_and(Paint::is_seen))
+            .any(|material| material.textures.as_ref().is_some_and(MaterialTextures::is_seen))
     }
 }
 
@@ -92,9 +92,9 @@ pub struct Material {
     pub metallic: f32,
     /// Perceptual roughness in [0, 1].
     pub roughness: f32,
-    /// What is painted on it, of which all that stands above is the mean. Where the reference renderer does not show it, the
+    /// Its textures, of which the fields above are the means. Where the reference renderer does not show it, the
     /// surface is opaque.
-    pub paint: Option<Paint>,
+    pub textures: Option<MaterialTextures>,
 }
 
 impl Default for Material {
@@ -106,7 +106,7 @@ impl Default for Material {
             double_sided: false,
             metallic: 0.0,
             roughness: 1.0,
-            paint: None,
+            textures: None,
         }
     }
 }

@@ -9,8 +9,8 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, RgbaImage};
 
 use super::error::{SceneError, malformed, not_compiled};
 use super::files::Load;
-use super::paint::{MAX_SIDE, Picture};
 use super::srgb::linear_from_srgb;
+use super::textures::{MAX_SIDE, Picture};
 
 /// What cannot be decoded.
 pub(super) fn undecoded(name: &str, problem: impl Display) -> SceneError {

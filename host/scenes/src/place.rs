@@ -7,7 +7,7 @@ use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use super::animate::Pose;
 use super::camera::view_of_node;
 use super::flush::rounded;
-use super::frame::{FRAMES_PER_SECOND, Frame, MeshRange, UNPAINTED};
+use super::frame::{FRAMES_PER_SECOND, Frame, MeshRange, NO_CORNER};
 use super::lamps;
 use super::model::{Material, SceneData, emits};
 use super::scene::Scene;
@@ -24,16 +24,16 @@ impl Scene {
             mesh_lights: Vec::with_capacity(self.counts.mesh_lights),
             others: Vec::with_capacity(self.counts.analytic),
             corners: [const { Vec::new() }; 2],
-            paint: self.paint_words(),
+            textures: self.texture_words(),
             materials: data.materials.iter().map(Material::surface).collect(),
             camera: view_of_node(&pose.unscaled(data.cameras[0].node), data.cameras[0].yfov),
             background: data.background,
         };
         place_meshes(data, &pose, &mut out);
         lamps::place(data, &pose, &mut out);
-        if !out.paint.is_empty() {
-            // Lamps are not painted.
-            out.corners[0].resize(out.triangles.len(), UNPAINTED);
+        if !out.textures.is_empty() {
+            // Lamps have no textures.
+            out.corners[0].resize(out.triangles.len(), NO_CORNER);
         }
         out
     }
@@ -53,17 +53,17 @@ fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
             let mirrored = mirrors(&pose.world[index]);
             let points = pose.points(index, primitive).map(|p| rounded(p.into()));
             let points: Vec<[f32; 3]> = points.collect();
-            let is_painted = !out.paint.is_empty();
+            let has_textures = !out.textures.is_empty();
             // Textures without coordinates are not shown.
-            let own = material.paint.as_ref().filter(|paint| paint.is_seen());
-            let lies =
-                own.is_some_and(|paint| primitive.coordinates.is_some() || paint.textures().next().is_none());
+            let own = material.textures.as_ref().filter(|textures| textures.is_seen());
+            let lies = own
+                .is_some_and(|textures| primitive.coordinates.is_some() || textures.all().next().is_none());
 
             for (triangle, &[a, b, c]) in primitive.triangles.iter().enumerate() {
                 // A mirrored instance would show its back; swapping two vertices keeps the front in front.
                 let [b, c] = if mirrored { [c, b] } else { [b, c] };
                 let p = [a, b, c].map(|vertex| points[vertex as usize]);
-                let uv = primitive.coordinates.as_ref().filter(|_| is_painted);
+                let uv = primitive.coordinates.as_ref().filter(|_| has_textures);
                 let corner = Corner {
                     uv: uv.map_or([[0.0; 2]; 3], |uv| [a, b, c].map(|vertex| uv[vertex as usize])),
                     material: if lies { primitive.material } else { NONE },
@@ -76,7 +76,7 @@ fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
                         mesh: mesh_light,
                         flags,
                     });
-                    if is_painted {
+                    if has_textures {
                         out.corners[1].push(corner);
                     }
                     out.emissive.len() as u32 - 1
@@ -89,7 +89,7 @@ fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
                     light,
                     instance: mesh_light,
                 });
-                if is_painted {
+                if has_textures {
                     out.corners[0].push(corner);
                 }
             }

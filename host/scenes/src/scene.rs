@@ -11,8 +11,8 @@ use super::texture_words;
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub(super) data: SceneData,
-    /// What is painted on it, made when it is asked for.
-    paint: OnceLock<Arc<Vec<u32>>>,
+    /// Words of its textures, made at the first request.
+    textures: OnceLock<Arc<Vec<u32>>>,
     pub(super) counts: Counts,
 }
 
@@ -30,7 +30,7 @@ impl Scene {
     pub(super) fn from_checked(data: SceneData, counts: Counts) -> Self {
         Self {
             data,
-            paint: OnceLock::new(),
+            textures: OnceLock::new(),
             counts,
         }
     }
@@ -55,20 +55,20 @@ impl Scene {
         &self.data.warnings
     }
 
-    /// The scene with means in place of all that is painted on it.
-    pub fn unpainted(mut self) -> Self {
+    /// The scene with means in place of its textures.
+    pub fn without_textures(mut self) -> Self {
         for material in &mut self.data.materials {
-            material.paint = None;
+            material.textures = None;
         }
         self.data.pictures.clear();
-        self.paint = OnceLock::new();
+        self.textures = OnceLock::new();
         self
     }
 
     /// The words of [`TextureArrays`](super::TextureArrays).
-    pub(super) fn paint_words(&self) -> Arc<Vec<u32>> {
+    pub(super) fn texture_words(&self) -> Arc<Vec<u32>> {
         Arc::clone(
-            self.paint
+            self.textures
                 .get_or_init(|| Arc::new(texture_words::words(&self.data))),
         )
     }

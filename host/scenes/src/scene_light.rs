@@ -16,7 +16,7 @@ pub trait SceneLight: Emitter + From<EmissiveTriangle> {
     /// A light by formula, where the type holds such.
     fn of_kind(light: AnyLight) -> Option<Self>;
 
-    /// What is painted on surfaces, where such scenes know of it.
+    /// Textures of surfaces, where such scenes know of them.
     fn textures(textures: &TextureArrays) -> Self::Textures<'_>;
 
     /// Vertices of the light where it is a triangle; of another, three times the place it is at.

@@ -3,10 +3,10 @@
 use bytemuck::bytes_of;
 use lightbvh_kernels::shading::picture::{self, HEADER_WORDS, PictureWords, Rgba, SRGB_WORDS};
 
-use super::paint::{Texture, Wrap};
 use super::srgb::linear_from_srgb;
+use super::textures::{Texture, Wrap};
 
-/// The words that a textures begins with: the number of materials, and the number that each encoded byte stands for.
+/// The first words of textures: the number of materials, and the number that each encoded byte stands for.
 pub(super) fn header(materials: u32) -> Vec<u32> {
     let mut words = vec![0; HEADER_WORDS as usize];
     words[0] = materials;

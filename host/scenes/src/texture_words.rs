@@ -1,22 +1,22 @@
-//! What is painted on a scene, as the kernels' buffers hold it.
+//! Textures of a scene in the kernels' buffers.
 
 use std::sync::Arc;
 
 use bytemuck::cast_slice;
 use image::RgbaImage;
 use image::imageops::thumbnail;
-use lightbvh_kernels::shading::textures::{Corner, PaintWords, TextureView};
+use lightbvh_kernels::shading::textures::{Corner, MaterialWords, TextureView};
 use lightbvh_kernels::shading::trace::NONE;
 
 use super::model::SceneData;
-use super::paint::{Paint, Picture, Texture};
 use super::shown::{header, picture_words, words_of};
+use super::textures::{MaterialTextures, Picture, Texture};
 
 /// Most texels of all pictures: 2^24, so that they fit the smallest storage buffers seen (128 MiB) with room to spare. Larger
 /// pictures are halved until they fit.
 const MAX_TEXELS: u64 = 1 << 24;
 
-/// A frame's paint.
+/// A frame's textures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextureArrays {
     /// [`TextureView::corners`].
@@ -35,16 +35,16 @@ impl TextureArrays {
     }
 }
 
-/// The words of everything that is painted; none where nothing is.
+/// The words of all textures; none without textures.
 pub(super) fn words(data: &SceneData) -> Vec<u32> {
-    if !data.is_painted() {
+    if !data.has_textures() {
         return Vec::new();
     }
     let pictures = fitted(&data.pictures);
     let count = data.materials.len() as u32;
     let mut words = header(count);
     let first = words.len();
-    words.resize(first + (PaintWords::COUNT * count) as usize, 0);
+    words.resize(first + (MaterialWords::COUNT * count) as usize, 0);
     let places: Vec<([u32; 2], u32)> = pictures
         .iter()
         .map(|picture| {
@@ -58,21 +58,21 @@ pub(super) fn words(data: &SceneData) -> Vec<u32> {
         words.extend_from_slice(cast_slice(&[picture_words(texture, size, texels)]));
         at
     };
-    let mut paints = Vec::new();
+    let mut all = Vec::new();
     for material in &data.materials {
-        let own = material.paint.as_ref().filter(|paint| paint.is_seen());
-        paints.push(own.map_or(NOTHING, |paint| {
-            paint_words(paint, |texture| {
+        let own = material.textures.as_ref().filter(|textures| textures.is_seen());
+        all.push(own.map_or(NOTHING, |textures| {
+            material_words(textures, |texture| {
                 texture.map_or(NONE, |texture| put(&texture, places[texture.picture as usize]))
             })
         }));
     }
-    words[first..first + (PaintWords::COUNT * count) as usize].copy_from_slice(cast_slice(&paints));
+    words[first..first + (MaterialWords::COUNT * count) as usize].copy_from_slice(cast_slice(&all));
     words
 }
 
-/// Of a material without paint.
-const NOTHING: PaintWords = PaintWords {
+/// Of a material without textures.
+const NOTHING: MaterialWords = MaterialWords {
     cutoff: 0.0,
     base: [1.0; 4],
     emission: [0.0; 3],
@@ -80,13 +80,13 @@ const NOTHING: PaintWords = PaintWords {
     emission_picture: NONE,
 };
 
-fn paint_words(paint: &Paint, mut put: impl FnMut(Option<Texture>) -> u32) -> PaintWords {
-    PaintWords {
-        cutoff: paint.cutoff,
-        base: paint.base,
-        emission: paint.radiance,
-        base_picture: put(paint.base_texture),
-        emission_picture: put(paint.glow_texture),
+fn material_words(textures: &MaterialTextures, mut put: impl FnMut(Option<Texture>) -> u32) -> MaterialWords {
+    MaterialWords {
+        cutoff: textures.cutoff,
+        base: textures.base,
+        emission: textures.radiance,
+        base_picture: put(textures.base_texture),
+        emission_picture: put(textures.glow_texture),
     }
 }
 

@@ -81,7 +81,7 @@ fn scales_do_not_turn_lights() {
         let spot = SpotLight::try_from(lit.others[0]).expect("a spot");
         let followed = Instances::<AnyLight>::new::<(AnyNode, ()), 8>(&scene, 0, BuildParams::default());
         let (lights, mut instances) = followed.unwrap_or_else(|error| panic!("{scale:?}: {error}"));
-        let world = lights.world_lights();
+        let world = lights.view().world_lights();
         let placed = world.iter().find_map(|&light| SpotLight::try_from(light).ok());
         for (found, expected) in [
             (spot.axis, down),

@@ -137,10 +137,10 @@ fn a_picture_that_cannot_be_had_is_noted_and_does_not_glow() {
         // What is known to glow somewhere is not taken to glow everywhere.
         assert_eq!(radiance(root), None, "case {case}");
         // As the colour of a surface it is white.
-        let mut painted = root.clone();
-        painted["materials"][0]["pbrMetallicRoughness"] = json!({ "baseColorTexture": { "index": 0 } });
-        painted["materials"][0]["emissiveTexture"] = json!(null);
-        let scene = read_json(&painted);
+        let mut textured = root.clone();
+        textured["materials"][0]["pbrMetallicRoughness"] = json!({ "baseColorTexture": { "index": 0 } });
+        textured["materials"][0]["emissiveTexture"] = json!(null);
+        let scene = read_json(&textured);
         assert_eq!(scene.data().materials[0].base_color, [1.0; 3], "case {case}");
         warned(&read_json(root), "white");
     }
@@ -208,8 +208,8 @@ fn clear_surfaces_are_left_out() {
 fn what_cannot_be_shown_has_what_stands_for_it() {
     let png = png_white_black();
     let file = || textured(LEFT, &png);
-    let paint = |scene: &Scene| scene.data().materials[0].paint.expect("painted");
-    let cutoff = |root: &Value| paint(&read_json(root)).cutoff;
+    let textures = |scene: &Scene| scene.data().materials[0].textures.expect("textures");
+    let cutoff = |root: &Value| textures(&read_json(root)).cutoff;
     // A cutoff that no opacity reaches.
     let mut root = file();
     root["materials"][0]["pbrMetallicRoughness"] = json!({ "baseColorTexture": { "index": 0 } });
@@ -239,7 +239,7 @@ fn what_cannot_be_shown_has_what_stands_for_it() {
     }]);
     let scene = read_json(&root);
     let back = read(&scene.to_glb().expect("written")).expect("read back");
-    assert_eq!(paint(&scene).cutoff, 0.5);
+    assert_eq!(textures(&scene).cutoff, 0.5);
     assert_eq!(scene.frame(0), back.frame(0));
 }
 
@@ -265,8 +265,8 @@ fn numbers_that_place_textures_are_bounded_and_named() {
         root["materials"][0]["emissiveTexture"] = texture.clone();
         root["materials"][0]["pbrMetallicRoughness"] = json!({ "baseColorTexture": texture });
         let scene = read_json(&root);
-        let paint = scene.data().materials[0].paint.expect("a picture");
-        for texture in [paint.base_texture, paint.glow_texture] {
+        let textures = scene.data().materials[0].textures.expect("a picture");
+        for texture in [textures.base_texture, textures.glow_texture] {
             assert_eq!(texture.expect("a picture").transform, expected);
         }
         warned(&scene, "beyond 2^20");

@@ -11,10 +11,9 @@ use lightbvh_kernels::shading::pixel::Scene;
 use rayon::prelude::*;
 
 use super::batches::in_batches;
-use super::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, node_record};
+use super::{Backend, BackendError, Bvh, Follow, Held, Integrator, Sampler, SceneArrays, Timed};
 use crate::render::{render, render_path};
 use crate::scene::SceneLight;
-use crate::words::Record;
 
 /// The CPU as a backend: the reference that devices are compared with.
 pub struct CpuBackend<C: Compiled<W> = Triangles, const W: usize = WIDTH> {
@@ -39,14 +38,6 @@ impl<C: Compiled<W>, const W: usize> CpuBackend<C, W> {
 }
 
 impl<C: Compiled<W, Light: SceneLight>, const W: usize> Backend<C::Light> for CpuBackend<C, W> {
-    fn node_record(&self) -> Record {
-        node_record::<C::Node>()
-    }
-
-    fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
-        Ok(self.words())
-    }
-
     fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError> {
         Ok(self.query(queries, |tree, query| sample_query::<C, W>(tree, query)))
     }
@@ -102,6 +93,10 @@ impl<C: Compiled<W, Light: SceneLight>, const W: usize> Follow<C, W> for CpuBack
         self.bvh = own;
         Ok(refitted)
     }
+
+    fn held(&mut self, _: &Bvh<C, W>) -> Result<Vec<Held>, BackendError> {
+        Ok(super::held(&self.bvh))
+    }
 }
 
 impl<C: Compiled<W, Light: SceneLight>, const W: usize> CpuBackend<C, W> {
@@ -109,16 +104,11 @@ impl<C: Compiled<W, Light: SceneLight>, const W: usize> CpuBackend<C, W> {
     fn view<'a>(&'a self, scene: &'a SceneArrays<C::Light>, sampler: Sampler) -> Scene<'a, C::Light> {
         scene.lit_by(match sampler.needs_bvh() {
             true => Emitters {
-                lights: self.bvh.lights(),
+                lights: self.bvh.view().lights(),
                 instances: self.bvh.tree().instances,
             },
             false => scene.emitters(),
         })
-    }
-
-    /// The words of all nodes.
-    fn words(&self) -> Vec<u32> {
-        super::node_words(&self.bvh)
     }
 
     /// The `answer` to each query.

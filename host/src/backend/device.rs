@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use bytemuck::{bytes_of, pod_collect_to_vec};
+use bytemuck::bytes_of;
 use lightbvh::SampledLight;
 use lightbvh_gpu::{EQ4, KernelSet, MOMENTS};
 use lightbvh_kernels::WORKGROUP;
@@ -15,10 +15,9 @@ use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use super::batches::in_batches;
 use super::device_arrays::{bind, choosing};
 use super::follow::{Mirrored, device_time};
-use super::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, node_record};
+use super::{Backend, BackendError, Bvh, Follow, Held, Integrator, Sampler, SceneArrays, Timed};
 use crate::scene::SceneLight;
 use crate::vulkan::{Device, Pass};
-use crate::words::Record;
 
 /// Queries per dispatch: 28 MiB of them, within the smallest storage buffer range seen (128 MiB).
 const QUERIES_PER_PASS: usize = 1 << 20;
@@ -49,7 +48,7 @@ impl<'d, C: Compiled<W>, const W: usize> DeviceBackend<'d, C, W> {
 
     /// Overwrites the device's nodes, those of bottom levels and of the top level, so that a refit has something to change.
     pub fn write_nodes(&mut self, nodes: &[C::Node], top: &[C::Node]) -> Result<(), BackendError> {
-        let parts = [(0, nodes), (self.tree.top.start, top)];
+        let parts = [(0, nodes), (self.tree.top(), top)];
         Ok(self.tree.nodes.write(&parts)?)
     }
 
@@ -79,14 +78,6 @@ impl<'d, C: Compiled<W>, const W: usize> DeviceBackend<'d, C, W> {
 }
 
 impl<C: Compiled<W, Light: SceneLight>, const W: usize> Backend<C::Light> for DeviceBackend<'_, C, W> {
-    fn node_record(&self) -> Record {
-        node_record::<C::Node>()
-    }
-
-    fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
-        Ok(pod_collect_to_vec(&self.tree.nodes()?))
-    }
-
     fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError> {
         self.query(self.tree.kernels().sample, queries)
     }
@@ -155,5 +146,9 @@ impl<C: Compiled<W, Light: SceneLight>, const W: usize> Follow<C, W> for DeviceB
     fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError> {
         let time = self.tree.follow(bvh)?;
         Ok(Timed { time, value: () })
+    }
+
+    fn held(&mut self, bvh: &Bvh<C, W>) -> Result<Vec<Held>, BackendError> {
+        self.tree.held(bvh)
     }
 }

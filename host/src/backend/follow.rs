@@ -1,7 +1,6 @@
 //! A BVH and its edits on a device: what changed is copied, the rest is computed there.
 
 use lightbvh::tree::Model;
-use std::ops::Range;
 use std::time::Duration;
 
 use bytemuck::{Pod, bytes_of, cast_slice};
@@ -10,7 +9,8 @@ use lightbvh::refit::BlasRoot;
 use lightbvh::{Instance, TreeWords};
 use lightbvh_gpu::{DeviceBuffer, Frame, KernelSet, Mirror, Step};
 
-use super::{BackendError, Timed};
+use super::record::held_by;
+use super::{BackendError, Held, Timed};
 use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
 
 /// The arrays of a light BVH of any layout on a device, which follow its edits, and the kernels over them.
@@ -18,9 +18,6 @@ pub struct Mirrored<'d, N: Node<W>, const W: usize> {
     device: &'d Device,
     kernels: KernelSet,
     pub(super) nodes: Buffer<N>,
-    /// How many of them are of bottom levels, and which are of the top level.
-    bottoms: usize,
-    pub(super) top: Range<usize>,
     lights: Buffer<N::Light>,
     instances: Buffer<Instance>,
     /// Bytes of the lights and instances that there are: kernels see no more of them.
@@ -40,8 +37,6 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
             device,
             kernels,
             nodes: device.buffer(0)?,
-            bottoms: 0,
-            top: 0..0,
             lights: device.buffer(0)?,
             instances: device.buffer(0)?,
             used: [0; 2],
@@ -64,20 +59,19 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
         self.kernels
     }
 
-    /// All nodes: those of bottom levels, then those of the top level.
-    pub fn nodes(&self) -> Result<Vec<N>, BackendError> {
-        let nodes = self.nodes.read()?;
-        Ok([&nodes[..self.bottoms], &nodes[self.top.clone()]].concat())
-    }
-
     /// Push constants of kernels that walk the tree.
     pub fn words(&self) -> TreeWords {
         self.push
     }
 
-    /// The roots of bottom levels.
-    pub fn roots(&self) -> Result<Vec<BlasRoot>, BackendError> {
-        Ok(self.roots.read()?)
+    /// Index of the first node of the top level.
+    pub(super) fn top(&self) -> usize {
+        self.mirror.top::<N>() as usize
+    }
+
+    /// Reads each buffer that has words of `bvh`, which was followed last: those in use, to be compared with [`held`](super::held).
+    pub fn held(&self, bvh: &lightbvh::Bvh<impl Model<W, Node = N>, W>) -> Result<Vec<Held>, BackendError> {
+        held_by(bvh, &self.mirror, |buffer| Ok(Some(self.bind(buffer).read()?)))
     }
 
     /// A buffer as an argument.
@@ -124,15 +118,15 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
         bvh: &lightbvh::Bvh<impl Model<W, Node = N>, W>,
     ) -> Result<Duration, BackendError> {
         let frame = self.mirror.frame(bvh);
-        self.used = [size_of_val(bvh.lights()), size_of_val(bvh.instances())];
+        self.used = [
+            size_of_val(bvh.view().lights()),
+            size_of_val(bvh.view().instances()),
+        ];
         let followed = self.write(&frame).and_then(|()| self.refit(&frame));
         if followed.is_err() {
             // The mirror believes that the frame was followed.
             self.mirror = Mirror::default();
         }
-        let top = self.mirror.top::<N>() as usize;
-        self.bottoms = bvh.nodes().len();
-        self.top = top..top + bvh.top_nodes().len();
         self.push = frame.words;
         Ok(followed?)
     }

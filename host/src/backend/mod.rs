@@ -15,13 +15,11 @@ pub(crate) use batches::mean_image;
 pub use cpu::CpuBackend;
 pub use device::DeviceBackend;
 pub use follow::Mirrored;
-use lightbvh::tree::Model;
-pub use record::{PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, node_record};
+pub use record::{Held, PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, held};
 pub use scene::{Sampler, SceneArrays};
 
 use std::time::{Duration, Instant};
 
-use bytemuck::cast_slice;
 pub use lightbvh::Bvh;
 use lightbvh::error::FollowError;
 use lightbvh::{EmissiveTriangle, SampledLight};
@@ -31,7 +29,6 @@ use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::emitter::Emitter;
 
 use crate::vulkan::VulkanError;
-use crate::words::Record;
 
 /// An error of a backend.
 #[derive(Debug, thiserror::Error)]
@@ -42,23 +39,6 @@ pub enum BackendError {
     /// The lights are not those that the BVH was built over.
     #[error(transparent)]
     Lights(#[from] FollowError),
-}
-
-/// The words of all nodes: those of bottom levels, then those of the top level.
-pub fn node_words<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> Vec<u32> {
-    [
-        cast_slice::<M::Node, u32>(bvh.nodes()),
-        cast_slice(bvh.top_nodes()),
-    ]
-    .concat()
-}
-
-/// The nodes in use, by their order in [`node_words`].
-pub fn nodes_in_use<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> Vec<u32> {
-    let plan = bvh.plan_of_everything();
-    let top = bvh.nodes().len() as u32;
-    let of_top = plan.top.nodes().iter().map(|node| node + top);
-    plan.bottom.nodes().iter().copied().chain(of_top).collect()
 }
 
 /// A result and how long it took: on a device the kernels' own time, where it can tell.
@@ -82,12 +62,6 @@ impl<T> Timed<T> {
 
 /// Runs the passes over one light BVH, whose lights are of type `L`.
 pub trait Backend<L: Emitter = EmissiveTriangle> {
-    /// Words of a node.
-    fn node_record(&self) -> Record;
-
-    /// The words of all nodes as they are, as [`node_words`] orders them.
-    fn nodes(&mut self) -> Result<Vec<u32>, BackendError>;
-
     /// Chooses a light for each query.
     fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError>;
 
@@ -111,4 +85,7 @@ pub trait Backend<L: Emitter = EmissiveTriangle> {
 pub trait Follow<C: Compiled<W> = Triangles, const W: usize = WIDTH>: Backend<C::Light> {
     /// Copies the changes in `bvh` as of its last refit, and refits here.
     fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError>;
+
+    /// The words in use of each buffer, as of the last [`follow`](Self::follow), which was of `bvh`.
+    fn held(&mut self, bvh: &Bvh<C, W>) -> Result<Vec<Held>, BackendError>;
 }

@@ -55,7 +55,7 @@ pub struct SceneArrays<L = EmissiveTriangle> {
     pub thresholds: Vec<u32>,
     /// Who looks.
     pub camera: Camera,
-    /// The surfaces' paint.
+    /// The surfaces' textures.
     pub textures: TextureArrays,
 }
 
@@ -75,9 +75,9 @@ impl<L: SceneLight> SceneArrays<L> {
         }
     }
 
-    /// With what is painted on the surfaces.
+    /// With textures on the surfaces.
     #[must_use]
-    pub fn painted(self, textures: TextureArrays) -> Self {
+    pub fn textured(self, textures: TextureArrays) -> Self {
         Self { textures, ..self }
     }
 
@@ -95,7 +95,7 @@ impl<L: SceneLight> SceneArrays<L> {
         }
     }
 
-    /// The surfaces that rays meet, and their paint.
+    /// The surfaces that rays meet, and their textures.
     pub fn surfaces(&self) -> Surfaces<'_, L::Textures<'_>> {
         let Surfaces { nodes, blocks, .. } = self.rays.surfaces();
         let textures = L::textures(&self.textures);

@@ -9,6 +9,7 @@ mod worst;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
+use lightbvh::device::bvh::follow;
 use lightbvh::{BuildParams, LightBvh};
 use serde::Serialize;
 use serde_json::json;
@@ -42,11 +43,11 @@ pub(super) struct Args {
 #[derive(Clone, Debug, Serialize)]
 struct Case {
     what: &'static str,
-    /// Of a refit: `levels`, one after the other.
+    /// `levels` of a refit.
     passes: Option<&'static str>,
-    /// Of samples: `one` by one, or in a `batch`.
+    /// `one` sample at a time, or a `batch`.
     variant: Option<&'static str>,
-    /// Of a build: `balanced`, the default.
+    /// `balanced` of a build.
     preset: Option<&'static str>,
     structure: &'static str,
     lights: u32,
@@ -81,10 +82,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     for structure in [Sampler::SingleLevel, Sampler::TwoLevel] {
         news!("{}", structure.name());
         let bvh: Bvh = build(&lights, structure, &BuildParams::default());
-        let words: &[u32] = bytemuck::cast_slice(bvh.nodes());
+        let words: &[u32] = bytemuck::cast_slice(bvh.view().nodes());
         let mut target = words.to_vec();
         let copy = spread_ms(&measure(|| target.copy_from_slice(black_box(words)))).median;
-        let copy = copy * bvh.bytes() as f64 / size_of_val(words) as f64;
+        let copy = copy * bvh.view().bytes() as f64 / size_of_val(words) as f64;
 
         let mut push = |(what, [passes, variant, preset]): What,
                         backend: &str,
@@ -105,7 +106,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 ns_per_item: ns(median),
                 ns_least: ns(least),
                 ns_most: ns(most),
-                bytes_per_light: bvh.bytes() as f64 / f64::from(args.lights),
+                bytes_per_light: bvh.view().bytes() as f64 / f64::from(args.lights),
                 copies: median / copy,
             });
         };
@@ -116,7 +117,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             let mut cpu: CpuBackend = CpuBackend::new(bvh.clone());
             let refit = |cpu: &mut CpuBackend| {
                 let start = Instant::now();
-                cpu.bvh_mut().follow(&lights)?;
+                follow(cpu.bvh_mut(), &lights)?;
                 Ok(start.elapsed())
             };
             let times = passes(&mut cpu, refit, &queries)?;
@@ -137,7 +138,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             let mut device: DeviceBackend<'_> = DeviceBackend::new(&o.device, &bvh)?;
             let mut own = bvh.clone();
             let refit = |device: &mut DeviceBackend<'_>| {
-                own.follow(&lights)?;
+                follow(&mut own, &lights)?;
                 Ok(device.follow(&own)?.time)
             };
             let [refit, sample, pmf] = passes(&mut device, refit, &queries)?;

@@ -26,9 +26,15 @@ use crate::cli::table::news;
 use crate::error::HostError;
 use crate::render::uninterrupted;
 
+/// Commands by purpose; clap groups options alone.
+const GROUPS: &str = "\
+Pictures and files:  demo, render, export
+Checks:              verify, stability, inspect, info
+Measurements:        compare, trade, bench";
+
 /// A two-level light BVH on the CPU and on Vulkan devices, compared bit for bit.
 #[derive(Debug, Parser)]
-#[command(name = "lightbvh", version)]
+#[command(name = "lightbvh", version, after_help = GROUPS)]
 struct Args {
     #[command(subcommand)]
     command: Command,
@@ -186,6 +192,7 @@ mod tests {
         Args::command().debug_assert();
         for command in Args::command().get_subcommands() {
             let start = command.get_name();
+            assert!(GROUPS.contains(start), "{start} is of no group");
             let about = command.get_about().map(ToString::to_string).unwrap_or_default();
             assert!((1..=90).contains(&about.chars().count()), "{start}: {about}");
             for option in command.get_arguments() {

@@ -1,6 +1,6 @@
 //! Options that commands share: what scenes may read and how much memory they may take, what runs, numbers.
 
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -11,6 +11,12 @@ use crate::scene::{Limits, Scene, SceneError};
 pub(super) enum BackendName {
     Cpu,
     Vulkan,
+}
+
+/// Scenes as reports name them.
+pub(super) fn shown(scenes: &[OsString]) -> Vec<String> {
+    let shown = scenes.iter().map(|scene| scene.to_string_lossy().into_owned());
+    shown.collect()
 }
 
 /// A finite number above zero.

@@ -48,12 +48,6 @@ pub struct Args {
     /// Vertical field of view with --look-from, degrees, 1 to 170.
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=170), requires = "look_from")]
     fov: u32,
-    /// An environment map that lights the scene: a .hdr or .exr picture by longitude and latitude.
-    #[arg(long, value_name = "FILE.hdr|FILE.exr")]
-    environment: Option<PathBuf>,
-    /// Factor on the environment map's radiance.
-    #[arg(long, default_value_t = 1.0, value_parser = positive::<f32>, requires = "environment")]
-    environment_scale: f32,
     /// Show the mean of each texture, and no cut-outs.
     #[arg(long)]
     no_textures: bool,
@@ -164,15 +158,15 @@ fn scene(args: &Args, recipe: &Recipe) -> Result<Scene, HostError> {
         news!("{}: {warning}", scene.name());
     }
     let is_known = AnyLight::IMPORTANCES.contains(&recipe.importance);
-    let is_painted = scene.data().is_painted();
-    if is_painted && !is_known && !scene.has_other_lights() {
+    let has_textures = scene.data().has_textures();
+    if has_textures && !is_known && !scene.has_other_lights() {
         news!(
             "{}: textures are shown by their means: the paper's importance knows triangles alone",
             scene.name()
         );
     }
-    Ok(match is_painted && (args.no_textures || !is_known) {
-        true => scene.unpainted(),
+    Ok(match has_textures && (args.no_textures || !is_known) {
+        true => scene.without_textures(),
         false => scene,
     })
 }

@@ -4,6 +4,7 @@
 mod frames;
 mod soak;
 
+use std::ffi::OsString;
 use std::ops::Range;
 
 use lightbvh::EmissiveTriangle;
@@ -12,7 +13,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::devices::Opened;
-use super::reading::Reading;
+use super::reading::{Reading, shown};
 use super::{Context, Outcome, devices, table};
 use crate::cli::table::{news, say};
 use crate::error::HostError;
@@ -34,7 +35,7 @@ pub(super) struct Args {
     frames: Range<u32>,
     /// Scenes, built-in or files; all built-in ones by default. May be repeated.
     #[arg(long)]
-    scene: Vec<String>,
+    scene: Vec<OsString>,
     #[command(flatten)]
     reading: Reading,
     /// Instead of scenes, this number of frames of random edits, 100 to 10^8; memory from 4,000 on.
@@ -111,7 +112,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         return Ok(Outcome::good_if(report.is_good()));
     }
     let names = match args.scene.is_empty() {
-        true => BUILT_IN.map(str::to_owned).to_vec(),
+        true => BUILT_IN.map(OsString::from).to_vec(),
         false => args.scene.clone(),
     };
     let scenes = names.iter().map(|name| args.reading.open(name));
@@ -150,7 +151,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         different: tallies.devices.iter().map(|tally| tally.different).sum::<u64>() + tallies.cpu.different,
         queries: args.queries,
         seed: args.seed,
-        scenes: names,
+        scenes: shown(&names),
         importances: &Importance::ALL,
         frames: args.frames.clone(),
         frame_queries: plan.queries,
@@ -188,7 +189,7 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
     )?;
     print_devices(&report.devices)?;
     say!(
-        "cpu: {} words computed twice, {} different",
+        "cpu: {} probabilities of samples against `pmf`, {} different",
         report.cpu_compared,
         report.cpu_different
     )?;

@@ -1,6 +1,7 @@
 //! Samples that know nothing of each other: lights chosen by a table, by a tree over all triangles, or by the paper's two
 //! levels.
 
+use lightbvh::device::bvh::follow;
 use lightbvh::tree::Model;
 use std::time::Instant;
 
@@ -12,11 +13,11 @@ use lightbvh_kernels::render::RenderParams;
 
 use super::{Recipe, Runner, SampleBudget, Step, Target, TreeFacts, UpdateTimes};
 use crate::backend::{
-    Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, mean_image,
+    Backend, BackendError, Bvh, Follow, Held, Integrator, Sampler, SceneArrays, Timed, mean_image,
 };
 use crate::error::HostError;
 use crate::scene::{Instances, SceneLight};
-use crate::workload::{build, words_in_use};
+use crate::workload::build;
 
 /// Camera rays per pixel that make edges smooth; the light samples of a pixel are shared out among them.
 const MAX_CAMERA_RAYS: u32 = 8;
@@ -96,7 +97,7 @@ impl<C: Compiled<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Ind
                 ..UpdateTimes::default()
             });
         }
-        let followed = Timed::of(|| bvh.follow(step.lights));
+        let followed = Timed::of(|| follow(bvh, step.lights));
         followed.value.map_err(BackendError::from)?;
         Ok(UpdateTimes {
             refit: followed.time + self.backend.follow(bvh)?.time,
@@ -152,17 +153,17 @@ impl<C: Compiled<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Ind
         &mut *self.backend
     }
 
-    fn nodes(&mut self) -> Result<Vec<u32>, HostError> {
-        Ok(words_in_use(&self.bvh, &self.backend.nodes()?))
+    fn held(&mut self) -> Result<Vec<Held>, HostError> {
+        Ok(self.backend.held(&self.bvh)?)
     }
 
     fn tree(&self) -> Option<TreeFacts> {
         let bvh = &self.bvh;
         self.recipe.lights.needs_bvh().then(|| TreeFacts {
-            violation: bvh.validate().err().map(|violation| violation.to_string()),
-            nodes: bvh.nodes().len() + bvh.top_nodes().len(),
-            depth: bvh.depth(),
-            bytes: bvh.bytes(),
+            violation: bvh.view().validate().err().map(|violation| violation.to_string()),
+            nodes: bvh.view().nodes().len() + bvh.view().top_nodes().len(),
+            depth: bvh.view().depth(),
+            bytes: bvh.view().bytes(),
         })
     }
 }

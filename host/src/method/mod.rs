@@ -15,7 +15,9 @@ use lightbvh_kernels::bvh::{AnyKind, Compiled, Paper, Triangles, WIDTH};
 use lightbvh_kernels::render::RenderParams;
 
 use self::independent::Independent;
-use crate::backend::{Backend, BackendError, Bvh, CpuBackend, DeviceBackend, Follow, SceneArrays, Timed};
+use crate::backend::{
+    Backend, BackendError, Bvh, CpuBackend, DeviceBackend, Follow, Held, SceneArrays, Timed,
+};
 use crate::error::HostError;
 use crate::scene::{Scene, SceneLight};
 use crate::vulkan::Device;
@@ -93,8 +95,8 @@ pub trait Runner<L: SceneLight = EmissiveTriangle> {
     /// The backend, as of the frame last advanced to.
     fn backend(&mut self) -> &mut dyn Backend<L>;
 
-    /// The words of the nodes in use of the [`backend`](Self::backend).
-    fn nodes(&mut self) -> Result<Vec<u32>, HostError>;
+    /// The words in use of each buffer of the [`backend`](Self::backend).
+    fn held(&mut self) -> Result<Vec<Held>, HostError>;
 
     /// The light BVH; none where lights are chosen by a table.
     fn tree(&self) -> Option<TreeFacts>;

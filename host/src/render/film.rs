@@ -1,7 +1,7 @@
 //! Images of radiance, and their files.
 
 use image::{ExtendedColorType, ImageFormat};
-use lightbvh_kernels::shading::area::luminance;
+use lightbvh::device::emission::luminance_of;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
@@ -97,7 +97,7 @@ impl Film {
     /// The exposure that [`auto_exposure`](Self::auto_exposure) would take if it were not bounded; none of a black image.
     fn wanted_exposure(&self) -> Option<f32> {
         let logarithm = |&pixel: &[f32; 3]| {
-            let l = f64::from(luminance(pixel));
+            let l = f64::from(luminance_of(&pixel));
             (l > 0.0 && l.is_finite()).then(|| l.ln())
         };
         let lit: Vec<f64> = self.pixels.iter().filter_map(logarithm).collect();

@@ -98,7 +98,7 @@ pub fn moving_scene(
         });
     scene.apply(edits.collect()).map_err(refused)?;
     scene.refit();
-    let lights = validated(name, scene.world_lights())?;
+    let lights = validated(name, scene.view().world_lights())?;
     Ok((scene, lights))
 }
 

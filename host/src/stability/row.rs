@@ -42,7 +42,7 @@ checks! {
     Starved: "lights with flux that have no probability by weights alone; weights are positive wherever there is flux, so none",
     Deviation: "standard deviation of the estimate (root mean square over points), against the untouched scene; another \
         tree may be worse, within a factor of 2",
-    RefitWords: "words of refitted nodes that the device computes otherwise than the CPU; none may be",
+    RefitWords: "words of the refitted arrays that a device holds otherwise than the CPU; none may be",
     SampleWords: "words of sampled lights and their pmfs that the device computes otherwise than the CPU; none may be",
     PmfWords: "words of evaluated pmfs that the device computes otherwise than the CPU; none may be",
 }

@@ -6,11 +6,10 @@ use lightbvh_kernels::query::Query;
 
 use super::random::{ENDS, Random};
 use super::row::{Check, Row};
-use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend};
+use crate::backend::{Bvh, CpuBackend, DeviceBackend, Follow};
 use crate::error::HostError;
 use crate::tally::{Kind, Side, Tallies, Tally};
 use crate::vulkan::Device;
-use crate::workload::words_in_use;
 
 /// Random numbers per point, next to the ends of their range.
 const NUMBERS: u32 = 96;
@@ -31,44 +30,41 @@ pub fn compare(
         devices: vec![Tally::default()],
         ..Tallies::default()
     };
-    let mut side: Side<'_, dyn Backend> = Side {
+    let mut side: Side<'_, dyn Follow> = Side {
         cpu: &mut cpu,
         devices: vec![&mut other],
     };
     compare_bvh(&mut side, &mut tallies, "", (bvh, lights.all()), points)?;
     let tally = &tallies.devices[0];
-    let row = |(check, kind)| {
-        let row = Row::new(
-            extreme,
-            structure,
-            check,
-            tally.words[&kind].different as f64,
-            0.0,
-        );
+    let row = |(check, kinds): (_, &[Kind])| {
+        let different: u64 = kinds.iter().map(|kind| tally.words[kind].different).sum();
+        let row = Row::new(extreme, structure, check, different as f64, 0.0);
         row.on(device.name()).at(tally.first_difference.clone())
     };
     let rows = [
-        (Check::RefitWords, Kind::Nodes),
-        (Check::SampleWords, Kind::Samples),
-        (Check::PmfWords, Kind::Pmfs),
+        (Check::RefitWords, &[Kind::Nodes, Kind::Uploads][..]),
+        (Check::SampleWords, &[Kind::Samples]),
+        (Check::PmfWords, &[Kind::Pmfs]),
     ];
     Ok(rows.map(row).into())
 }
 
-/// Compares the nodes in use of a BVH over these lights of the world, and samples and probabilities at points.
+/// Compares the words in use of a BVH over these lights of the world, and samples and probabilities at points.
 pub(crate) fn compare_bvh(
-    side: &mut Side<'_, dyn Backend + '_>,
+    side: &mut Side<'_, dyn Follow + '_>,
     tallies: &mut Tallies,
     place: &str,
     (bvh, lights): (&Bvh, &[EmissiveTriangle]),
     points: &[ShadingPoint],
 ) -> Result<(), HostError> {
     let what = |kernel: &str| format!("{place} {kernel}").trim_start().to_owned();
-    let record = side.cpu.node_record();
-    side.compare(tallies, Kind::Nodes, &what("refit"), &record, |backend| {
-        Ok(words_in_use(bvh, &backend.nodes()?))
-    })?;
-    side.compare_queries(tallies, &what, queries(points), (lights, bvh.is_single_level()))
+    side.compare_held(tallies, &what("refit"), |backend| Ok(backend.held(bvh)?))?;
+    side.compare_queries(
+        tallies,
+        &what,
+        queries(points),
+        (lights, bvh.view().is_single_level()),
+    )
 }
 
 /// The same with links alone in its nodes, so that a refit has everything to compute.

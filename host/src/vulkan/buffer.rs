@@ -45,6 +45,13 @@ impl Binding {
             ..self
         }
     }
+
+    /// A copy of the words in use.
+    pub(crate) fn read(&self) -> Result<Vec<u32>, VulkanError> {
+        let mut words = vec![0; self.bytes as usize / 4];
+        self.memory.read(bytemuck::cast_slice_mut(&mut words))?;
+        Ok(words)
+    }
 }
 
 impl Device {
@@ -137,12 +144,5 @@ impl<T: Pod> Buffer<T> {
         let mut data = vec![T::zeroed(); self.len];
         self.memory.read(bytemuck::cast_slice_mut(&mut data))?;
         Ok(data)
-    }
-
-    /// A copy of all elements as words, for comparing.
-    pub fn read_words(&self) -> Result<Vec<u32>, VulkanError> {
-        let mut words = vec![0u32; self.byte_len() / 4];
-        self.memory.read(bytemuck::cast_slice_mut(&mut words))?;
-        Ok(words)
     }
 }

@@ -6,7 +6,7 @@
 pub enum DeviceBuffer {
     /// The nodes of bottom levels, and behind them those of the top level. A refit writes them.
     Nodes,
-    /// The lights of bottom levels, or their lights of another kind, in the spaces of their meshes, for a refit.
+    /// The lights of bottom levels, in the spaces of their meshes.
     Lights,
     /// The instances.
     Instances,

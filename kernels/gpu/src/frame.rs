@@ -1,14 +1,14 @@
 //! The work of a device that follows a light BVH from one frame to the next.
 
+use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
-use lightbvh::tree::Model;
 
-use bytemuck::cast_slice;
+use bytemuck::{Pod, cast_slice};
 use lightbvh::bvh::Cursor;
-use lightbvh::node::Holds;
-use lightbvh::refit::BlasRoot;
-use lightbvh::{Bvh, Instance, TreeWords};
+use lightbvh::node::{Holds, Node, kind};
+use lightbvh::tree::{Model, OPENED};
+use lightbvh::{Bvh, INVALID, TreeWords};
 
 use crate::buffer::DeviceBuffer;
 use crate::refit::{Pass, Refit};
@@ -95,29 +95,24 @@ const PARTS: usize = 8;
 const LIST: usize = 9;
 const CHILDREN: usize = 10;
 
-/// The arrays of a light BVH, in the order of [`BUFFERS`].
-fn arrays<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> [&[u8]; LIST] {
+/// The arrays of a light BVH, with the bytes of an element, in the order of [`BUFFERS`].
+fn arrays<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> [(&[u8], u64); LIST] {
+    fn of<T: Pod>(array: &[T]) -> (&[u8], u64) {
+        (cast_slice(array), size_of::<T>() as u64)
+    }
     let tree = bvh.tree();
+    let (trails, word) = of(tree.trails);
     [
-        cast_slice(bvh.nodes()),
-        cast_slice(bvh.top_nodes()),
-        cast_slice(bvh.lights()),
-        cast_slice(tree.instances),
-        cast_slice(bvh.roots()),
-        cast_slice(tree.trails),
-        cast_slice(tree.links.above),
-        cast_slice(tree.links.places),
-        cast_slice(tree.links.parts),
+        of(bvh.view().nodes()),
+        of(bvh.view().top_nodes()),
+        of(bvh.view().lights()),
+        of(tree.instances),
+        of(bvh.view().roots()),
+        (trails, word * u64::from(tree.trail_words)),
+        of(tree.links.above),
+        of(tree.links.places),
+        of(tree.links.parts),
     ]
-}
-
-/// Bytes of one element of each array, in the order of [`BUFFERS`].
-fn strides<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> [u64; LIST] {
-    let word = size_of::<u32>();
-    let trail = word * bvh.tree().trail_words as usize;
-    let [node, light] = [size_of::<M::Node>(), size_of::<M::Light>()];
-    let [instance, root] = [size_of::<Instance>(), size_of::<BlasRoot>()];
-    [node, node, light, instance, root, trail, word, word, word].map(|bytes| bytes as u64)
 }
 
 /// Tracks what a device holds of a light BVH. A new mirror holds nothing, so its first frame uploads everything.
@@ -146,15 +141,15 @@ impl Mirror {
     /// Everything is uploaded and computed if the light BVH is another than last time (a clone, or one that was read), or if its
     /// log has dropped changes since.
     pub fn frame<'a, M: Model<W>, const W: usize>(&mut self, bvh: &'a Bvh<M, W>) -> Frame<'a> {
-        let mut plan = bvh.plan(&mut self.cursor);
-        let (arrays, strides) = (arrays(bvh), strides(bvh));
+        let mut plan = self.cursor.plan(bvh);
+        let arrays = arrays(bvh);
         // Arrays that share a buffer move if one of them needs more room.
         let mut is_new = [false; DeviceBuffer::ALL.len()];
-        for (k, own) in arrays.iter().enumerate() {
-            is_new[BUFFERS[k] as usize] |= self.reserve(k, own.len() as u64, strides[k]);
+        for (k, (own, stride)) in arrays.into_iter().enumerate() {
+            is_new[BUFFERS[k] as usize] |= self.reserve(k, own.len() as u64, stride);
         }
         if is_new[DeviceBuffer::Nodes as usize] && !plan.everything {
-            let all = bvh.plan_of_everything();
+            let all = Cursor::default().plan(bvh);
             (plan.bottom, plan.roots, plan.top) = (all.bottom, all.roots, all.top);
         }
         let roots: Vec<_> = plan.roots.iter().map(|&root| root..root + 1).collect();
@@ -171,23 +166,16 @@ impl Mirror {
         ];
         let trail_words = bvh.tree().trail_words;
         let mut uploads = Vec::new();
-        for (k, (own, written)) in arrays.into_iter().zip(written).enumerate() {
-            let (bytes, stride) = (own.len() as u64, strides[k]);
+        for (k, ((own, stride), written)) in arrays.into_iter().zip(written).enumerate() {
+            let bytes = own.len() as u64;
             let is_all = plan.everything
                 || is_new[BUFFERS[k] as usize]
                 || (plan.whole_top && [TOP, ABOVE, PLACES, PARTS].contains(&k))
                 || (k == TRAILS && trail_words != self.trail_words);
-            let written = written
-                .iter()
-                .map(|range| stride * u64::from(range.start)..stride * u64::from(range.end));
             // Elements by which an array grows are new too.
             let grown = if is_all { 0 } else { self.held[k].min(bytes) }..bytes;
-            let ranges = written.chain(core::iter::once(grown)).collect();
-            let start = self.start(k);
-            uploads.extend(joined(ranges, bytes).into_iter().map(|range| {
-                let own = &own[range.start as usize..range.end as usize];
-                (BUFFERS[k], start + range.start, own)
-            }));
+            let ranges = in_bytes(written, stride).chain(core::iter::once(grown));
+            uploads.extend(self.pieces(k, own, ranges.collect()));
             self.held[k] = bytes;
         }
         self.trail_words = trail_words;
@@ -216,7 +204,7 @@ impl Mirror {
             live: tree.live,
             lights: tree.lights,
             depth: tree.depth,
-            top: if bvh.is_single_level() {
+            top: if bvh.view().is_single_level() {
                 0
             } else {
                 self.top::<M::Node>()
@@ -233,31 +221,56 @@ impl Mirror {
         (self.start(TOP) / size_of::<N>() as u64) as u32
     }
 
-    /// Compares the device's nodes with those of `bvh`, which were refitted since the last [`frame`](Self::frame): those in use
-    /// alone, for others mean nothing. Returns how many words were compared, and which nodes of the buffer differ.
+    /// The words of `bvh` in use, as a device has them once the steps of the last [`frame`](Self::frame) are done: by buffer, with
+    /// the byte at which they begin. Other words of a device mean nothing.
     #[must_use]
-    pub fn compare_nodes<M: Model<W>, const W: usize>(
+    pub fn in_use<'a, M: Model<W>, const W: usize>(
         &self,
-        bvh: &Bvh<M, W>,
-        device: &[u8],
-    ) -> (u64, Vec<u32>) {
-        let (all, top) = (bvh.plan_of_everything(), self.top::<M::Node>());
-        let bottom = all
-            .bottom
-            .nodes()
+        bvh: &'a Bvh<M, W>,
+    ) -> Vec<(DeviceBuffer, u64, &'a [u8])> {
+        let (view, tree, all) = (bvh.view(), bvh.tree(), Cursor::default().plan(bvh));
+        let instances = view.instances();
+        let one = |index: u32| index..index + 1;
+        let ones = |indices: &[u32]| indices.iter().copied().map(one).collect();
+        let live = (0..).zip(instances).filter(|(_, own)| own.count > 0);
+        let trails = instances
             .iter()
-            .map(|&node| (node, &bvh.nodes()[node as usize]));
-        let above = all.top.nodes().iter();
-        let above = above.map(|&node| (node + top, &bvh.top_nodes()[node as usize]));
-        let (mut words, mut different) = (0, Vec::new());
-        for (place, node) in bottom.chain(above) {
-            let at = place as usize * size_of::<M::Node>();
-            words += size_of::<M::Node>() as u64 / 4;
-            if device.get(at..at + size_of::<M::Node>()) != Some(bytemuck::bytes_of(node)) {
-                different.push(place);
-            }
-        }
-        (words, different)
+            .map(|own| own.first_light..own.first_light + own.count);
+        let opened = instances.iter().zip(tree.links.places);
+        let opened = opened.filter(|(own, place)| own.count > 0 && (OPENED..INVALID).contains(place));
+        // A part is a child of the mesh's root.
+        let parts = opened.map(|(own, place)| {
+            let (root, first) = (&view.nodes()[own.root as usize], place - OPENED);
+            first..first + (0..W).filter(|&slot| root.kind(slot) == kind::INNER).count() as u32
+        });
+        let used: [Vec<Range<u32>>; LIST] = [
+            ones(all.bottom.nodes()),
+            ones(all.top.nodes()),
+            vec![0..view.lights().len() as u32],
+            vec![0..instances.len() as u32],
+            ones(&all.roots),
+            trails.collect(),
+            ones(all.top.nodes()),
+            live.map(|(index, _)| one(index)).collect(),
+            parts.collect(),
+        ];
+        let all = used.iter().zip(arrays(bvh)).enumerate();
+        all.flat_map(|(k, (ranges, (own, stride)))| self.pieces(k, own, in_bytes(ranges, stride).collect()))
+            .collect()
+    }
+
+    /// Ranges of the bytes of an array, in order, with their places in its buffer.
+    fn pieces<'a>(
+        &self,
+        array: usize,
+        own: &'a [u8],
+        ranges: Vec<Range<u64>>,
+    ) -> impl Iterator<Item = (DeviceBuffer, u64, &'a [u8])> {
+        let start = self.start(array);
+        joined(ranges, own.len() as u64).into_iter().map(move |range| {
+            let bytes = &own[range.start as usize..range.end as usize];
+            (BUFFERS[array], start + range.start, bytes)
+        })
     }
 
     /// Offset of an array in its buffer, bytes.
@@ -283,6 +296,12 @@ impl Mirror {
         }
         is_larger
     }
+}
+
+/// Ranges of elements of `stride` bytes.
+fn in_bytes(ranges: &[Range<u32>], stride: u64) -> impl Iterator<Item = Range<u64>> {
+    let bytes = move |range: &Range<u32>| stride * u64::from(range.start)..stride * u64::from(range.end);
+    ranges.iter().map(bytes)
 }
 
 /// The ranges below `end`, in order, those that touch made one.

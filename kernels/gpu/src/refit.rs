@@ -110,6 +110,7 @@ impl Refit {
 #[cfg(test)]
 mod tests {
     use lightbvh::MomentNode;
+    use lightbvh::bvh::Cursor;
 
     use super::*;
     use crate::frame::tests::scene;
@@ -117,7 +118,7 @@ mod tests {
     /// Whether a level is computed at once or in parts: after what is below it, each node once, its children just before it.
     #[test]
     fn parts_of_a_level_are_the_level() {
-        let plan = scene::<MomentNode<4>, 4>().0.plan_of_everything();
+        let plan = Cursor::default().plan(&scene::<MomentNode<4>, 4>().0);
         let whole = Refit::new::<MomentNode<4>, 4>(&plan, 100);
         let levels = |levels: &Levels| levels.ranges().count();
         let count = 2 * levels(&plan.bottom) + 1 + 2 * levels(&plan.top);

@@ -19,13 +19,6 @@ pub(super) const NEAREST_SQUARED: f32 = pow2(-60);
 /// are decided.
 pub(super) const MAX_DENSITY: f32 = pow2(100);
 
-/// Relative luminance of linear RGB (Rec. ITU-R BT.709-6).
-#[inline]
-#[must_use]
-pub fn luminance(rgb: [f32; 3]) -> f32 {
-    (0.2126 * rgb[0] + 0.7152 * rgb[1]) + 0.0722 * rgb[2]
-}
-
 /// What of `radiance` a surface of reflectance `f` reflects, times `scale`, by components.
 #[inline]
 pub(super) fn reflected(f: Vec3, scale: f32, radiance: [f32; 3]) -> Vec3 {

@@ -4,13 +4,14 @@
 //! resampling", 2020, section 3).
 
 use glam::Vec3;
-use lightbvh::device::vector::length_squared;
+use lightbvh::device::emission::luminance_of;
+use lightbvh::device::vector::{flush3, length_squared};
 use lightbvh::exact::{flush, hash, min, pow2};
 use lightbvh::reservoir::{Resampling, target};
 
-use super::area::{Connection, luminance};
+use super::area::Connection;
 use super::emitter::Emitter;
-use super::grid::{TINY, div, flush_vector};
+use super::grid::{TINY, div};
 use super::numbers::{Numbers, Part};
 use super::params::RenderParams;
 use super::pick::PickLight;
@@ -81,7 +82,7 @@ pub fn reflected<L: Emitter, P: PickLight>(
                     own = light.connect(seen.point, seen.wo, material, 1.0, uv);
                 }
                 let c = own.contribution;
-                let target = target(luminance([c.x, c.y, c.z]));
+                let target = target(luminance_of(&[c.x, c.y, c.z]));
                 let random = hash(random.wrapping_add(candidate));
                 if stream.candidate(target, picked.pmf, random) {
                     found = own;
@@ -95,7 +96,7 @@ pub fn reflected<L: Emitter, P: PickLight>(
         }
     }
     let count = if params.samples == 0 { 1 } else { params.samples };
-    flush_vector(sum * div(1.0, count as i32 as f32), TINY)
+    flush3(sum * div(1.0, count as i32 as f32), TINY)
 }
 
 /// A contribution times a reservoir's weight, by components.

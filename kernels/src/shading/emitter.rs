@@ -2,19 +2,19 @@
 //! triangles pays for no other.
 
 use glam::Vec3;
-use lightbvh::device::vector::{dot, length_squared};
+use lightbvh::device::vector::{dot, flush3, length_squared};
 use lightbvh::exact::{abs, flush, max, min, rsqrt};
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::{EmissiveTriangle, LightPoint, ShadingPoint};
 
 use super::area::{Connection, MAX_DENSITY, NEAREST_SQUARED, OFFSET, largest_component, reflected};
-use super::grid::{STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, div, flush_vector, sqrt};
+use super::grid::{STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, div, sqrt};
 use super::material::Material;
 use super::textures::{NoTextures, TextureView, Textures};
 
 /// A light that points are lit by, and that rays may meet.
 pub trait Emitter: Light {
-    /// What is painted on the surfaces of such scenes.
+    /// The textures of such scenes.
     type Textures<'a>: Textures;
 
     /// Connects `point` with the point of this light that `uv` chooses, where the light was chosen with probability `pmf`.
@@ -44,7 +44,7 @@ pub trait Emitter: Light {
     fn density(&self, d: Vec3, pmf: f32) -> f32 {
         // Lights that are met are flat: all their points have one normal and one density.
         let at = self.point_for(Vec3::ZERO, [0.0; 2]);
-        let (squared, facing) = facing(flush_vector(d, STEP), &at);
+        let (squared, facing) = facing(flush3(d, STEP), &at);
         density(squared, facing, at.density, pmf)
     }
 
@@ -129,7 +129,7 @@ fn place(at: &LightPoint) -> Vec3 {
 #[inline]
 fn facing(d: Vec3, at: &LightPoint) -> (f32, f32) {
     let squared = length_squared(d);
-    let own = flush_vector(Vec3::new(at.normal[0], at.normal[1], at.normal[2]), STEP);
+    let own = flush3(Vec3::new(at.normal[0], at.normal[1], at.normal[2]), STEP);
     let front = -dot(own, d);
     let has_surface = at.flags & LightPoint::IS_POINT == 0;
     let is_two_sided = at.flags & EmissiveTriangle::TWO_SIDED != 0;
@@ -166,8 +166,8 @@ fn connect_point(
     is_met: bool,
 ) -> Connection {
     let y = place(at);
-    let n = flush_vector(point.normal(), STEP);
-    let d = flush_vector(y - point.position(), STEP);
+    let n = flush3(point.normal(), STEP);
+    let d = flush3(y - point.position(), STEP);
     let receiving = dot(n, d);
     let (squared, facing) = facing(d, at);
 
@@ -182,7 +182,7 @@ fn connect_point(
     }
 
     // Off the light's plane, towards the receiver.
-    let own = flush_vector(Vec3::new(at.normal[0], at.normal[1], at.normal[2]), STEP);
+    let own = flush3(Vec3::new(at.normal[0], at.normal[1], at.normal[2]), STEP);
     let offset = max(largest_component(y), OFFSET) * OFFSET;
     let towards = if dot(own, d) > 0.0 { -offset } else { offset };
     Connection {

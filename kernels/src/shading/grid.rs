@@ -1,7 +1,7 @@
 //! The grid of lengths: multiples of 2^-40 m.
 //!
 //! Devices may flush subnormal numbers to zero and the CPU keeps them, so none must come up. Coordinates on the grid
-//! differ by zero or at least 2^-40; with cross products flushed below 2^-60 ([`flush_vector`]) every product in the
+//! differ by zero or at least 2^-40; with cross products flushed below 2^-60 every product in the
 //! ray tests is zero or at least 2^-100, and every sum of such products zero or at least 2^-123: all normal.
 
 use glam::Vec3;
@@ -52,13 +52,6 @@ pub fn snap(x: f32) -> f32 {
 #[must_use]
 pub fn snap_point(p: Vec3) -> Vec3 {
     Vec3::new(snap(p.x), snap(p.y), snap(p.z))
-}
-
-/// `v` with +0 for each component smaller than `tiny`.
-#[inline]
-#[must_use]
-pub fn flush_vector(v: Vec3, tiny: f32) -> Vec3 {
-    Vec3::new(flush(v.x, tiny), flush(v.y, tiny), flush(v.z, tiny))
 }
 
 /// Largest estimate of a radiance, W/(m² sr): 2^90. Greater ones are cut to it, so that no sum of up to 2^30 of them

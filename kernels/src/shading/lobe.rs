@@ -4,10 +4,10 @@
 //! of two that is a root of a root, and the density a product of squares. `k = 2` is the cosine-weighted hemisphere.
 
 use glam::Vec3;
-use lightbvh::device::vector::{cross, dot, length_squared};
+use lightbvh::device::vector::{cross, dot, flush3, length_squared};
 use lightbvh::exact::{floor_u32, flush, min};
 
-use super::grid::{STEP, div, flush_vector, sqrt};
+use super::grid::{STEP, div, sqrt};
 
 /// Coefficients of `sin(x pi / 2) / x` and `cos(x pi / 2)` in powers of `x^2`: the Taylor series, whose first term left
 /// out is below 2^-25 for `|x| <= 1/2`.
@@ -73,7 +73,7 @@ pub fn cosine_power(n: Vec3, v: Vec3, log2: u32) -> f32 {
     let mut power = 0.0;
     // Opposite directions have no half vector; they meet only where both graze the surface.
     if along > 0.0 && squared > STEP {
-        let across = flush_vector(cross(n, v), STEP);
+        let across = flush3(cross(n, v), STEP);
         let sin_squared = div(length_squared(across), squared);
         let cos_squared = min(flush(div(along * along, squared), STEP), 1.0);
         let near = sin_squared < 0.5;
@@ -102,11 +102,11 @@ pub fn cosine_power(n: Vec3, v: Vec3, log2: u32) -> f32 {
 #[inline]
 #[must_use]
 pub fn about(n: Vec3, across: f32, up: f32, along: f32) -> Vec3 {
-    let n = flush_vector(n, STEP);
+    let n = flush3(n, STEP);
     let sign = if n.z < 0.0 { -1.0 } else { 1.0 };
     let a = div(-1.0, sign + n.z);
     let b = n.x * n.y * a;
-    let tangent = flush_vector(Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), STEP);
-    let bitangent = flush_vector(Vec3::new(b, sign + n.y * n.y * a, -n.y), STEP);
-    flush_vector((tangent * across + bitangent * up) + n * along, STEP)
+    let tangent = flush3(Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), STEP);
+    let bitangent = flush3(Vec3::new(b, sign + n.y * n.y * a, -n.y), STEP);
+    flush3((tangent * across + bitangent * up) + n * along, STEP)
 }

@@ -2,10 +2,11 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use lightbvh::device::vector::dot;
+use lightbvh::device::emission::luminance_of;
+use lightbvh::device::vector::{dot, flush3};
 use lightbvh::exact::{clamp, floor_u32, flush, max, pow2};
 
-use super::grid::{STEP, TINY, div, flush_vector};
+use super::grid::{STEP, TINY, div};
 use super::lobe::{about, circle, cosine_power, power_cosine};
 
 /// Largest [`Material::exponent_log2`] that counts; larger ones are read as this.
@@ -42,13 +43,11 @@ impl Material {
     /// colour in the diffuse lobe that is left.
     #[must_use]
     pub fn of(base_color: [f32; 3], metallic: f32, roughness: f32) -> Self {
-        let [r, g, b] = base_color;
-        let luminance = (0.2126 * r + 0.7152 * g) + 0.0722 * b;
         let alpha = max(roughness * roughness, LEAST_ALPHA);
         let exponent = clamp(div(2.0, alpha * alpha) - 2.0, 1.0, 1024.0);
         Self {
             albedo: base_color,
-            specular: 0.04 * (1.0 - metallic) + luminance * metallic,
+            specular: 0.04 * (1.0 - metallic) + luminance_of(&base_color) * metallic,
             exponent_log2: (exponent.to_bits() >> 23) - 127,
         }
     }
@@ -64,20 +63,14 @@ impl Material {
         }
     }
 
-    /// The reflectance (BRDF) from unit direction `wi` to unit direction `wo` at unit normal `n`, 1/sr; both directions
-    /// point away from the surface and lie on the normal's side.
+    /// The reflectance (BRDF) from unit direction `wi` to unit direction `wo` at unit normal `n`, 1/sr, and the density
+    /// with which [`sample`](Self::sample) chooses `wi`. Both directions point away from the surface and lie on the
+    /// normal's side.
     ///
     /// `(1 - s) albedo / pi + s (k + 6) / (8 pi) (n . h)^k` with the half vector `h` (J. Blinn, "Models of light
     /// reflection for computer synthesized pictures", 1977). The exact normalisation is
     /// `(k + 2)(k + 4) / (8 pi (k + 2^(-k/2)))` (F. Giesen, "Phong and Blinn-Phong normalization factors", 2009), which
     /// `(k + 6) / (8 pi)` stays just below for every `k >= 1`: so the lobe loses a little energy but never adds any.
-    #[inline]
-    #[must_use]
-    pub fn eval(&self, n: Vec3, wi: Vec3, wo: Vec3) -> Vec3 {
-        self.scatter(n, wi, wo).reflectance
-    }
-
-    /// [`eval`](Self::eval), and the density with which [`sample`](Self::sample) chooses `wi`.
     #[cfg_attr(target_arch = "spirv", inline(never))]
     #[cfg_attr(not(target_arch = "spirv"), inline)]
     #[must_use]
@@ -115,8 +108,8 @@ impl Material {
         }
     }
 
-    /// A unit direction that light may come from, chosen about as [`eval`](Self::eval) times cosine, with the density
-    /// that [`scatter`](Self::scatter) tells: the half vector by the lobe's own power of the cosine, or the direction by
+    /// A unit direction that light may come from, chosen about as the reflectance times cosine, with the density
+    /// that [`scatter`](Self::scatter) returns: the half vector by the lobe's own power of the cosine, or the direction by
     /// the cosine. It may lie below the surface, where the density of what is reflected is 0.
     #[cfg_attr(target_arch = "spirv", inline(never))]
     #[cfg_attr(not(target_arch = "spirv"), inline)]
@@ -126,7 +119,7 @@ impl Material {
         let [cosine, sine] = power_cosine(u[0], if glossy { self.log2() } else { 1 });
         let [across, up] = circle(u[1]);
         let chosen = about(n, sine * across, sine * up, cosine);
-        let mirrored = flush_vector(chosen * (2.0 * flush(dot(wo, chosen), STEP)) - wo, STEP);
+        let mirrored = flush3(chosen * (2.0 * flush(dot(wo, chosen), STEP)) - wo, STEP);
         if glossy { mirrored } else { chosen }
     }
 

@@ -31,7 +31,6 @@ pub mod emitters;
 pub mod grid;
 pub mod lobe;
 pub mod material;
-pub mod mis;
 pub mod numbers;
 pub mod params;
 pub mod path;

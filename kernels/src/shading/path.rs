@@ -1,14 +1,14 @@
 //! Light along whole paths: at each surface one sampled light and one sampled direction, which share what both can find
-//! (pbrt-v4, sections 13.2 to 13.4; weights by [`mis`](super::mis)).
+//! (pbrt-v4, sections 13.2 to 13.4; weights by [`mis_weight`]).
 
 use glam::Vec3;
-use lightbvh::device::vector::{dot, length_squared};
+use lightbvh::device::vector::{dot, flush3, length_squared};
 use lightbvh::exact::{floor_u32, flush, hash, max, min, unit_f32};
+use lightbvh::light::mis_weight;
 use lightbvh::{Random64, ShadingPoint};
 
 use super::emitter::Emitter;
-use super::grid::{STEP, TINY, bounded_product, div, flush_vector};
-use super::mis::power_heuristic;
+use super::grid::{STEP, TINY, bounded_product, div};
 use super::pick::PickLight;
 use super::pixel::{Scene, arriving, encounter};
 use super::ray::{FAR, Ray};
@@ -68,14 +68,14 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
             let light = scene.emitters.light(met.light, met.instance);
             let pmf = picker.pmf(&from, met.light, met.instance);
             weight = if light.is_met() {
-                power_heuristic(density, light.density(ray.direction * met.distance, pmf))
+                mis_weight(density, light.density(ray.direction * met.distance, pmf))
             } else {
                 0.0
             };
         }
         radiance += bounded(throughput, seen.direct * weight);
 
-        let n = flush_vector(seen.point.normal(), STEP);
+        let n = flush3(seen.point.normal(), STEP);
         alive = bounce < bounces && length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32;
         if alive {
             let material = scene.material(&seen);
@@ -88,7 +88,7 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
                 let found = light.connect(seen.point, seen.wo, material, picked.pmf, uv);
                 if found.is_lit() {
                     let left = arriving(scene, &seen.point, &found, picked.light);
-                    let weight = power_heuristic(found.density, found.scattering_density);
+                    let weight = mis_weight(found.density, found.scattering_density);
                     radiance += bounded(throughput, left * weight);
                 }
             }

@@ -69,7 +69,7 @@ pub fn word(words: &[u32], at: u32) -> u32 {
     word
 }
 
-/// A picture among the words of a textures.
+/// A picture among the words of textures.
 #[derive(Clone, Copy, Debug)]
 pub struct Picture<'a> {
     /// All words.

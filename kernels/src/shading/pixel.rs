@@ -1,13 +1,13 @@
 //! What a ray sees of a scene.
 
 use glam::Vec3;
-use lightbvh::device::vector::{cross, dot, length_squared};
+use lightbvh::device::vector::{cross, dot, flush3, length_squared};
 use lightbvh::{EmissiveTriangle, Instance, ShadingPoint};
 
 use super::area::{Connection, offset_distance};
 use super::emitter::Emitter;
 use super::emitters::Emitters;
-use super::grid::{TINY_AREA, div, flush_vector, sqrt};
+use super::grid::{TINY_AREA, div, sqrt};
 use super::material::Material;
 use super::ray::Ray;
 use super::textures::{Spot, Textures};
@@ -61,7 +61,7 @@ impl<'a, L: Emitter> Scene<'a, L> {
     #[must_use]
     pub fn glowing(&self, light: L, number: u32, uv: [f32; 2]) -> L {
         let mut glowing = light;
-        if <L::Textures<'_> as Textures>::IS_PAINTED {
+        if <L::Textures<'_> as Textures>::HAS_TEXTURES {
             // The parts of a triangle's edges, as `uniform_point` folds them.
             let fold = uv[0] + uv[1] > 1.0;
             let at = if fold { [1.0 - uv[0], 1.0 - uv[1]] } else { uv };
@@ -153,7 +153,7 @@ pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) 
         let p2 = vertex(blocks, hit.triangle, 2);
         let e1 = p1 - p0;
         let e2 = p2 - p0;
-        let m = flush_vector(cross(e1, e2), TINY_AREA);
+        let m = flush3(cross(e1, e2), TINY_AREA);
         let length = sqrt(length_squared(m));
         let front = dot(m, ray.direction) < 0.0;
         let [a, b] = ray.barycentric(p0, e1, e2);
@@ -189,7 +189,7 @@ fn emitted<L: Emitter>(scene: &Scene<'_, L>, light: u32, instance: u32, front: b
     let mut radiance = Vec3::ZERO;
     if light != NONE {
         let mut own = scene.emitters.light(light, instance);
-        if <L::Textures<'_> as Textures>::IS_PAINTED {
+        if <L::Textures<'_> as Textures>::HAS_TEXTURES {
             let Surfaces { blocks, textures, .. } = scene.surfaces;
             own = own.with_emission(textures.glow(blocks, light, at, own.emission()));
         }

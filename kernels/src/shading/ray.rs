@@ -1,10 +1,10 @@
 //! A ray against a triangle.
 
 use glam::Vec3;
-use lightbvh::device::vector::{cross, dot};
+use lightbvh::device::vector::{cross, dot, flush3};
 use lightbvh::exact::{abs, pow2, recip};
 
-use super::grid::{STEP, TINY_AREA, div, flush_vector, snap_point};
+use super::grid::{STEP, TINY_AREA, div, snap_point};
 
 /// What a missed triangle returns instead of a distance.
 pub const MISS: f32 = -1.0;
@@ -57,7 +57,7 @@ impl Ray {
     #[inline]
     #[must_use]
     pub fn new(origin: Vec3, direction: Vec3, t_max: f32) -> Self {
-        let direction = flush_vector(direction, STEP);
+        let direction = flush3(direction, STEP);
         Self {
             origin: snap_point(origin),
             direction,
@@ -77,8 +77,8 @@ impl Ray {
         let e1 = p1 - p0;
         let e2 = p2 - p0;
         let s = self.origin - p0;
-        let pv = flush_vector(cross(self.direction, e2), TINY_AREA);
-        let qv = flush_vector(cross(s, e1), TINY_AREA);
+        let pv = flush3(cross(self.direction, e2), TINY_AREA);
+        let qv = flush3(cross(s, e1), TINY_AREA);
         let signed = dot(e1, pv);
         // Seen from behind, the determinant and all it scales change their sign.
         let back = signed < 0.0;
@@ -99,9 +99,9 @@ impl Ray {
     #[inline]
     #[must_use]
     pub fn barycentric(&self, p0: Vec3, e1: Vec3, e2: Vec3) -> [f32; 2] {
-        let pv = flush_vector(cross(self.direction, e2), TINY_AREA);
+        let pv = flush3(cross(self.direction, e2), TINY_AREA);
         let s = self.origin - p0;
-        let qv = flush_vector(cross(s, e1), TINY_AREA);
+        let qv = flush3(cross(s, e1), TINY_AREA);
         let determinant = dot(e1, pv);
         let counts = abs(determinant) > MIN_DETERMINANT;
         let scale = recip(if counts { determinant } else { 1.0 });

@@ -1,4 +1,4 @@
-//! What is painted on surfaces: textures, and what is cut out of them. A type, so that scenes without pay for nothing.
+//! Textures of surfaces, and cut-outs. A type, so that scenes without textures pay nothing for them.
 
 use bytemuck::{Pod, Zeroable};
 use lightbvh::exact::{clamp, flush};
@@ -18,10 +18,10 @@ pub struct Spot {
     pub at: [f32; 2],
 }
 
-/// What surfaces are painted with.
+/// The textures of a scene.
 pub trait Textures: Copy + Send + Sync {
-    /// Whether there is such paint; without, every surface is opaque and of one material.
-    const IS_PAINTED: bool;
+    /// Whether there are any; without them every surface is opaque and of one material.
+    const HAS_TEXTURES: bool;
 
     /// Whether the triangle, which the ray meets, is there and not cut out.
     #[inline(always)]
@@ -35,7 +35,7 @@ pub trait Textures: Copy + Send + Sync {
         Material::load(materials, index)
     }
 
-    /// The radiance of `light` where the parts of its edges are `at`; `emission` is its mean, which it has where nothing is painted on it.
+    /// The radiance of `light` where the parts of its edges are `at`; `emission` is its mean, which it has without a texture.
     /// What is cut out does not glow.
     #[inline(always)]
     fn glow(&self, _blocks: &[TriangleBlock], _light: u32, _at: [f32; 2], emission: [f32; 3]) -> [f32; 3] {
@@ -43,12 +43,12 @@ pub trait Textures: Copy + Send + Sync {
     }
 }
 
-/// No paint: every surface is opaque, and of one material.
+/// No textures: every surface is opaque, and of one material.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoTextures;
 
 impl Textures for NoTextures {
-    const IS_PAINTED: bool = false;
+    const HAS_TEXTURES: bool = false;
 }
 
 /// Where a triangle lies on textures; 28 bytes.
@@ -63,19 +63,20 @@ pub struct Corner {
 
 const _: () = assert!(size_of::<Corner>() == 28);
 
-/// Paint, as buffers hold it.
+/// Textures in buffers.
 #[derive(Clone, Copy, Debug)]
 pub struct TextureView<'a> {
     /// By the number of a triangle in a [`Hit`](super::trace::Hit), all lanes of all blocks; then by the number of a light.
     pub corners: &'a [Corner],
-    /// [`HEADER_WORDS`], of which the first says how many materials are painted, [`SRGB_WORDS`], a [`PaintWords`] for each material, pictures. Empty where nothing is painted.
+    /// [`HEADER_WORDS`], of which the first is the number of materials, [`SRGB_WORDS`], a [`MaterialWords`] for each material,
+    /// pictures. Empty without textures.
     pub words: &'a [u32],
 }
 
-/// What is painted on a material.
+/// Textures of a material.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct PaintWords {
+pub struct MaterialWords {
     /// Opacity below which the surface is not there; 0 where it is there everywhere.
     pub cutoff: f32,
     /// Factor on the base colour, and on the opacity.
@@ -88,14 +89,14 @@ pub struct PaintWords {
     pub emission_picture: u32,
 }
 
-const _: () = assert!(size_of::<PaintWords>() == 4 * PaintWords::COUNT as usize);
+const _: () = assert!(size_of::<MaterialWords>() == 4 * MaterialWords::COUNT as usize);
 
-impl PaintWords {
+impl MaterialWords {
     /// Words of it.
     pub const COUNT: u32 = 10;
 }
 
-/// Words of a [`PaintWords`] by their places.
+/// Words of a [`MaterialWords`] by their places.
 const CUTOFF: u32 = 0;
 const BASE: u32 = 1;
 const EMISSION: u32 = 5;
@@ -104,8 +105,8 @@ const EMISSION_PICTURE: u32 = 9;
 
 /// Where the words of a material begin.
 #[inline]
-fn paint_at(material: u32) -> u32 {
-    HEADER_WORDS + SRGB_WORDS + material.wrapping_mul(PaintWords::COUNT)
+fn material_at(material: u32) -> u32 {
+    HEADER_WORDS + SRGB_WORDS + material.wrapping_mul(MaterialWords::COUNT)
 }
 
 /// A point between texture coordinates, by the parts of the edges.
@@ -127,7 +128,7 @@ impl TextureView<'_> {
 
     #[inline]
     fn word(&self, material: u32, at: u32) -> u32 {
-        word(self.words, paint_at(material).wrapping_add(at))
+        word(self.words, material_at(material).wrapping_add(at))
     }
 
     #[inline]
@@ -173,7 +174,7 @@ impl TextureView<'_> {
 }
 
 impl Textures for TextureView<'_> {
-    const IS_PAINTED: bool = true;
+    const HAS_TEXTURES: bool = true;
 
     #[inline]
     fn stops(&self, blocks: &[TriangleBlock], ray: &Ray, triangle: u32) -> bool {

@@ -71,7 +71,7 @@ pub struct Surfaces<'a, S = NoTextures> {
     pub nodes: &'a [RayNode],
     /// What its leaves hold.
     pub blocks: &'a [TriangleBlock],
-    /// What is painted on it.
+    /// Its textures.
     pub textures: S,
 }
 

@@ -3,10 +3,10 @@
 use super::*;
 
 #[test]
-fn every_kind_and_paint_have_the_same_words_on_every_device() {
+fn every_kind_and_texture_have_the_same_words_on_every_device() {
     // Devices compile the kernels once for both, which takes longer than all the rest.
     on_each_device(Options::default(), |device| {
-        for scene in [room(), painted_room()] {
+        for scene in [room(), textured_room()] {
             same_on(device, &scene);
         }
     });

@@ -19,7 +19,7 @@ use lightbvh_kernels::bvh::{AnyKind, WIDTH};
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_tests::devices::on_each_device;
 
-use crate::textures::{painted_room, sheet};
+use crate::textures::{sheet, textured_room};
 
 const ALL: [AnalyticKind; 5] = [
     AnalyticKind::Point,
@@ -145,9 +145,9 @@ pub fn room() -> Scene {
 
 /// That the images of all samplers agree, of direct light and of paths.
 #[test]
-fn samplers_agree_on_every_kind_and_paint() {
+fn samplers_agree_on_every_kind_and_texture() {
     let params = render_params((48, 36), 256, 5, [0.05; 3]);
-    let arrays = arrays(&painted_room(), &params);
+    let arrays = arrays(&textured_room(), &params);
     for integrator in [Integrator::Direct, Integrator::Path { bounces: 3 }] {
         let images: Vec<Vec<[f32; 3]>> = Sampler::ALL
             .iter()

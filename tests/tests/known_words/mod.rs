@@ -8,6 +8,7 @@ mod scenes;
 pub mod trees;
 
 use lightbvh::Transform;
+use lightbvh::bvh::FORMAT;
 use lightbvh::node::NODE_FORMAT;
 use lightbvh_gpu::self_test as shipped;
 use lightbvh_tests::generate::Random;
@@ -34,11 +35,14 @@ fn place(random: &mut Random) -> Transform {
 
 /// The first entry under "Changes to bits" that names a version names the present one: the newest stand above.
 #[test]
-fn changelog_names_the_version_of_node_words() {
+fn changelog_names_versions_of_words() {
     let text = include_str!("../../../CHANGELOG.md");
     let changes = text.split("### Changes to bits").nth(1).expect("the heading");
-    let version = changes.split("`NODE_FORMAT` ").nth(1).expect("a version");
-    assert!(version.starts_with(&format!("{NODE_FORMAT},")), "{NODE_FORMAT}");
+    for (name, version) in [("NODE_FORMAT", NODE_FORMAT), ("FORMAT", FORMAT)] {
+        let found = changes.split(&format!("`{name}` ")).nth(1).expect("a version");
+        let digits = found.split(|c: char| !c.is_ascii_digit()).next();
+        assert_eq!(digits, Some(&*version.to_string()), "{name}");
+    }
 }
 
 /// Exact arithmetic, bit by bit. `cargo run -p lightbvh-tests --example self_test` writes the answers.

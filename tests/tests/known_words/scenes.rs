@@ -67,7 +67,7 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
             scene.rebuild();
         }
         scene.refit();
-        let work = scene.plan(&mut cursor);
+        let work = cursor.plan(&scene);
         for list in [
             &work.written_nodes,
             &work.written_lights,
@@ -88,43 +88,44 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
             levels.ranges().for_each(|range| digest.word(range.end as u32));
         }
         digest.word(work.computed() as u32);
-        digest.words(scene.nodes());
-        digest.words(scene.top_nodes());
+        digest.words(scene.view().nodes());
+        digest.words(scene.view().top_nodes());
         digest.words(scene.tree().links.above);
         digest.words(scene.tree().links.places);
-        digest.words(scene.roots());
-        digest.words(scene.instances());
-        digest.words(scene.lights());
+        digest.words(scene.view().roots());
+        digest.words(scene.view().instances());
+        digest.words(scene.view().lights());
         digest.words(scene.tree().trails);
-        digest.words(&scene.world_lights());
-        for range in scene.removed_lights() {
+        digest.words(&scene.view().world_lights());
+        for range in scene.view().removed_lights() {
             digest.word(range.start);
             digest.word(range.end);
         }
         [
             scene.tree().root,
-            scene.light_end(),
-            scene.light_count() as u32,
-            scene.bytes() as u32,
+            scene.view().light_end(),
+            scene.view().light_count() as u32,
+            scene.view().bytes() as u32,
         ]
         .into_iter()
         .for_each(|word| digest.word(word));
         for _ in 0..30 {
             let point = generate::point(&mut random, 20.0);
-            let sampled = scene.by::<I>().sample(&point, random.bits());
+            let sampled = scene.tree().by::<I>().sample(&point, random.bits());
             digest.word(sampled.light);
             digest.float(sampled.pmf);
         }
-        let world = scene.world_lights();
+        let world = scene.view().world_lights();
         for &id in &ids {
-            for light in scene.lights_of(id).expect("it is there") {
-                assert_eq!(scene.light(light, id.index()), Some(world[light as usize]));
+            for light in scene.view().lights_of(id).expect("it is there") {
+                assert_eq!(scene.view().light(light, id.index()), Some(world[light as usize]));
             }
         }
         for &id in &ids {
-            let lights = scene.lights_of(id).expect("it is there");
+            let lights = scene.view().lights_of(id).expect("it is there");
             let point = generate::point(&mut random, 20.0);
-            digest.float(scene.by::<I>().pmf(&point, lights.start + frame % 30, id.index()));
+            let tree = scene.tree().by::<I>();
+            digest.float(tree.pmf(&point, lights.start + frame % 30, id.index()));
         }
     }
     digest.is(known, N::NAME);

@@ -1,5 +1,7 @@
 //! Builds, refits and picks of single trees.
 
+use lightbvh::bvh::Cursor;
+use lightbvh::device::bvh::follow;
 use lightbvh::{
     Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, FluxOverDistance, Heuristic, ImportanceModel,
     LightNode, Lights, MomentNode, Moments, Random64, SampledLight, ShadingPoint, exact,
@@ -64,28 +66,28 @@ pub fn points() -> Vec<ShadingPoint> {
 fn tree<N: LightNode<W>, const W: usize>(digest: &mut Digest, bvh: &Bvh<(N, ()), W>) {
     let tree = bvh.tree();
     digest.words(tree.nodes);
-    digest.words(bvh.top_nodes());
+    digest.words(bvh.view().top_nodes());
     digest.words(tree.links.above);
     digest.words(tree.links.places);
     digest.words(tree.instances);
     digest.words(tree.trails);
-    digest.words(bvh.roots());
+    digest.words(bvh.view().roots());
     [
         tree.root,
         tree.trail_words,
         tree.live,
         tree.lights,
-        bvh.depth(),
-        bvh.bytes() as u32,
+        bvh.view().depth(),
+        bvh.view().bytes() as u32,
     ]
     .into_iter()
     .for_each(|word| digest.word(word));
-    let plan = bvh.plan_of_everything();
+    let plan = Cursor::default().plan(bvh);
     for levels in [&plan.bottom, &plan.top] {
         digest.words(levels.nodes());
         levels.ranges().for_each(|range| digest.word(range.end as u32));
     }
-    digest.summary(&bvh.summary());
+    digest.summary(&bvh.view().summary());
 }
 
 fn picks<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
@@ -100,13 +102,15 @@ fn picks<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
             low: random.bits(),
         });
         let mut sampled = [SampledLight::NONE; 6];
-        bvh.by::<I>().sample_batch(&[point; 6], &numbers, &mut sampled);
+        bvh.tree()
+            .by::<I>()
+            .sample_batch(&[point; 6], &numbers, &mut sampled);
         for (number, sampled) in numbers.into_iter().zip(sampled) {
-            assert_eq!(bvh.by::<I>().sample(&point, number), sampled);
+            assert_eq!(bvh.tree().by::<I>().sample(&point, number), sampled);
             digest.word(sampled.light);
             digest.float(sampled.pmf);
         }
-        let sampled = bvh.by::<I>().sample(&point, random.bits());
+        let sampled = bvh.tree().by::<I>().sample(&point, random.bits());
         digest.word(sampled.light);
         for _ in 0..6 {
             let light = random.below(lights.all().len() as u32);
@@ -135,7 +139,7 @@ fn bvh<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: [u64; 3
                     continue;
                 }
                 picks::<N, I, W>(&mut picked, &bvh, &lights);
-                bvh.follow(&later).expect("as many lights");
+                follow(&mut bvh, &later).expect("as many lights");
                 tree(&mut refitted, &bvh);
                 picks::<N, I, W>(&mut picked, &bvh, &later);
                 picks::<N, FluxOverDistance, W>(&mut picked, &bvh, &later);

@@ -1,9 +1,9 @@
 //! The two ways to find a light share it exactly.
 
 use glam::Vec3;
+use lightbvh::light::mis_weight;
 use lightbvh::{ShadingPoint, exact};
 use lightbvh_kernels::shading::emitter::Emitter;
-use lightbvh_kernels::shading::mis::power_heuristic;
 use lightbvh_kernels::shading::pixel::encounter;
 use lightbvh_kernels::shading::ray::{FAR, Ray};
 use lightbvh_tests::generate::Random;
@@ -12,7 +12,7 @@ use lightbvh_tests::world::{World, glossy, light, matte};
 #[test]
 fn the_weights_of_both_ways_sum_to_one() {
     let mut random = Random::new(1);
-    let mut draw = || exact::pow2(random.below(205) as i32 - 100) * (1.0 + random.unit());
+    let mut draw = || exact::pow2(random.below(253) as i32 - 126) * (1.0 + random.unit());
     for i in 0..1_000_000 {
         let a = draw();
         let b = if i % 2 == 0 {
@@ -20,7 +20,7 @@ fn the_weights_of_both_ways_sum_to_one() {
         } else {
             a * (0.5 + draw().fract())
         };
-        let (wa, wb) = (power_heuristic(a, b), power_heuristic(b, a));
+        let (wa, wb) = (mis_weight(a, b), mis_weight(b, a));
         // Three roundings of 2^-25 each: of the sum below, which both share, and of the two quotients.
         let sum = f64::from(wa) + f64::from(wb);
         assert!((sum - 1.0).abs() <= 3.0 * 2f64.powi(-25), "{a} {b}: {sum}");
@@ -32,10 +32,10 @@ fn the_weights_of_both_ways_sum_to_one() {
         assert!((f64::from(wa) - expected).abs() <= 2f64.powi(-22), "{a} {b}");
     }
     for x in [exact::pow2(-100), 1.0, exact::pow2(104)] {
-        assert_eq!((power_heuristic(x, 0.0), power_heuristic(0.0, x)), (1.0, 0.0));
-        assert_eq!(power_heuristic(x, x), 0.5);
+        assert_eq!((mis_weight(x, 0.0), mis_weight(0.0, x)), (1.0, 1.0));
+        assert_eq!(mis_weight(x, x), 0.5);
     }
-    assert_eq!(power_heuristic(0.0, 0.0), 1.0);
+    assert_eq!(mis_weight(0.0, 0.0), 1.0);
 }
 
 /// What is found at a sampled point of a light, and what a ray in that direction finds, have the same two densities.
@@ -95,8 +95,8 @@ fn both_ways_tell_the_same_densities() {
                         "{ratio} {gloss_error}"
                     );
                     // A weight moves by at most half the relative error of the ratio of its densities.
-                    let sum = power_heuristic(connection.density, connection.scattering_density)
-                        + power_heuristic(scattering.density, by_light as f32);
+                    let sum = mis_weight(connection.density, connection.scattering_density)
+                        + mis_weight(scattering.density, by_light as f32);
                     let error = light_error + 2.0 * gloss_error + 2f64.powi(-15);
                     assert!((f64::from(sum) - 1.0).abs() <= error, "{sum} {error}");
                 }

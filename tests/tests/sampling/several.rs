@@ -5,7 +5,7 @@ use super::*;
 /// Batches and spaced numbers are single samples, uniform choices among them; what is longer than the shortest list is left alone.
 fn several_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
     let bvh = built::<N, W>(&scene(200, 41), &BuildParams::default(), two);
-    let tree = bvh.by::<I>();
+    let tree = bvh.tree().by::<I>();
     let random = &mut Random::new(42);
     let untouched = SampledLight {
         light: 7,

@@ -6,12 +6,12 @@ use super::*;
 /// at `aim` from height `eye`.
 fn behind(lamp: f32, [aim, eye]: [f32; 2]) -> SceneData {
     let halves = picture(2, 1, |x, _| [0, 0, 0, if x == 0 { 255 } else { 100 }]);
-    let paint = Paint {
+    let textures = MaterialTextures {
         base: [0.5, 0.5, 0.5, 1.0],
         ..PLAIN
     };
-    let mut data = floor(paint, vec![halves], [aim, eye]);
-    data.materials.push(painted(Paint {
+    let mut data = floor(textures, vec![halves], [aim, eye]);
+    data.materials.push(textured(MaterialTextures {
         base_texture: Some(lying(0)),
         cutoff: 0.5,
         ..PLAIN

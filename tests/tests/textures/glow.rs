@@ -1,4 +1,4 @@
-//! Textured emission, and a room of everything that is painted.
+//! Textured emission, and a room of all textures.
 
 use super::*;
 
@@ -15,7 +15,7 @@ fn pictures_glow() {
         x if x <= 0.04045 => x / 12.92,
         x => ((x + 0.055) / 1.055).powf(2.4),
     };
-    let paint = Paint {
+    let textures = MaterialTextures {
         radiance: [3.0, 5.0, 2.0],
         glow_texture: Some(lying(0)),
         ..PLAIN
@@ -23,18 +23,18 @@ fn pictures_glow() {
     // Without a picture of the glow each triangle has its own; another texture changes nothing of that.
     for is_shown in [true, false] {
         let own = [[0.3_f32, 0.2, 0.1], [0.1, 0.2, 0.6]];
-        let paint = Paint {
-            glow_texture: paint.glow_texture.filter(|_| is_shown),
+        let textures = MaterialTextures {
+            glow_texture: textures.glow_texture.filter(|_| is_shown),
             base_texture: Some(lying(0)).filter(|_| !is_shown),
-            ..paint
+            ..textures
         };
         let (side, h, aim) = (2.0, 1.5, 0.4);
-        let floor_paint = Paint {
+        let floor_textures = MaterialTextures {
             base: [0.5, 0.5, 0.5, 1.0],
             ..PLAIN
         };
-        let mut data = floor(floor_paint, vec![picture(4, 4, texels)], [aim as f32, 1.0]);
-        data.materials.push(painted(paint));
+        let mut data = floor(floor_textures, vec![picture(4, 4, texels)], [aim as f32, 1.0]);
+        data.materials.push(textured(textures));
         // The mean of each triangle is any: it chooses lights, and the picture says what they send.
         let mut lamp = sheet(side as f32, 1);
         lamp.primitives[0].radiance = Some(own.to_vec());
@@ -60,7 +60,7 @@ fn pictures_glow() {
                 let area = side * side / f64::from(n * n);
                 for k in 0..3 {
                     let radiance = match is_shown {
-                        true => f64::from(paint.radiance[k]) * linear(texel[k]),
+                        true => f64::from(textures.radiance[k]) * linear(texel[k]),
                         // Places on the diagonal are half in each.
                         false if i == j => 0.5 * f64::from(own[0][k] + own[1][k]),
                         false => f64::from(own[usize::from(v < u)][k]),
@@ -73,8 +73,8 @@ fn pictures_glow() {
     }
 }
 
-/// The room of all kinds, painted.
-pub fn painted_room() -> Scene {
+/// The room of all kinds, textured.
+pub fn textured_room() -> Scene {
     let mut data = room().into_data();
     let noise = picture(8, 8, |x, y| hash(x + 8 * y).to_le_bytes());
     data.pictures = vec![noise];
@@ -84,19 +84,19 @@ pub fn painted_room() -> Scene {
         transform: [[2.4, -1.8], [1.2, 1.6], [0.1, 0.2]],
         ..lying(0)
     };
-    data.materials[0].paint = Some(Paint {
+    data.materials[0].textures = Some(MaterialTextures {
         base: [0.9, 0.8, 0.7, 1.0],
         base_texture: Some(smooth(Wrap::Repeat)),
         ..PLAIN
     });
-    data.materials[1].paint = Some(Paint {
+    data.materials[1].textures = Some(MaterialTextures {
         base: [1.0, 1.0, 1.0, 0.8],
         radiance: [2.0, 3.0, 1.0],
         base_texture: Some(smooth(Wrap::Clamp)),
         glow_texture: Some(smooth(Wrap::Mirror)),
         cutoff: 0.3,
     });
-    data.materials[2].paint = Some(Paint {
+    data.materials[2].textures = Some(MaterialTextures {
         base_texture: Some(smooth(Wrap::Repeat)),
         cutoff: 0.4,
         ..PLAIN

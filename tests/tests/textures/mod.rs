@@ -1,11 +1,11 @@
-//! What is painted on surfaces: pictures against an oracle, known answers of each texture, and every device against the CPU,
+//! Textures of surfaces: pictures against an oracle, known answers of each texture, and every device against the CPU,
 //! word for word.
 
 mod cut;
 mod glow;
 mod surfaces;
 
-pub use glow::painted_room;
+pub use glow::textured_room;
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -14,8 +14,8 @@ use lightbvh::BuildParams;
 use lightbvh::exact::hash;
 use lightbvh_host::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler};
 use lightbvh_host::scene::{
-    AnalyticKind, AnalyticLight, Camera, IN_PLACE, Instances, Material, Mesh, Node, Paint, Picture,
-    Primitive, Scene, SceneData, Texture, Transform, Wrap,
+    AnalyticKind, AnalyticLight, Camera, IN_PLACE, Instances, Material, MaterialTextures, Mesh, Node,
+    Picture, Primitive, Scene, SceneData, Texture, Transform, Wrap,
 };
 use lightbvh_host::workload::{build, render_params};
 use lightbvh_kernels::bvh::{AnyKind, WIDTH};
@@ -23,10 +23,10 @@ use lightbvh_kernels::shading::picture::{HEADER_WORDS, Picture as Words, Picture
 
 use crate::kinds_render::{arrays, at, mean, node, room};
 
-/// What a painted floor reflects of the light that falls on it: its diffuse part, and at most this of gloss.
+/// What a textured floor reflects of the light that falls on it: its diffuse part, and at most this of gloss.
 const GLOSS: f64 = 0.04 * 7.0 / 8.0;
 
-const PLAIN: Paint = Paint::PLAIN;
+const PLAIN: MaterialTextures = MaterialTextures::PLAIN;
 
 const fn lying(picture: u32) -> Texture {
     Texture {
@@ -46,12 +46,12 @@ fn picture(width: u32, height: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Pict
     }
 }
 
-fn painted(paint: Paint) -> Material {
+fn textured(textures: MaterialTextures) -> Material {
     Material {
         base_color: [0.5; 3],
-        radiance: paint.radiance,
+        radiance: textures.radiance,
         double_sided: true,
-        paint: Some(paint),
+        textures: Some(textures),
         ..Material::default()
     }
 }
@@ -73,7 +73,7 @@ pub fn sheet(side: f32, material: u32) -> Mesh {
 
 /// A floor that reflects half of all light diffusely, seen from straight above from height `eye`, `aim` metres from the origin
 /// along x.
-fn floor(paint: Paint, pictures: Vec<Picture>, [aim, eye]: [f32; 2]) -> SceneData {
+fn floor(textures: MaterialTextures, pictures: Vec<Picture>, [aim, eye]: [f32; 2]) -> SceneData {
     let above = Transform::Matrix([
         [1.0, 0.0, 0.0],
         [0.0, 0.0, -1.0],
@@ -81,10 +81,10 @@ fn floor(paint: Paint, pictures: Vec<Picture>, [aim, eye]: [f32; 2]) -> SceneDat
         [aim, eye, 0.0],
     ]);
     SceneData {
-        name: String::from("painted floor"),
+        name: String::from("textured floor"),
         nodes: vec![node(at([0.0; 3]), Some(0)), node(above, None)],
         meshes: vec![sheet(40.0, 0)],
-        materials: vec![painted(paint)],
+        materials: vec![textured(textures)],
         pictures,
         cameras: vec![Camera { node: 1, yfov: 1e-4 }],
         ..SceneData::default()
@@ -137,7 +137,7 @@ fn images(scene: &Scene) -> Vec<(String, [f64; 3], [f64; 3])> {
 pub fn plain_floor(place: [f32; 2]) -> SceneData {
     let mut data = floor(PLAIN, Vec::new(), place);
     data.materials[0] = Material {
-        paint: None,
+        textures: None,
         metallic: 0.0,
         roughness: 1.0,
         ..data.materials[0].clone()

@@ -103,12 +103,12 @@ fn base_colours_are_those_of_the_texels() {
         (-1.0, [0.4 * half, 0.0, 0.6]),
         (1.0, [0.0, 0.8 * half, 0.6 * half]),
     ] {
-        let paint = Paint {
+        let textures = MaterialTextures {
             base: [0.4, 0.8, 0.6, 1.0],
             base_texture: Some(lying(0)),
             ..PLAIN
         };
-        let mut data = floor(paint, vec![colors.clone()], [aim, 1.0]);
+        let mut data = floor(textures, vec![colors.clone()], [aim, 1.0]);
         // 100 m away, with a cosine of 0.8: 2e4 W/sr are 1.6 W/m².
         add(&mut data, at([aim - 60.0, 80.0, 0.0]), AnalyticKind::Point, 2e4);
         reflects(data, [1.6; 3], albedo, 2e-3);

@@ -123,14 +123,14 @@ fn scattered_runs_arrive_and_nothing_else_changes() {
         let kernel = device.kernel("scatter").expect("a kernel");
         let lengths = [1, 2, 15, 16, 17, 100, 1023, 1024, 1025, 5000];
         let count: u32 = lengths.iter().map(|length| length + 1).sum();
-        let mut staged = values(count);
+        let values = values(count);
         let mut expected = vec![7_u32; count as usize + 1];
         let target = device.upload(&expected).expect("an upload");
         let (mut at, mut runs) = (1, Vec::new());
         for length in lengths {
             let (from, to) = (at as usize - 1, at as usize);
             let words = length as usize;
-            expected[to..to + words].copy_from_slice(&staged[from..from + words]);
+            expected[to..to + words].copy_from_slice(&values[from..from + words]);
             runs.push(Run {
                 from: at - 1,
                 to: at,
@@ -138,10 +138,12 @@ fn scattered_runs_arrive_and_nothing_else_changes() {
             });
             at += length + 1;
         }
+        // Something else comes first in the staging buffer.
+        let mut staged = [&[9; 5], &values[..]].concat();
         let push = ScatterPush {
             runs: runs.len() as u32,
             list: staged.len() as u32,
-            first: 0,
+            first: 5,
         };
         staged.extend_from_slice(bytemuck::cast_slice(&runs));
         let staging = device.upload(&staged).expect("an upload");

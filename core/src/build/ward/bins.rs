@@ -33,7 +33,7 @@ impl Plane {
     }
 }
 
-/// What a range costs, Σ Φ·|x − c|² in W m², and the plane that it is best split at, if any plane splits it.
+/// The cost of a range, Σ Φ·|x − c|² in W m², and the plane that it is best split at, if any plane splits it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::build) struct Measure {
     pub cost: f64,

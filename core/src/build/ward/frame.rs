@@ -74,7 +74,7 @@ pub(in crate::build) struct Frame {
     scale: [f32; 4],
     /// From there to bins; 0 along an axis that is too thin to be split.
     per_bin: [f32; 3],
-    /// What a cost of 1 is, W m².
+    /// A cost of 1, W m².
     unit: f64,
 }
 

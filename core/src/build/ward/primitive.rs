@@ -1,4 +1,4 @@
-//! What the wide builder sorts.
+//! Primitives of the wide builder.
 
 use crate::light::Light;
 

@@ -41,7 +41,7 @@ impl<'a> Range<'a> {
         self.here.len()
     }
 
-    /// What the range costs, if it is one that may be split.
+    /// Cost of the range, if it may be split.
     pub fn cost(&self) -> f64 {
         self.measure.cost
     }

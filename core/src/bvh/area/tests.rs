@@ -5,7 +5,7 @@ extern crate std;
 use crate::model::Model;
 use std::vec::Vec;
 
-use crate::bvh::Bvh;
+use crate::bvh::{Bvh, Edit};
 use crate::importance::{Defensive, Eq4, Moments};
 use crate::instance::Instance;
 use crate::kit::lights::{SHINE, disc, rectangle, sphere, spot};
@@ -86,7 +86,7 @@ fn agrees<M: Model<W>, const W: usize>(name: &str, bvh: &Bvh<M, W>, index: usize
         "{name}, {:?}: {found:e}, expected {expected:e}",
         instance.columns
     );
-    assert_eq!(bvh.validate().map(|_| ()), Ok(()), "{name}");
+    assert_eq!(bvh.view().validate().map(|_| ()), Ok(()), "{name}");
 }
 
 /// A mesh under each map, at half its radiance; then the share of all flux that the root gives to each.
@@ -116,7 +116,7 @@ fn check<L: Light>(mut make: impl FnMut(&mut Random) -> L) {
         .iter()
         .map(|i| apart(&lights, i))
         .sum();
-    let found = f64::from(bvh.summary().phi());
+    let found = f64::from(bvh.view().summary().phi());
     assert!(
         // Nodes of both levels keep flux to 1/16: half of that each.
         (found / all - 1.0).abs() < 0.064,
@@ -177,18 +177,21 @@ fn edits_change_how_flux_grows() {
     assert_eq!(flux(&bvh), [1.0, 1.0, 4.0]);
     for (from, own, name) in [(&spheres, 4.0, "spheres"), (&points, 1.0, "points")] {
         for (k, &light) in from.iter().enumerate() {
-            bvh.set_light_range(mesh, k as u32, std::vec![light])
+            let (first, lights) = (k as u32, std::vec![light]);
+            bvh.apply(std::vec![Edit::SetLightRange { mesh, first, lights }])
                 .expect("a light");
             bvh.refit();
             let own = if k + 1 < PER_MESH { 4.0 } else { own };
             assert_eq!(flux(&bvh), [own, own, 4.0], "{name} {k}");
-            assert_eq!(bvh.validate().map(|_| ()), Ok(()));
+            assert_eq!(bvh.view().validate().map(|_| ()), Ok(()));
         }
         agrees(name, &bvh, 1, from);
         let again = Tree::<AnyLight>::from_words(&bvh.to_words()).expect("written by itself");
         assert_eq!(again.instances, bvh.instances);
     }
-    bvh.set_lights(mesh, spheres.clone()).expect("as many");
+    let lights = spheres.clone();
+    bvh.apply(std::vec![Edit::SetLights { mesh, lights }])
+        .expect("as many");
     bvh.refit();
     agrees("spheres at once", &bvh, 1, &spheres);
 }

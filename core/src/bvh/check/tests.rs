@@ -21,7 +21,7 @@ fn lights(count: usize, size: f32) -> Vec<EmissiveTriangle> {
 
 fn scene(count: usize) -> (Tree, MeshId, InstanceId) {
     let (scene, ids): (Tree, _) = scattered(lights(count, 1.0), 1, |_| [0.0; 3]);
-    let mesh = scene.mesh_of(ids[0]).expect("a mesh");
+    let mesh = scene.view().mesh_of(ids[0]).expect("a mesh");
     (scene, mesh, ids[0])
 }
 

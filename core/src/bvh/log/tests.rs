@@ -70,14 +70,15 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
 
     fn follow(&mut self, bvh: &Bvh<impl Model<W, Node = N, Light = N::Light>, W>) {
         let all = |length: usize| std::vec![0..length as u32];
-        let mut plan = bvh.plan(&mut self.cursor);
-        let (top, links) = (bvh.top_nodes(), bvh.tree().links);
+        let mut plan = self.cursor.plan(bvh);
+        let (view, links) = (bvh.view(), bvh.tree().links);
+        let top = view.top_nodes();
         if plan.everything {
             self.wholes += 1;
-            plan.written_nodes = all(bvh.nodes().len());
-            plan.written_lights = all(bvh.lights().len());
-            plan.written_trails = all(bvh.lights().len());
-            plan.written_instances = all(bvh.instances().len());
+            plan.written_nodes = all(view.nodes().len());
+            plan.written_lights = all(view.lights().len());
+            plan.written_trails = all(view.lights().len());
+            plan.written_instances = all(view.instances().len());
         }
         if plan.whole_top {
             plan.written_top = all(top.len());
@@ -86,11 +87,11 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
             plan.written_parts = all(links.parts.len());
         }
         // No summary is copied: the passes compute them.
-        let [nodes, top] = [bvh.nodes(), top].map(|nodes| nodes.iter().map(bare).collect::<Vec<N>>());
+        let [nodes, top] = [view.nodes(), top].map(|nodes| nodes.iter().map(bare).collect::<Vec<N>>());
         let trail_words = bvh.tree().trail_words as usize;
         copy(&mut self.nodes, 0, &nodes, 1, &plan.written_nodes);
         copy(&mut self.nodes, TOP, &top, 1, &plan.written_top);
-        copy(&mut self.lights, 0, bvh.lights(), 1, &plan.written_lights);
+        copy(&mut self.lights, 0, view.lights(), 1, &plan.written_lights);
         copy(
             &mut self.trails,
             0,
@@ -101,7 +102,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         copy(
             &mut self.instances,
             0,
-            bvh.instances(),
+            view.instances(),
             1,
             &plan.written_instances,
         );
@@ -111,7 +112,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         let bottom = |nodes: &[N], node| refit::bottom(nodes, &self.lights, node);
         passes(&mut self.nodes, 0, &plan.bottom, bottom);
         for &mesh in &plan.roots {
-            self.roots[mesh as usize] = refit::root(&self.nodes, bvh.roots()[mesh as usize].node);
+            self.roots[mesh as usize] = refit::root(&self.nodes, view.roots()[mesh as usize].node);
         }
         let top = |nodes: &[N], node| {
             refit::top(
@@ -131,7 +132,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
     where
         M::Importance: ImportanceModel<N, W>,
     {
-        let (tree, all) = (bvh.tree(), bvh.plan_of_everything());
+        let (tree, all) = (bvh.tree(), Cursor::default().plan(bvh));
         for (first, list, known) in [(0, &all.bottom, tree.nodes), (TOP, &all.top, tree.top)] {
             for node in list.nodes().iter().map(|&node| node as usize) {
                 let words = [&self.nodes[first + node], &known[node]].map(bytemuck::bytes_of);
@@ -139,9 +140,9 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
             }
         }
         for &mesh in &all.roots {
-            assert_eq!(self.roots[mesh as usize], bvh.roots()[mesh as usize]);
+            assert_eq!(self.roots[mesh as usize], bvh.view().roots()[mesh as usize]);
         }
-        assert_eq!(self.instances[..bvh.instances().len()], *bvh.instances());
+        assert_eq!(self.instances[..tree.instances.len()], *tree.instances);
         let words = TreeWords {
             root: tree.root,
             trail_words: tree.trail_words,
@@ -159,15 +160,18 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         }
         let point = points(1)[0];
         for (light, instance) in lights(bvh) {
-            let pmfs = [own.pmf(&point, light, instance), bvh.pmf(&point, light, instance)];
+            let pmfs = [own, tree].map(|tree| tree.pmf(&point, light, instance));
             assert_eq!(pmfs[0].to_bits(), pmfs[1].to_bits(), "{light} of {instance}");
             let found = refit::world_light(&self.lights, &self.instances, light, instance);
-            assert_eq!(Some(found), bvh.light(light, instance));
+            assert_eq!(Some(found), bvh.view().light(light, instance));
         }
         // Names of no light.
         for (light, instance) in [(INVALID, 0), (0, INVALID - 1), (INVALID, INVALID)] {
             assert_eq!(
-                (own.pmf(&point, light, instance), bvh.light(light, instance)),
+                (
+                    own.pmf(&point, light, instance),
+                    bvh.view().light(light, instance)
+                ),
                 (0.0, None)
             );
         }
@@ -244,7 +248,7 @@ fn mirrors_follow_by_plans_alone() {
 fn edits_without_a_refit_take_no_more_room_than_the_arrays() {
     let random = &mut Random(1);
     let (mut bvh, ids): (LightBvh, _) = scattered(lamps(random, 200), 1, |_| [0.0; 3]);
-    let mesh = bvh.mesh_of(ids[0]).expect("a mesh");
+    let mesh = bvh.view().mesh_of(ids[0]).expect("a mesh");
     let mut mirror = Mirror::<_, 8>::new();
     mirror.follow(&bvh);
     for k in 0..5000_u16 {
@@ -255,11 +259,11 @@ fn edits_without_a_refit_take_no_more_room_than_the_arrays() {
         };
         bvh.apply(std::vec![moved(ids[0], [f32::from(k); 3]), of_mesh])
             .expect("there");
-        assert!(bvh.log.entries.len() <= LEAST + 2 * (1 + bvh.nodes().len()));
+        assert!(bvh.log.entries.len() <= LEAST + 2 * (1 + bvh.view().nodes().len()));
         assert!(bvh.dirty[&mesh.index()].len() <= 200);
     }
     bvh.refit();
-    bvh.validate().expect("valid");
+    bvh.view().validate().expect("valid");
     mirror.follow(&bvh);
     mirror.check(&bvh);
 }

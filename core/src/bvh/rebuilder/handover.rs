@@ -48,7 +48,7 @@ pub(super) struct Handover<J, R, M> {
     changed: Condvar,
 }
 
-/// What became of a job.
+/// Outcome of a job.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Outcome<R> {
     /// It was done.

@@ -18,7 +18,7 @@ pub struct RebuilderParams {
     /// Frames from the end of the one that starts a build to the start of the one in which it is due, at least 1, the default; 0
     /// is taken as 1.
     pub after: u32,
-    /// What happens when it is due and not done.
+    /// Action if it is due and not done.
     pub swap: Swap,
     /// Pause after a build, in durations of that build, from 0; by default 3, a quarter of a core while lights move. Under
     /// [`Swap::Deterministic`] it counts in frames: `after` is the duration. NaN is taken as 0, infinity builds once.

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::*;
 use crate::kit::Random;
 use crate::kit::scenes::{edits, lamps, scattered, sound, sound_samples, with_one_far};
-use crate::{EmissiveTriangle, InstanceId, LightBvh, Transform};
+use crate::{Edit, EmissiveTriangle, InstanceId, LightBvh, Transform};
 
 fn rebuilder(after: u32, swap: Swap, threads: bool) -> Rebuilder {
     let mut rebuilder = Rebuilder::new(RebuilderParams {
@@ -31,7 +31,7 @@ fn scene(count: u32, lights: u32) -> (LightBvh, Vec<InstanceId>) {
 fn frame(bvh: &mut LightBvh, rebuilder: &mut Rebuilder) -> bool {
     let start = rebuilder.begin_frame(bvh).expect("its own");
     bvh.refit();
-    bvh.validate().expect("valid");
+    bvh.view().validate().expect("valid");
     rebuilder.end_frame(bvh);
     start.swapped || start.meshes > 0
 }
@@ -44,16 +44,19 @@ fn converge(bvh: &mut LightBvh, rebuilder: &mut Rebuilder) -> usize {
 }
 
 fn shift(bvh: &mut LightBvh, id: InstanceId) {
-    let at = bvh.instances()[id.index() as usize].translation;
+    let at = bvh.view().instances()[id.index() as usize].translation;
     let by_one = Transform::at(at.map(|x| x + 1.0));
     bvh.set_transform(id, by_one).expect("there");
 }
 
 fn deform(bvh: &mut LightBvh, mesh: u32) {
-    let mesh = bvh.mesh_id(mesh).expect("there");
-    let count = bvh.mesh_lights(mesh).expect("there").len() as u32;
-    bvh.set_lights(mesh, lamps(&mut Random(9), count))
-        .expect("as many");
+    let mesh = bvh.view().mesh_id(mesh).expect("there");
+    let count = bvh.view().mesh_lights(mesh).expect("there").len() as u32;
+    bvh.apply(std::vec![Edit::SetLights {
+        mesh,
+        lights: lamps(&mut Random(9), count)
+    }])
+    .expect("as many");
 }
 
 /// The words of the scene with rebuilt trees.
@@ -205,9 +208,10 @@ fn walks_find_their_way_where_a_mesh_has_other_subtrees() {
     let (mut bvh, _) = scene(5, 200);
     let mut own = rebuilder(1, Swap::Deterministic, true);
     converge(&mut bvh, &mut own);
-    let mesh = bvh.mesh_id(0).expect("there");
+    let mesh = bvh.view().mesh_id(0).expect("there");
     let other = with_one_far(&mut Random(4), 200);
-    bvh.set_lights(mesh, other).expect("as many");
+    bvh.apply(std::vec![Edit::SetLights { mesh, lights: other }])
+        .expect("as many");
     let mut meshes = 0;
     for _ in 0..4 {
         bvh.refit();

@@ -84,7 +84,7 @@ impl Header {
         }
         if own.format != FORMAT {
             return refused(format!(
-                "format {}, expected {FORMAT}; build the light BVH anew from its lights",
+                "format {}, expected {FORMAT}; rebuild the light BVH from its lights",
                 own.format
             ));
         }
@@ -139,7 +139,7 @@ impl Header {
     }
 }
 
-/// The word of a layout, and of the lights of its trees if they are no emissive lights: FNV-1a of the bytes of their names.
+/// The word of a layout, and of the lights of its trees if they are no emissive triangles: FNV-1a of the bytes of their names.
 pub(super) fn layout<N: Node<W>, const W: usize>() -> u32 {
     let lights = match N::Light::NAME {
         EmissiveTriangle::NAME => "",

@@ -25,16 +25,12 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// and after the same edits, refits and rebuilds the same words if it was refitted when it was written. Places of its
     /// arrays that are not in use hold the words of nothing.
     ///
-    /// Numbers of lights stay, those that wait in [`removed_lights`](super::Bvh::removed_lights) too. It is another BVH, so it has ids of its own: [`mesh_id`](Self::mesh_id) and [`instance_id`](Self::instance_id) give them
-    /// by the indices, which stay; a program that keeps ids in a file keeps [`InstanceId::index`](super::InstanceId::index) and
-    /// [`MeshId::index`](super::MeshId::index) in their place. A `Rebuilder` of the one that was written knows nothing of it:
-    /// it starts with a new one; where both are to go on alike, so does the one that was written. What was planned for a mirror
-    /// is not written: one takes all arrays over, as `lightbvh_gpu::Mirror` does by itself.
+    /// Numbers of lights stay, also those in [`removed_lights`](super::View::removed_lights). The BVH has new ids: get them by index with
+    /// [`mesh_id`](super::View::mesh_id) and [`instance_id`](super::View::instance_id). A file keeps [`InstanceId::index`](super::InstanceId::index) and
+    /// [`MeshId::index`](super::MeshId::index) in place of ids. Begin with a new `Rebuilder` and new mirrors.
     ///
-    /// The words may be anything that gives a sound light BVH, damaged ones too: there is no checksum, and a turned bit may be
-    /// another lamp. Reading takes time in proportion to them, but for sorting, and for each some 550 bytes of memory at worst
-    /// (seen with empty nodes), room to grow among them; then every invariant is checked by [`validate`](Self::validate), which
-    /// takes as much again.
+    /// Any words are safe. There is no checksum: a flipped bit may give another sound light BVH. Takes time in proportion to the words,
+    /// except for sorting, and at worst 550 bytes of memory for each; then [`validate`](super::View::validate) takes as much again.
     ///
     /// # Errors
     /// [`ReadError`], which says which word is wrong or what of the tree does not hold.
@@ -44,7 +40,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         if words.next < words.all.len() {
             return Err(words.length(words.next));
         }
-        bvh.validate().map_err(damaged)?;
+        bvh.view().validate().map_err(damaged)?;
         Ok(bvh)
     }
 }

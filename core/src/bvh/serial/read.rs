@@ -36,7 +36,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         for index in 0..count {
             bvh.nodes[index] = read_node(words)?;
         }
-        bvh.read_triangles(words, &header)?;
+        bvh.read_lights(words, &header)?;
         bvh.restore(&header)?;
         Ok(bvh)
     }
@@ -50,14 +50,14 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                 ..Mesh::default()
             };
             if mesh.live {
-                let [end, room] = words.array()?;
-                let is_range = start <= end && end <= room && room <= header.nodes;
+                let [end, capacity] = words.array()?;
+                let is_range = start <= end && end <= capacity && capacity <= header.nodes;
                 words.expect(is_range, "nodes of a mesh")?;
-                (mesh.nodes, mesh.room) = (start..end, room);
+                (mesh.nodes, mesh.capacity) = (start..end, capacity);
                 mesh.lights = words.range(header.lights, "lights of a mesh")?;
                 let is_alone = self.is_alone(mesh.lights.len());
                 words.expect(is_alone == (start == end), "nodes of a mesh")?;
-                words.expect(!is_alone || start == room, "nodes of a mesh")?;
+                words.expect(!is_alone || start == capacity, "nodes of a mesh")?;
                 let flags = words.one()?;
                 // A mesh without nodes is never rebuilt.
                 let is_known = flags < 4 && !(is_alone && flags & 1 != 0);
@@ -70,7 +70,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             self.meshes.push(mesh);
         }
         let live = || (0u32..).zip(&self.meshes).filter(|(_, mesh)| mesh.live);
-        let nodes = live().map(|(_, mesh)| mesh.nodes.start..mesh.room);
+        let nodes = live().map(|(_, mesh)| mesh.nodes.start..mesh.capacity);
         self.node_ranges = taken(header.nodes, nodes.collect(), "nodes")?;
         let lights = live().map(|(_, mesh)| mesh.lights.clone());
         self.light_ranges = taken(header.lights, lights.collect(), "lights")?;
@@ -169,7 +169,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         Ok(())
     }
 
-    fn read_triangles(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
+    fn read_lights(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
         self.lights = alloc::vec![M::Light::DARK; words.need(header.lights)?];
         for (index, mesh) in (0..).zip(&self.meshes) {
             for light in &mut self.lights[mesh.lights.start as usize..mesh.lights.end as usize] {
@@ -180,7 +180,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             let mesh = light.mesh();
             if mesh == INVALID {
                 let gap = words.one()?;
-                words.expect(gap == 0, "place of no triangle")?;
+                words.expect(gap == 0, "place of no light")?;
                 continue;
             }
             for (place, word) in bytemuck::cast_slice_mut::<_, u32>(core::slice::from_mut(light))

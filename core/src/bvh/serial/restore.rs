@@ -71,7 +71,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         self.waiting_lights = waiting.iter().map(ExactSizeIterator::len).sum();
         used.extend_from_slice(waiting);
         self.numbers = taken(header.numbers, used, "lights")?;
-        if header.numbers != self.light_end() {
+        if header.numbers != self.view().light_end() {
             return Err(misplaced("the end of the lights' numbers"));
         }
         Ok(())

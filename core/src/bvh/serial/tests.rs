@@ -8,7 +8,7 @@ use crate::model::Model;
 use std::string::ToString;
 
 use crate::build::BuildParams;
-use crate::bvh::{Bvh, RebuilderParams, Swap};
+use crate::bvh::{Bvh, EditReason, RebuilderParams, Swap, follow};
 use crate::exact::pow2;
 use crate::importance::{Eq4, ImportanceModel, Moments};
 use crate::kit::Random;
@@ -31,9 +31,16 @@ fn alike<M: Model<W, Light = EmissiveTriangle>, const W: usize>(a: &Bvh<M, W>, b
 where
     M::Importance: ImportanceModel<M::Node, W>,
 {
-    assert_eq!(a.validate(), b.validate());
-    assert_eq!((a.depth(), a.light_end()), (b.depth(), b.light_end()));
-    assert_eq!(a.removed_lights(), b.removed_lights());
+    let of = |bvh: &Bvh<_, W>| {
+        let view = bvh.view();
+        (
+            view.validate(),
+            view.depth(),
+            view.light_end(),
+            view.removed_lights().to_vec(),
+        )
+    };
+    assert_eq!(of(a), of(b));
     assert_eq!(sound_samples(a), sound_samples(b));
     assert!(a.to_words() == b.to_words());
 }
@@ -89,7 +96,7 @@ where
             rebuilders = [rebuilder(), rebuilder()];
         }
     }
-    assert!(first.light_count() > 100 && swapped > 10, "{swapped}");
+    assert!(first.view().light_count() > 100 && swapped > 10, "{swapped}");
 }
 
 #[test]
@@ -123,7 +130,7 @@ fn deep_trees_are_read() {
     let mut again = read(&bvh);
     alike(&bvh, &again);
     for bvh in [&mut bvh, &mut again] {
-        bvh.follow(&lights(2, 5000)).expect("as many");
+        follow(bvh, &lights(2, 5000)).expect("as many");
     }
     alike(&bvh, &again);
 }
@@ -133,18 +140,40 @@ fn ids_are_given_by_index() {
     let bvh = Bvh::<(MomentNode<8>, Moments)>::two_level(&lights(1, 20), &BuildParams::BALANCED);
     let again = read(&bvh);
     let (old, new) = (
-        bvh.instance_id(0).expect("one"),
-        again.instance_id(0).expect("one"),
+        bvh.view().instance_id(0).expect("one"),
+        again.view().instance_id(0).expect("one"),
     );
     assert_ne!(old, new);
     assert_eq!(
-        (again.lights_of(old), again.lights_of(new)),
-        (None, bvh.lights_of(old))
+        (again.view().lights_of(old), again.view().lights_of(new)),
+        (None, bvh.view().lights_of(old))
     );
-    let (old, new) = (bvh.mesh_id(1).expect("two"), again.mesh_id(1).expect("two"));
+    let (old, new) = (
+        bvh.view().mesh_id(1).expect("two"),
+        again.view().mesh_id(1).expect("two"),
+    );
     assert_eq!((old.index(), new.index()), (1, 1));
     assert_ne!(old, new);
-    assert_eq!((again.mesh_id(99), again.instance_id(INVALID)), (None, None));
+    assert_eq!(
+        (again.view().mesh_id(99), again.view().instance_id(INVALID)),
+        (None, None)
+    );
+}
+
+#[test]
+fn read_bvh_follows_as_many_lights() {
+    let mut bvh = read(&Bvh::<(MomentNode<8>, Moments)>::two_level(
+        &lights(1, 20),
+        &BuildParams::BALANCED,
+    ));
+    let before = bvh.to_words();
+    let error = follow(&mut bvh, &lights(1, 21)).expect_err("another number");
+    let (expected, found) = (2, 3);
+    assert_eq!(error.mesh, 6);
+    assert_eq!(error.reason, EditReason::Count { expected, found });
+    assert!(bvh.to_words() == before);
+    follow(&mut bvh, &lights(2, 20)).expect("as many");
+    sound(&bvh);
 }
 
 #[test]

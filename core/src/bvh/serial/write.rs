@@ -37,7 +37,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             lights: self.lights.len() as u32,
             meshes: self.meshes.len() as u32,
             instances: self.placed.len() as u32,
-            numbers: self.light_end(),
+            numbers: self.view().light_end(),
             removed: self.removed_lights.len() as u32,
             top_root: self.top.root,
             top_nodes: self.top.nodes.len() as u32,
@@ -48,9 +48,9 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         let mut words = bytemuck::cast::<_, [u32; HEADER_WORDS]>(header).to_vec();
         for (index, mesh) in (0u32..).zip(&self.meshes) {
             let flags = u32::from(self.reshaped.contains(&index)) | (u32::from(mesh.is_light) << 1);
-            let (nodes, lights) = (&mesh.nodes, &mesh.lights);
+            let (nodes, lights, end) = (&mesh.nodes, &mesh.lights, mesh.capacity);
             match mesh.live {
-                true => words.extend([nodes.start, nodes.end, mesh.room, lights.start, lights.end, flags]),
+                true => words.extend([nodes.start, nodes.end, end, lights.start, lights.end, flags]),
                 false => words.push(INVALID),
             }
         }
@@ -60,7 +60,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         }
         self.write_top(&mut words);
         self.write_nodes(&mut words);
-        self.write_triangles_to(&mut words);
+        self.write_lights_to(&mut words);
         words[offset_of!(Header, length) / 4] = words.len() as u32;
         words
     }
@@ -115,14 +115,14 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     }
 
     /// The lights in use, and a word for each place that is not.
-    fn write_triangles_to(&self, words: &mut Vec<u32>) {
+    fn write_lights_to(&self, words: &mut Vec<u32>) {
         let mut used = alloc::vec![false; self.lights.len()];
         for mesh in &self.meshes {
             used[mesh.lights.start as usize..mesh.lights.end as usize].fill(true);
         }
-        for (triangle, &used) in self.lights.iter().zip(&used) {
+        for (light, &used) in self.lights.iter().zip(&used) {
             if used {
-                let own: &[u32] = bytemuck::cast_slice(core::slice::from_ref(triangle));
+                let own: &[u32] = bytemuck::cast_slice(core::slice::from_ref(light));
                 let places = own.iter().enumerate();
                 words.extend(
                     places

@@ -47,7 +47,7 @@ fn scene() -> Tree {
 fn finds(what: &str, break_it: impl FnOnce(&mut Tree)) {
     let mut scene = scene();
     break_it(&mut scene);
-    let found = scene.validate().expect_err("broken").to_string();
+    let found = scene.view().validate().expect_err("broken").to_string();
     assert!(found.contains(what), "{found} without {what}");
 }
 
@@ -81,7 +81,7 @@ fn trees_deeper_than_a_trail_are_found() {
     // A chain of nodes below the root, one more than a trail of one bit per level holds.
     let chain = |levels: u32| {
         let mut scene = scene();
-        let mesh = scene.mesh_id(0).expect("there");
+        let mesh = scene.view().mesh_id(0).expect("there");
         while scene.live.len() <= levels as usize {
             scene.add_instance(mesh, Transform::IDENTITY).expect("one more");
         }
@@ -100,8 +100,8 @@ fn trees_deeper_than_a_trail_are_found() {
         scene
     };
     let most = max_levels(2);
-    chain(most).validate().expect("just deep enough");
-    let violation = chain(most + 1).validate().expect_err("too deep");
+    chain(most).view().validate().expect("just deep enough");
+    let violation = chain(most + 1).view().validate().expect_err("too deep");
     let deepest = violation.to_string();
     assert!(
         deepest.ends_with(&format!("level: expected {}, found {most}", most - 1)),
@@ -118,7 +118,7 @@ fn broken_triangles_are_found() {
     };
     let mut sound = scene();
     wide(&mut sound);
-    sound.validate().expect("sound");
+    sound.view().validate().expect("sound");
     finds("high trail word", |s| {
         wide(s);
         s.trails[1] = 1;

@@ -2,12 +2,13 @@
 
 use glam::Vec3;
 
-use crate::exact::{self, pow2, rsqrt_rough};
+use crate::exact::{self, pow2};
+use crate::importance::sight::root;
 use crate::point::RaySegment;
 use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, length_squared, max3, vector};
 use crate::weight::recip;
 
-/// What the arc of the tangent x is taken as, up to 1: x/(1 + BEND x²).
+/// Approximation of the arc of the tangent x, up to 1: x/(1 + BEND x²).
 const BEND: f32 = 0.28;
 /// Least exponent of the scale: about the least difference of coordinates.
 const LEAST_EXPONENT: i32 = -100;
@@ -78,10 +79,4 @@ impl Line {
             between(middle, self.b, from_middle, from_b),
         ]
     }
-}
-
-/// The root of a positive normal number.
-#[inline(always)]
-fn root(x: f32) -> f32 {
-    x * rsqrt_rough(x)
 }

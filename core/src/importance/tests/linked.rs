@@ -36,9 +36,9 @@ const POINT: ShadingPoint = ShadingPoint {
     n: [0.0, 1.0, 0.0],
 };
 
-/// However far below the others those are that are left, all numbers are shared out among them.
+/// However small their weights are next to the masked ones.
 #[test]
-fn what_is_left_gets_all_numbers() {
+fn allowed_children_share_all_numbers() {
     let node = node([1, 2, 4, 8]);
     for mask in 0..16 {
         let weights = Linked::<Extremes>::weights(&node, &LinkedPoint { point: POINT, mask });

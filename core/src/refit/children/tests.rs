@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use bytemuck::cast_slice;
 
 use super::*;
+use crate::bvh::Cursor;
 use crate::kit::Random;
 use crate::kit::scenes::{Lamp, bare, lamps};
 use crate::light::AnyLight;
@@ -38,7 +39,8 @@ where
 
 /// All nodes in one array, as on a device, those of the top level last, and where they begin.
 fn flat<N: Node<W>, const W: usize>(bvh: &Bvh<(N, ()), W>) -> (Vec<N>, u32) {
-    ([bvh.nodes(), bvh.top_nodes()].concat(), bvh.nodes().len() as u32)
+    let [nodes, top] = [bvh.view().nodes(), bvh.view().top_nodes()];
+    ([nodes, top].concat(), nodes.len() as u32)
 }
 
 /// The node of which each child is computed by itself.
@@ -64,9 +66,10 @@ where
     N::Light: Lamp,
 {
     let bvh = scene::<N, W>(&mut Random(5));
-    let plan = bvh.plan_of_everything();
+    let plan = Cursor::default().plan(&bvh);
     let (nodes, first) = flat(&bvh);
-    let (nodes, lights, instances, roots) = (&*nodes, bvh.lights(), bvh.instances(), bvh.roots());
+    let (nodes, view) = (&*nodes, bvh.view());
+    let (lights, instances, roots) = (view.lights(), view.instances(), view.roots());
     assert!(plan.bottom.nodes().len() > 20 && plan.top.nodes().len() > 4);
     for &index in plan.bottom.nodes() {
         let parts = by_children::<N, W, ROWS>(nodes, index, |slot| bottom_child(nodes, lights, index, slot));
@@ -106,14 +109,14 @@ fn limits_go_by_way_of_children_too() {
     assert!(all().any(|(_, beam, _)| beam.is_narrow()) && all().any(|(.., end)| end < 100.0));
 }
 
-/// Links to what is just beyond the end, and to what is of the other level.
+/// Links just beyond the end of an array, and to the other level.
 #[test]
-fn what_is_not_there_is_no_child() {
+fn dangling_links_are_empty_children() {
     type Layout = LinkedSpotMomentNode<8, AnyLight>;
     let bvh = scene::<Layout, 8>(&mut Random(5));
-    let (lights, instances, roots) = (bvh.lights(), bvh.instances(), bvh.roots());
-    let mut nodes = [bvh.nodes(), &[Layout::EMPTY]].concat();
-    let (at, end) = (bvh.nodes().len(), nodes.len() as u32);
+    let (lights, instances, roots) = (bvh.view().lights(), bvh.view().instances(), bvh.view().roots());
+    let mut nodes = [bvh.view().nodes(), &[Layout::EMPTY]].concat();
+    let (at, end) = (bvh.view().nodes().len(), nodes.len() as u32);
     let mut alien = instances.to_vec();
     alien[0].blas = roots.len() as u32;
     nodes[at].set_child(0, kind::LIGHT, lights.len() as u32);

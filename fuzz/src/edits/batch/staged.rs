@@ -179,7 +179,7 @@ impl Staged {
                 mesh,
                 transform,
                 radiance,
-                lights: scene.lights_of(id).expect("just added"),
+                lights: scene.view().lights_of(id).expect("just added"),
             });
         }
         model

@@ -1,9 +1,9 @@
-//! Materials, their emission as a factor in [0, 1] and a strength, and the textures that are painted on them.
+//! Materials, their emission as a factor in [0, 1] and a strength, and their textures.
 
 use serde_json::{Value, json};
 
 use crate::Material;
-use crate::paint::{IN_PLACE, Paint, Texture, Wrap};
+use crate::textures::{IN_PLACE, MaterialTextures, Texture, Wrap};
 
 /// The least power of two, from 1 on, that is not below any channel: the strength with which factors lie in [0, 1].
 pub(super) fn strength(radiance: [f32; 3]) -> f32 {
@@ -33,36 +33,36 @@ pub(super) struct Textures {
 }
 
 impl Textures {
-    /// A material with what is painted on it.
+    /// A material with its textures.
     pub(super) fn material(&mut self, material: &Material) -> Value {
         let [r, g, b] = material.base_color;
-        let plain = Paint {
+        let plain = MaterialTextures {
             base: [r, g, b, 1.0],
             radiance: material.radiance,
-            ..Paint::PLAIN
+            ..MaterialTextures::PLAIN
         };
-        let paint = material.paint.as_ref().unwrap_or(&plain);
-        let strength = strength(paint.radiance);
+        let textures = material.textures.as_ref().unwrap_or(&plain);
+        let strength = strength(textures.radiance);
         let mut out = json!({
             "name": material.name,
             "doubleSided": material.double_sided,
-            "emissiveFactor": paint.radiance.map(|channel| channel / strength),
+            "emissiveFactor": textures.radiance.map(|channel| channel / strength),
             "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": strength } },
             "pbrMetallicRoughness": {
-                "baseColorFactor": paint.base,
+                "baseColorFactor": textures.base,
                 "metallicFactor": material.metallic,
                 "roughnessFactor": material.roughness,
             },
         });
-        if let Some(texture) = &paint.base_texture {
+        if let Some(texture) = &textures.base_texture {
             out["pbrMetallicRoughness"]["baseColorTexture"] = self.info(texture);
         }
-        if let Some(texture) = &paint.glow_texture {
+        if let Some(texture) = &textures.glow_texture {
             out["emissiveTexture"] = self.info(texture);
         }
-        if paint.cutoff > 0.0 {
+        if textures.cutoff > 0.0 {
             out["alphaMode"] = json!("MASK");
-            out["alphaCutoff"] = json!(paint.cutoff);
+            out["alphaCutoff"] = json!(textures.cutoff);
         }
         out
     }

@@ -7,8 +7,8 @@ use image::RgbaImage;
 
 use super::super::error::SceneError;
 use super::super::glow::Glows;
-use super::super::paint::Picture;
 use super::super::pictures::{self, undecoded};
+use super::super::textures::Picture;
 use super::{Document, container, ktx2};
 
 /// A picture and its [mean](pictures::mean_of).

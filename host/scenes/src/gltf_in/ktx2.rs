@@ -8,8 +8,8 @@ use image::RgbaImage;
 use super::super::error::SceneError;
 #[cfg(not(feature = "formats"))]
 use super::super::error::not_compiled;
-use super::super::paint::MAX_SIDE;
 use super::super::pictures::undecoded;
+use super::super::textures::MAX_SIDE;
 
 /// How every file starts.
 pub(super) const IDENTIFIER: [u8; 12] = *b"\xabKTX 20\xbb\r\n\x1a\n";

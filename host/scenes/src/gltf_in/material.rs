@@ -1,4 +1,4 @@
-//! Materials: the factors that the reference renderer uses, what is painted on them, and which texture a surface glows by.
+//! Materials: the factors that the reference renderer uses, their textures, and which texture a surface glows by.
 
 use std::rc::Rc;
 
@@ -10,7 +10,7 @@ use gltf::json::validation::Checked::{Invalid, Valid};
 use super::super::error::SceneError;
 use super::super::glow::Glow;
 use super::super::model::Material;
-use super::super::paint::Paint;
+use super::super::textures::MaterialTextures;
 use super::Document;
 
 /// A material, and the texture that its radiance is multiplied by, triangle by triangle.
@@ -19,7 +19,7 @@ pub(super) struct Look {
     pub material: Material,
     /// With its set of coordinates.
     pub glow: Option<(Rc<Glow>, u32)>,
-    /// By which set of coordinates what is painted on it lies.
+    /// The set of coordinates of its textures.
     pub set: u32,
     /// Whether it is clear and does not emit: it would hide the lamps behind it.
     pub is_left_out: bool,
@@ -91,11 +91,11 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
     let is_clear = is_glass || is_blended && factor[3] < 0.5;
     // In [0, 1]; NaN is reported with the material.
     let unit = |x: f32| if x >= 0.0 { x.min(1.0) } else { 0.0 };
-    let mut paint = Paint {
+    let mut textures = MaterialTextures {
         base: factor.map(unit),
         radiance: out.radiance,
         cutoff,
-        ..Paint::PLAIN
+        ..MaterialTextures::PLAIN
     };
     let of = |info: Option<&Info>| match info {
         Some(info) => document.placed(info, element),
@@ -105,26 +105,26 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
     // Nothing glows, whatever the texture shows.
     let glow = material.emissive_texture.as_ref();
     let is_named = glow.is_some();
-    let glow = of(glow.filter(|_| paint.radiance != [0.0; 3]))?;
+    let glow = of(glow.filter(|_| textures.radiance != [0.0; 3]))?;
     let own_glow = match &glow {
         Some(own) => Some((Rc::new(own.glow(document)?), own.set)),
         None => None,
     };
     if is_named && own_glow.is_none() {
         // What is known to glow somewhere is not taken to glow everywhere.
-        (out.radiance, paint.radiance) = ([0.0; 3], [0.0; 3]);
+        (out.radiance, textures.radiance) = ([0.0; 3], [0.0; 3]);
     }
     let set = base.as_ref().or(glow.as_ref()).map_or(0, |own| own.set);
-    paint.base_texture = base.map(|own| own.shown(document));
+    textures.base_texture = base.map(|own| own.shown(document));
     if let Some(own) = glow {
         if own.set == set {
-            paint.glow_texture = Some(own.shown(document));
+            textures.glow_texture = Some(own.shown(document));
         } else {
             let what = "its emission texture lies by other coordinates than its base colour, and is replaced by its mean";
             document.note(element, what);
         }
     }
-    out.paint = Some(paint).filter(Paint::is_seen);
+    out.textures = Some(textures).filter(MaterialTextures::is_seen);
     Ok(Look {
         is_left_out: is_clear && out.radiance == [0.0; 3],
         material: out,

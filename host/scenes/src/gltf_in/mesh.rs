@@ -93,8 +93,8 @@ fn coordinates(
     look: &Look,
     rows: &[u32],
 ) -> Result<Option<Vec<[f32; 2]>>, SceneError> {
-    let paint = look.material.paint.as_ref();
-    if paint.is_none_or(|paint| paint.textures().next().is_none()) {
+    let textures = look.material.textures.as_ref();
+    if textures.is_none_or(|textures| textures.all().next().is_none()) {
         return Ok(None);
     }
     let (element, set) = (attributes.element, look.set);

@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use super::super::error::SceneError;
 use super::super::glow::Glow;
-use super::super::paint::{IN_PLACE, Picture, Texture, Wrap};
+use super::super::textures::{IN_PLACE, Picture, Texture, Wrap};
 use super::Document;
 use super::image::Decoded;
 

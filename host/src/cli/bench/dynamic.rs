@@ -114,7 +114,7 @@ fn row(mut scene: Scene) -> Result<Row, HostError> {
 
 /// The ratio of means, and the geometric mean of ratios, of the variance now and with a new tree; none without light.
 fn look(world: &World, scene: &Scene, random: &mut Random) -> Option<[f64; 2]> {
-    let lights = world.bvh.world_lights();
+    let lights = world.bvh.view().world_lights();
     let lit: Vec<&EmissiveTriangle> = lights.iter().filter(|light| light.luminance() > 0.0).collect();
     if lit.is_empty() {
         return None;
@@ -128,7 +128,7 @@ fn look(world: &World, scene: &Scene, random: &mut Random) -> Option<[f64; 2]> {
     let fresh = world.fresh();
     let pairs = now
         .into_iter()
-        .zip(variances(&fresh, &fresh.world_lights(), &points));
+        .zip(variances(&fresh, &fresh.view().world_lights(), &points));
     let pairs: Vec<(f64, f64)> = pairs.filter(|&(now, fresh)| now > 0.0 && fresh > 0.0).collect();
     let sum = |of: fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>();
     let geometric = (sum(|(now, fresh)| (now / fresh).ln()) / pairs.len() as f64).exp();
@@ -151,7 +151,7 @@ fn point(light: &EmissiveTriangle, side: Option<f32>, random: &mut Random) -> Sh
 
 /// Exact relative variance of one sample at each point: by all lights, which have their instance's index; zero in the dark.
 fn variances(bvh: &Bvh, lights: &[EmissiveTriangle], points: &[ShadingPoint]) -> Vec<f64> {
-    let pmf = |k: usize, light: u32| bvh.pmf(&points[k], light, lights[light as usize].mesh);
+    let pmf = |k: usize, light: u32| bvh.tree().pmf(&points[k], light, lights[light as usize].mesh);
     let all = measure::variances(lights, points, pmf);
     all.into_iter().map(Option::unwrap_or_default).collect()
 }

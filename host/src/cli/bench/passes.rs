@@ -62,7 +62,7 @@ pub(super) fn batches(bvh: &Bvh, queries: &[Query]) -> Vec<Duration> {
         let of_points = points.par_chunks(BATCH).zip(randoms.par_chunks(BATCH));
         let parts = of_points.zip(sampled.par_chunks_mut(BATCH));
         parts.for_each(|((points, randoms), sampled)| {
-            bvh.sample_batch(points, randoms, sampled);
+            bvh.tree().sample_batch(points, randoms, sampled);
         });
     });
     black_box(&sampled);

@@ -9,6 +9,7 @@ mod summary;
 use serde_json::json;
 
 use super::{Context, Outcome, devices, table};
+use crate::cli::reading::shown;
 use crate::cli::table::news;
 use crate::error::HostError;
 use crate::method::Target;
@@ -46,7 +47,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     }
     let mut report = Report {
         settings: json!({
-            "scenes": plan.scene, "frames": plan.frames, "samples": plan.samples, "seeds": plan.seeds,
+            "scenes": shown(&plan.scene), "frames": plan.frames, "samples": plan.samples, "seeds": plan.seeds,
             "width": plan.width, "height": plan.height, "reference_samples": plan.reference_samples,
             "timed_frames": TIMED, "timed_on_devices": TIMED, "methods": plan.method,
             "cpu_threads": rayon::current_num_threads(),

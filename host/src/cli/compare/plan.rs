@@ -1,5 +1,7 @@
 //! The options of the comparison.
 
+use std::ffi::OsString;
+
 use crate::cli::reading::Reading;
 use crate::method::Method;
 use crate::scene::BUILT_IN;
@@ -12,7 +14,7 @@ pub(super) const TIMED: u32 = 8;
 pub(in crate::cli) struct Args {
     /// A built-in scene or a .gltf, .glb or .obj file; may be repeated.
     #[arg(long, default_values = BUILT_IN)]
-    pub(super) scene: Vec<String>,
+    pub(super) scene: Vec<OsString>,
     #[command(flatten)]
     pub(super) reading: Reading,
     /// Frames to measure; the animation runs from 0 to the last of them.

@@ -142,14 +142,14 @@ impl Source<'_> {
         let of = |point: &ShadingPoint| -> Vec<f32> {
             let lights = (0..).zip(lights);
             lights
-                .map(|(light, triangle)| bvh.pmf(point, light, triangle.mesh))
+                .map(|(light, triangle)| bvh.tree().pmf(point, light, triangle.mesh))
                 .collect()
         };
         let pmfs: Vec<f32> = points.par_iter().flat_map_iter(of).collect();
         let pmf = |k: usize, light: u32| pmfs[k * lights.len() + light as usize];
         let variances = variances(lights, points, pmf).into_iter().flatten().collect();
         let [bytes_per_light, memory_per_light] =
-            [bvh.bytes(), bvh.memory()].map(|own| own as f64 / lights.len().max(1) as f64);
+            [bvh.view().bytes(), bvh.view().memory()].map(|own| own as f64 / lights.len().max(1) as f64);
         Ok(Subject {
             cost: Cost {
                 bytes_per_light,

@@ -73,8 +73,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         news!("{}: {warning}", scene.name());
     }
     scene.require_any_light()?;
-    let others_alone = scene.emissive_count() == 0;
-    let moving = moving(scene.data(), others_alone);
+    let moving = moving(scene.data());
     let declared = declared(args, moving);
     // A refitted tree is looked at after a refit.
     let frames = [args.frame, args.frame + u32::from(declared.transforms)];
@@ -82,11 +81,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         "scene": scene.name(), "frame": frames[0], "checked_frame": frames[1],
         "motion": { "moving": moving }, "animations": animations(&scene),
     });
-    if others_alone {
-        return without_triangles(context, &scene, args.frame, moving, report);
-    }
-    if let Some(left_out) = scene.unknown_lights() {
-        news!("{}: {left_out}", scene.name());
+    if scene.analytic_count() > 0 {
+        return of_several_kinds(context, &scene, args.frame, moving, report);
     }
     let (bvh, _) = Instances::new::<Triangles, WIDTH>(&scene, args.frame, BuildParams::default())
         .map_err(|error| HostError::in_frame(scene.name(), args.frame, error))?;
@@ -100,17 +96,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let command = KernelSet::of(&checked.model)
         .err()
         .map(|missing| missing.command());
-    let kinds = match scene.analytic_count() {
-        0 => None,
-        _ => Some(LightKinds::of(lights_of::<AnyLight>(&scene, args.frame)?.all())),
-    };
     let (facts, reasons) = (facts(&requirements), reasons(&requirements));
     let outcome = Outcome::good_if(checked.holds());
     let [first, last] = [&checked.rows[0], &checked.rows[checked.last]];
     if context.json {
         let own = json!({
             "points": count, "lights": requirements.lights, "facts": facts,
-            "kinds": kinds.as_ref().map(LightKinds::json),
             "chosen": model_json(&chosen), "reasons": reasons, "model": model_json(&checked.model),
             "kernels": { "committed": command.is_none(), "command": command },
             "default": { "variance": first.variance, "cost": first.cost },
@@ -129,7 +120,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     }
     let (name, count_of) = (scene.name(), requirements.lights);
     say!(
-        "{name} in frame {}, {count_of} emissive triangles\n\nwhat it requires",
+        "{name} in frame {}, {count_of} emissive triangles of all instances\n\nwhat it requires",
         args.frame
     )?;
     for fact in &facts {
@@ -140,20 +131,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     for reason in &reasons {
         say!("  {reason}")?;
     }
-    if let Some(kinds) = &kinds {
-        say!(
-            "a tree over its lights of all kinds: {}\n  lights: {}",
-            kinds.tree(),
-            kinds.cones()
-        )?;
-    }
     print_check(&checked, count, frames)?;
     let how = match checked.model == chosen {
         true => "as chosen",
         false => "less what was put back",
     };
-    let of = kinds.map_or("", |_| " of its triangles alone");
-    say!("\nmodel{of}, {how}: {}", checked.model)?;
+    say!("\nmodel, {how}: {}", checked.model)?;
     match command {
         None => say!("kernels for devices: committed")?,
         Some(command) => say!("kernels for devices: not committed; they are compiled by\n  {command}")?,
@@ -161,8 +144,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(outcome)
 }
 
-/// A scene that no triangle lights: its kinds of light, and the tree over all of them, which `verify` checks.
-fn without_triangles(
+/// A scene that not only triangles light: its kinds of light, and the tree over all of them, which `verify` checks.
+fn of_several_kinds(
     context: &Context,
     scene: &Scene,
     frame: u32,
@@ -180,9 +163,11 @@ fn without_triangles(
         table::print_json(&report)?;
         return Ok(Outcome::Good);
     }
-    let (name, lit_by) = (scene.name(), scene.other_lights());
-    say!("{name} in frame {frame}, lit by {lit_by}\n\nwhat it requires")?;
-    line("lights of a tree", &kinds.cones())?;
+    say!(
+        "{} in frame {frame}, {count} lights in meshes and by themselves\n\nwhat it requires",
+        scene.name()
+    )?;
+    line("lights", &kinds.cones())?;
     line("animation", &said(moving))?;
     say!("\na tree over its lights: {tree}, two levels")?;
     Ok(Outcome::Good)
@@ -214,8 +199,8 @@ fn declared(args: &Args, moving: usize) -> Declared {
     }
 }
 
-/// How many nodes with emissive meshes the animations move, or with lights of other kinds too.
-fn moving(data: &SceneData, with_others: bool) -> usize {
+/// How many nodes with lights the animations move.
+fn moving(data: &SceneData) -> usize {
     let mut moves = vec![false; data.nodes.len()];
     for channel in data.animations.iter().flat_map(|own| &own.channels) {
         moves[channel.node as usize] = true;
@@ -234,8 +219,7 @@ fn moving(data: &SceneData, with_others: bool) -> usize {
     let nodes = data.nodes.iter().zip(&moves);
     let lit = nodes.filter(|&(node, &moves)| moves && node.mesh.is_some_and(shining));
     let others = data.analytic.iter();
-    let others = others.filter(|light| with_others && moves[light.node as usize]);
-    lit.count() + others.count()
+    lit.count() + others.filter(|light| moves[light.node as usize]).count()
 }
 
 /// The changes that are declared; none where everything stays.

@@ -8,6 +8,7 @@ pub(super) mod report;
 mod structure;
 mod subject;
 
+use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -26,13 +27,14 @@ use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::method::Step;
 use crate::metrics::Judge;
+use crate::scene::BUILT_IN;
 use crate::workload::{arrays_at, lights_at};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// A built-in scene or a .gltf, .glb or .obj file; may be repeated [default: three built-in].
     #[arg(long)]
-    scene: Vec<String>,
+    scene: Vec<OsString>,
     #[command(flatten)]
     reading: Reading,
     /// Only these axes, and the default; all if none is named.
@@ -61,9 +63,9 @@ impl Args {
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let budget = if args.quick { Budget::QUICK } else { Budget::FULL };
-    let named: Vec<String> = match (&args.scene[..], args.quick) {
-        ([], true) => vec!["street".to_owned()],
-        ([], false) => ["street", "square", "carousel"].map(String::from).into(),
+    let named = match (&args.scene[..], args.quick) {
+        ([], true) => vec![BUILT_IN[0].into()],
+        ([], false) => BUILT_IN.map(OsString::from).into(),
         (named, _) => named.to_vec(),
     };
     let mut all_points = Vec::new();
@@ -73,9 +75,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .as_ref()
         .map(|folder| Report::begin(folder, named.len()))
         .transpose()?;
-    for name in named {
+    for scene in named {
         let start = Instant::now();
-        let (mut points, judge) = scene_points(&name, args, &budget)?;
+        let (mut points, judge) = scene_points(&scene, args, &budget)?;
+        let name = scene.to_string_lossy();
         let sentences = front(&mut points).into_iter();
         all_steps.extend(sentences.map(|sentence| format!("{name}: {sentence}")));
         all_steps.extend(args.time.map(|time| pick(&points, budget.samples, time)));
@@ -123,8 +126,9 @@ fn pick(points: &[Point], samples: u32, time: f64) -> String {
 }
 
 /// Builds all configurations at the first frame, brings them to the last, measures images on the way, and trees at its end.
-fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>, Judge), HostError> {
-    let scene = &args.reading.open(name)?;
+fn scene_points(scene: &OsStr, args: &Args, budget: &Budget) -> Result<(Vec<Point>, Judge), HostError> {
+    let name = scene.to_string_lossy();
+    let scene = &args.reading.open(scene)?;
     for warning in scene.warnings().iter().chain(&scene.unknown_lights()) {
         news!("{name}: {warning}");
     }
@@ -163,7 +167,7 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
     let (images, judge) = measured.finish();
     let all = subjects.iter().zip(structures.into_iter().zip(images));
     let points = all.map(|(subject, (structure, images))| Point {
-        scene: name.to_owned(),
+        scene: name.to_string(),
         choice: subject.config().to_string(),
         config: subject.config(),
         default: subject.config().axis == Axis::Default,

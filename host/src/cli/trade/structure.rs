@@ -23,8 +23,9 @@ pub(super) struct Structure {
     pub refit_ms: f64,
     /// All that a frame waits for by the update policy, on average over the animation.
     pub update_ms: f64,
-    /// A new top level, built beside a frame that does not wait for it; 0 where the policy has none.
-    pub beside_ms: f64,
+    /// Build of a top level in the background; 0 if the policy has none.
+    #[serde(rename = "beside_ms")]
+    pub background_ms: f64,
     /// All candidates of a sample.
     pub ns_per_sample: f64,
     /// Time of a sample over the default's, turn by turn.
@@ -60,7 +61,7 @@ pub(super) fn structures(
         build_ms: 1e-6 * Interval::of(built).median,
         refit_ms: subject.updates().refit_ms(),
         update_ms: subject.updates().mean_ms(),
-        beside_ms: subject.updates().beside_ms(),
+        background_ms: subject.updates().background_ms(),
         sample_ratio: Interval::of_ratios(own, &sampled[0]),
         ns_per_sample: Interval::of(own.clone()).median,
         variances: variances(&**subject, frame.lights, points),

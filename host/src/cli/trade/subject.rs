@@ -1,6 +1,7 @@
 //! A configuration: a light BVH that follows the animation, and an importance by which lights are chosen. Trees are of two
 //! types, the default's and the paper's: other importances choose from the same nodes.
 
+use lightbvh::device::bvh::follow;
 use lightbvh::tree::Model;
 use std::fmt;
 use std::hint::black_box;
@@ -220,7 +221,7 @@ impl<C: TriangleModel<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize>
     }
 
     fn bytes(&self) -> usize {
-        self.bvh.bytes()
+        self.bvh.view().bytes()
     }
 
     fn updates(&self) -> &Updates {
@@ -247,7 +248,7 @@ impl<C: TriangleModel<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize>
         }
         if self.config.update == Update::TopRebuild {
             self.bvh.rebuild();
-            self.updates.beside.push(ms(start.elapsed()));
+            self.updates.background.push(ms(start.elapsed()));
         }
         // Where nodes of the scene stand is the animation's business, not the tree's.
         let edits = self.instances.as_mut().map(|i| i.edits(frame.scene, frame.frame));
@@ -257,7 +258,7 @@ impl<C: TriangleModel<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize>
                 self.bvh.apply(edits).map_err(|error| frame.refused(error))?;
                 self.bvh.refit();
             }
-            None => self.bvh.follow(frame.lights).map_err(BackendError::from)?,
+            None => follow(&mut self.bvh, frame.lights).map_err(BackendError::from)?,
         }
         self.updates.refit.push(ms(start.elapsed()));
         Ok(())
@@ -282,7 +283,7 @@ impl<C: TriangleModel<W>, I: ImportanceModel<C::Node, W> + Sync, const W: usize>
     fn render(&self, arrays: &SceneArrays, params: RenderParams) -> Timed<Vec<[f32; 3]>> {
         let tree = self.bvh.tree();
         let view = arrays.lit_by(Emitters {
-            lights: self.bvh.lights(),
+            lights: self.bvh.view().lights(),
             instances: tree.instances,
         });
         let params = RenderParams {
@@ -315,7 +316,7 @@ pub(super) struct Updates {
     /// New trees, for which frames wait.
     rebuild: Vec<f64>,
     /// New top levels, for which no frame waits.
-    beside: Vec<f64>,
+    background: Vec<f64>,
 }
 
 impl Updates {
@@ -331,8 +332,8 @@ impl Updates {
     }
 
     /// The median of what is built in the background.
-    pub fn beside_ms(&self) -> f64 {
-        median_or_zero(&self.beside)
+    pub fn background_ms(&self) -> f64 {
+        median_or_zero(&self.background)
     }
 }
 

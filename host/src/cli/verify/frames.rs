@@ -130,11 +130,8 @@ impl<'d, L: MethodLight> Lane<'d, L> {
         };
         // Candidates change the image alone.
         if recipe.lights.needs_bvh() && recipe.candidates == 1 {
-            let record = self.cpu.backend().node_record();
-            let mut side = self.side();
-            side.compare(tallies, Kind::Nodes, &what("refit"), &record, |runner| {
-                runner.nodes()
-            })?;
+            self.side()
+                .compare_held(tallies, &what("refit"), |runner| runner.held())?;
             let lights = (arrays.lights.all(), recipe.lights == Sampler::SingleLevel);
             let seed = hash(plan.seed.wrapping_add(step.frame));
             for first in (0..plan.queries).step_by(BATCH as usize) {

@@ -7,7 +7,7 @@ use lightbvh::{Edit, EmissiveTriangle, Rebuilder, RebuilderParams, Transform};
 use serde::Serialize;
 
 use super::{Args, DeviceReport};
-use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, Follow};
+use crate::backend::{Bvh, CpuBackend, DeviceBackend, Follow};
 use crate::cli::devices::Opened;
 use crate::cli::measure::times::{Spread, thread_us};
 use crate::cli::table::{self, news, say};
@@ -123,12 +123,12 @@ pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened]) -> Result<Report
         world.bvh.take_removed_lights();
         if frame.is_multiple_of(ASKED) {
             let process = memory_stats::memory_stats().map_or(0, |usage| usage.physical_mem);
-            for (list, bytes) in memory.iter_mut().zip([world.bvh.memory(), process]) {
+            for (list, bytes) in memory.iter_mut().zip([world.bvh.view().memory(), process]) {
                 list[(frame / ASKED) as usize] = bytes as f64;
             }
         }
         if (frame + 1).is_multiple_of(CHECKED) || frame + 1 == frames {
-            if let Err(violation) = world.bvh.validate() {
+            if let Err(violation) = world.bvh.view().validate() {
                 invalid = Some(format!("frame {frame}: {violation}"));
                 break;
             }
@@ -151,7 +151,7 @@ pub(super) fn soak(frames: u32, args: &Args, opened: &[Opened]) -> Result<Report
         frames,
         seed: args.seed,
         instances: world.instances.len(),
-        lights: world.bvh.light_count(),
+        lights: world.bvh.view().light_count(),
         edits: counts,
         rows: rows.collect(),
         invalid,
@@ -260,17 +260,29 @@ impl World {
         }
     }
 
-    /// The edits of a frame, all of one kind: most often one, seldom many.
+    /// The edits of a frame: of no kind, of one, or of two.
     fn edits(&mut self, counts: &mut Counts) -> Vec<Edit> {
+        let mut kinds: Vec<usize> = (0..self.below(3)).map(|_| self.below(8)).collect();
+        // Meshes are exchanged first: instances that the batch adds have no ids yet, and would keep a mesh in use.
+        kinds.sort_unstable();
+        kinds.dedup();
+        let edits = kinds.into_iter().flat_map(|kind| self.edits_of(kind, counts));
+        edits.collect()
+    }
+
+    /// Edits of a kind: most often one, seldom many.
+    fn edits_of(&mut self, kind: usize, counts: &mut Counts) -> Vec<Edit> {
         let most = [1, 1, 8, self.count / 64, self.count / 4][self.below(5)];
-        let count = 1 + self.below(most.max(1));
-        let (present, tenth) = (self.instances.len(), self.count / 10);
-        let (what, edits) = match self.below(8) {
-            0 => (
+        let count = (1 + self.below(most.max(1))).min(self.instances.len());
+        let present = self.instances.len() + self.new_instances.len();
+        let tenth = self.count / 10;
+        let (what, edits) = match kind {
+            0 => ("exchanged", self.exchange()),
+            1 => (
                 "added",
                 self.add(count.min((self.count + tenth).saturating_sub(present))),
             ),
-            1 => {
+            2 => {
                 let spare = present.saturating_sub(self.count - tenth);
                 let removed = (0..count.min(spare)).map(|_| {
                     let at = self.below(self.instances.len());
@@ -278,10 +290,9 @@ impl World {
                 });
                 ("removed", removed.collect())
             }
-            2..5 => ("moved", (0..count).map(|_| self.moved()).collect()),
-            5 => ("dimmed", (0..count).map(|_| self.dimmed()).collect()),
-            6 => ("deformed", vec![self.deform()]),
-            _ => ("exchanged", self.exchange()),
+            3..6 => ("moved", (0..count).map(|_| self.moved()).collect()),
+            6 => ("dimmed", (0..count).map(|_| self.dimmed()).collect()),
+            _ => ("deformed", vec![self.deform()]),
         };
         let done = if what == "exchanged" { 1 } else { edits.len() };
         *counts.entry(what).or_default() += done as u32;
@@ -307,7 +318,7 @@ impl World {
     fn moved(&mut self) -> Edit {
         let at = self.below(self.instances.len());
         let instance = self.instances[at].0;
-        let old = self.bvh.instances()[instance.index() as usize].translation;
+        let old = self.bvh.view().instances()[instance.index() as usize].translation;
         let place = (self.below(4) > 0).then_some(old);
         let transform = self.turned(place);
         Edit::SetTransform { instance, transform }
@@ -391,19 +402,19 @@ impl Means {
     }
 }
 
-/// Compares nodes in use, samples and probabilities on each device with the CPU's.
+/// Compares all words in use, samples and probabilities on each device with the CPU's.
 fn compare(
     frame: u32,
     world: &mut World,
     devices: &mut [DeviceBackend<'_>],
     tallies: &mut Tallies,
 ) -> Result<(), HostError> {
-    let lights = world.bvh.world_lights();
+    let lights = world.bvh.view().world_lights();
     let points = around(&lights, POINTS, &mut world.random);
     let mut cpu: CpuBackend = CpuBackend::new(world.bvh.clone());
-    let mut side: Side<'_, dyn Backend> = Side {
+    let mut side: Side<'_, dyn Follow> = Side {
         cpu: &mut cpu,
-        devices: devices.iter_mut().map(|own| own as &mut dyn Backend).collect(),
+        devices: devices.iter_mut().map(|own| own as &mut dyn Follow).collect(),
     };
     compare_bvh(
         &mut side,
@@ -416,7 +427,7 @@ fn compare(
 }
 
 impl Report {
-    /// Whether memory is flat, all is valid, and no word of a device differs.
+    /// Whether memory is flat, all is valid, and no word in use, sampled or evaluated on a device differs.
     pub fn is_good(&self) -> bool {
         let equal = self.devices.iter().all(|device| device.tally.different == 0);
         let flat = [self.memory, self.process]

@@ -121,7 +121,7 @@ impl World {
     pub fn fresh(&self) -> Bvh {
         let mut new = Self::new();
         for id in self.lamps.iter().flatten() {
-            let own = &self.bvh.instances()[id.index() as usize];
+            let own = &self.bvh.view().instances()[id.index() as usize];
             new.add(own.translation, own.radiance[0]);
         }
         new.start();

@@ -4,6 +4,7 @@ mod page;
 mod pictures;
 
 use std::env::consts::{ARCH, OS};
+use std::ffi::{OsStr, OsString};
 use std::path::Path;
 use std::time::SystemTime;
 
@@ -85,12 +86,12 @@ impl Made {
             let line = text.lines().find(|line| line.starts_with("model name"))?;
             Some(line.split_once(':')?.1.trim().to_owned())
         });
-        let args: Vec<String> = std::env::args().skip(1).collect();
+        let args: Vec<OsString> = std::env::args_os().skip(1).collect();
         Self {
             machine: format!("{}, {OS}", processor.unwrap_or_else(|| ARCH.to_owned())),
             threads: rayon::current_num_threads(),
             // By the program's name alone, wherever it lies.
-            command: format!("lightbvh {}", args.join(" ")),
+            command: format!("lightbvh {}", args.join(OsStr::new(" ")).to_string_lossy()),
             version: env!("CARGO_PKG_VERSION"),
             optimised: !cfg!(debug_assertions),
             date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),

@@ -22,8 +22,7 @@ use std::process::ExitCode;
 
 use engine::{Engine, Road};
 use lightbvh::SampledLight;
-use lightbvh::node::DefaultNode;
-use lightbvh_gpu::{DeviceBuffer, MOMENTS, Query, query_push};
+use lightbvh_gpu::{MOMENTS, Query, query_push};
 use lights::DeviceLights;
 use world::{World, points};
 
@@ -33,7 +32,7 @@ pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 const FRAMES: u16 = 20;
 const QUERIES: u32 = 10_000;
 
-/// Runs all frames. Returns how many words were compared, and how many of them differ; of nodes all words of one that differs.
+/// Runs all frames. Returns how many words were compared, and how many of them differ.
 fn run(engine: &Engine) -> Result<(u64, u64)> {
     let mut world = World::new()?;
     let mut lights = DeviceLights::new(engine)?;
@@ -58,15 +57,21 @@ fn run(engine: &Engine) -> Result<(u64, u64)> {
         engine.dispatch(&mut encoder, &sample, named, &query_push(QUERIES, tree), QUERIES);
         engine.queue.submit([encoder.finish()]);
 
-        let nodes = engine.read(&lights.buffers[&DeviceBuffer::Nodes])?;
-        let (compared, nodes) = lights.mirror.compare_nodes(&world.bvh, &nodes);
+        let used = lights.mirror.in_use(&world.bvh);
+        for (buffer, held) in &lights.buffers {
+            let held = engine.read(held)?;
+            for (_, at, cpu) in used.iter().filter(|(of, ..)| of == buffer) {
+                all += cpu.len() as u64 / 4;
+                different += differing(cpu, &held[*at as usize..][..cpu.len()]);
+            }
+        }
         let samples: Vec<SampledLight> = asked
             .iter()
-            .map(|(point, random)| world.bvh.sample(point, *random))
+            .map(|(point, random)| world.bvh.tree().sample(point, *random))
             .collect();
         let device = engine.read(&results)?;
-        all += compared + size_of_val(&*samples) as u64 / 4;
-        different += nodes.len() as u64 * size_of::<DefaultNode>() as u64 / 4 + differing(&samples, &device);
+        all += size_of_val(&*samples) as u64 / 4;
+        different += differing(&samples, &device);
     }
     match (engine.road, different) {
         (Road::Passthrough, 1..) => Err(format!("{different} of {all} words differ").into()),

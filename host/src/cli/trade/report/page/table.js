@@ -61,7 +61,7 @@ const allColumns = [
   numberColumn("build ms", (p) => p.build_ms),
   numberColumn("refit ms", (p) => p.refit_ms),
   numberColumn("update ms", (p) => p.update_ms),
-  numberColumn("beside ms", (p) => p.beside_ms),
+  numberColumn("background ms", (p) => p.beside_ms),
   numberColumn("image ms", (p) => p.image_ms),
   { name: "bias %", value: (p) => 100 * (p.bias?.mean ?? 0), text: (p) => (p.bias ? number(100 * p.bias.mean) : "–"), small: (p) => (p.bias ? `± ${number(100 * p.bias.ci95)}` : "") },
 ];

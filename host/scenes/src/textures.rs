@@ -1,4 +1,4 @@
-//! What is painted on surfaces: pictures, where they lie, and what each of them changes.
+//! Textures of materials: pictures, their places, and what each of them changes.
 
 use std::sync::Arc;
 
@@ -44,10 +44,10 @@ pub struct Texture {
 /// No change of coordinates.
 pub const IN_PLACE: [[f32; 2]; 3] = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]];
 
-/// What is painted on a material: factors, and the textures that they multiply. The reference renderer shows it where it shows
-/// all kinds of light; where it shows triangles alone, the means in [`Material`](super::Material) stand for it.
+/// Factors of a material, and the textures that they multiply. The reference renderer shows them where it shows all kinds of light; where
+/// it shows triangles alone, the means in [`Material`](super::Material) stand for them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Paint {
+pub struct MaterialTextures {
     /// Base colour, linear RGB, and opacity, each in [0, 1].
     pub base: [f32; 4],
     /// Radiance, W/(m² sr).
@@ -60,7 +60,7 @@ pub struct Paint {
     pub cutoff: f32,
 }
 
-impl Paint {
+impl MaterialTextures {
     /// White, opaque, without a texture.
     pub const PLAIN: Self = Self {
         base: [1.0; 4],
@@ -70,8 +70,8 @@ impl Paint {
         cutoff: 0.0,
     };
 
-    /// All of its textures, with their names.
-    pub fn textures(&self) -> impl Iterator<Item = (&'static str, Texture)> {
+    /// Its textures, with their names.
+    pub fn all(&self) -> impl Iterator<Item = (&'static str, Texture)> {
         [
             ("base colour", self.base_texture),
             ("emission", self.glow_texture),
@@ -82,6 +82,6 @@ impl Paint {
 
     /// Whether it shows anything that means do not.
     pub fn is_seen(&self) -> bool {
-        self.textures().next().is_some() || self.cutoff > 0.0
+        self.all().next().is_some() || self.cutoff > 0.0
     }
 }
