@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::importance::LinkedPoint;
 use lightbvh::light::{AnyLight, Light, PointLight, RectangleLight, SphereLight, SpotLight};
-use lightbvh::{AnyLights, MaskedLights, ShadingPoint, Transform};
+use lightbvh::{AnyLights, InstanceId, MaskedLights, ShadingPoint, Transform};
 
 type Error = Box<dyn std::error::Error>;
 
@@ -118,7 +118,7 @@ impl Scene {
             .map(|light| bvh.add_light(*light))
             .collect::<Result<Vec<_>, _>>()?;
         bvh.refit();
-        let pmf = move |point: &ShadingPoint, k: usize| bvh.pmf_of(point, ids[k], 0).unwrap_or(0.0).into();
+        let pmf = move |point: &ShadingPoint, k: usize| bvh.pmf(point, ids[k], 0).unwrap_or(0.0).into();
         Ok((world, Box::new(pmf), &self.points))
     }
 
@@ -136,7 +136,7 @@ impl Scene {
                 point: *point,
                 mask: u32::MAX,
             };
-            bvh.pmf_of(&receiver, ids[k], 0).unwrap_or(0.0).into()
+            bvh.pmf(&receiver, ids[k], 0).unwrap_or(0.0).into()
         };
         Ok((world, Box::new(pmf), &self.points))
     }
@@ -145,7 +145,9 @@ impl Scene {
     fn split(&self, halves: bool) -> Result<Pmfs<'_>, Error> {
         let is_spot = |light: &AnyLight| SpotLight::try_from(*light).is_ok();
         let parts = [Part::of(self, is_spot)?, Part::of(self, |light| !is_spot(light))?];
-        let flux = parts.each_ref().map(|part| f64::from(part.bvh.summary().phi));
+        let flux = parts
+            .each_ref()
+            .map(|part| f64::from(part.bvh.view().summary().phi));
         let share = if halves {
             0.5
         } else {
@@ -166,8 +168,8 @@ impl Scene {
 struct Part {
     bvh: AnyLights,
     lights: Vec<AnyLight>,
-    /// Number and instance of each.
-    names: Vec<(u32, u32)>,
+    /// Instance of each, and its place in the mesh.
+    names: Vec<(InstanceId, u32)>,
 }
 
 impl Part {
@@ -177,26 +179,29 @@ impl Part {
         for (k, own) in scene.meshes.iter().enumerate() {
             let own: Vec<AnyLight> = own.iter().copied().filter(|light| has(light)).collect();
             if !own.is_empty() {
-                meshes.insert(k, bvh.add_mesh(own)?);
+                let count = own.len() as u32;
+                meshes.insert(k, (bvh.add_mesh(own)?, count));
             }
         }
         let mut names = Vec::new();
         for (mesh, place) in &scene.instances {
-            if let Some(mesh) = meshes.get(mesh) {
+            if let Some((mesh, count)) = meshes.get(mesh) {
                 let id = bvh.add_instance(*mesh, *place)?;
-                let numbers = bvh.lights_of(id).ok_or("an instance")?;
-                names.extend(numbers.map(|number| (number, id.index())));
+                names.extend((0..*count).map(|part| (id, part)));
             }
         }
         bvh.refit();
-        let light = |&(number, instance): &(u32, u32)| bvh.light(number, instance).ok_or("a light");
+        let light = |&(id, part): &(InstanceId, u32)| {
+            let number = bvh.view().lights_of(id).map_or(0, |numbers| numbers.start) + part;
+            bvh.view().light(number, id.index()).ok_or("a light")
+        };
         let lights = names.iter().map(light).collect::<Result<_, _>>()?;
         Ok(Self { bvh, lights, names })
     }
 
     fn pmf(&self, point: &ShadingPoint, k: usize) -> f64 {
-        let (number, instance) = self.names[k];
-        self.bvh.pmf(point, number, instance).into()
+        let (id, part) = self.names[k];
+        self.bvh.pmf(point, id, part).unwrap_or(0.0).into()
     }
 }
 
