@@ -39,8 +39,9 @@ pub struct BuildParams {
     /// Buckets per axis, 2 to 32; others are brought into that range. More find better splits and take longer.
     /// [`Heuristic::Ward`] takes half as many for ranges of fewer than 256 lights.
     pub buckets: u32,
-    /// Whether the top level may hold the subtrees of a large mesh in place of the whole: less variance where meshes lie within
-    /// each other, for a record more of each subtree. Scenes of meshes that are small against the whole stay as they are.
+    /// Whether the top level may hold the subtrees of a mesh in place of the whole, for a record more of each: less variance where large
+    /// meshes lie within each other, and where spots share a mesh with other lights. Meshes of one kind that are small against the whole
+    /// stay as they are.
     pub opens: bool,
 }
 

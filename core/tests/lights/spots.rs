@@ -449,7 +449,7 @@ fn second_of_cars(
             .map(|place| bvh.add_instance(mesh, *place).expect("in the domain"))
             .collect();
         bvh.refit();
-        bvh.validate().expect("a sound tree");
+        bvh.view().validate().expect("a sound tree");
         (bvh, ids)
     });
     let trees: Vec<_> = trees.collect();
@@ -457,8 +457,8 @@ fn second_of_cars(
     let mut names = Vec::new();
     for (tree, (bvh, ids)) in trees.iter().enumerate() {
         for id in ids {
-            for (part, number) in bvh.lights_of(*id).expect("an instance").enumerate() {
-                lights.push(bvh.light(number, id.index()).expect("a light"));
+            for (part, number) in bvh.view().lights_of(*id).expect("an instance").enumerate() {
+                lights.push(bvh.view().light(number, id.index()).expect("a light"));
                 names.push((tree, *id, part as u32));
             }
         }
@@ -466,7 +466,7 @@ fn second_of_cars(
     let second = |point: &ShadingPoint| {
         second_moment(&lights, point, |k| {
             let (tree, id, part) = names[k as usize];
-            shares[tree] * trees[tree].0.pmf_of(point, id, part).expect("a light")
+            shares[tree] * trees[tree].0.pmf(point, id, part).expect("a light")
         })
     };
     points.iter().map(second).sum::<f64>() / points.len() as f64

@@ -1,6 +1,5 @@
 //! The work of a device that follows a light BVH from one frame to the next.
 
-use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -246,8 +245,8 @@ impl Mirror {
         let used: [Vec<Range<u32>>; LIST] = [
             ones(all.bottom.nodes()),
             ones(all.top.nodes()),
-            std::iter::once(0..view.lights().len() as u32).collect(),
-            std::iter::once(0..instances.len() as u32).collect(),
+            core::iter::once(0..view.lights().len() as u32).collect(),
+            core::iter::once(0..instances.len() as u32).collect(),
             ones(&all.roots),
             trails.collect(),
             ones(all.top.nodes()),
