@@ -10,7 +10,9 @@ use super::edit::MeshId;
 use super::log::Entry;
 use super::records::{Mesh, put};
 use super::refit::SWEPT;
-use crate::build::{Topology, build_over};
+use crate::build::Topology;
+#[cfg(feature = "std")]
+use crate::build::build_over;
 use crate::light::Light;
 #[cfg(feature = "std")]
 use crate::node::Holds;
