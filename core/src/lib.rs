@@ -78,6 +78,7 @@ mod kit;
 mod model;
 mod moments;
 mod point;
+#[cfg(not(target_arch = "spirv"))]
 mod prefetch;
 mod random;
 mod summary;

@@ -53,6 +53,7 @@ where
 }
 
 /// The summary that its nodes store of each child.
+#[cfg(feature = "alloc")]
 pub(crate) type SummaryOf<M, const W: usize> = <<M as Model<W>>::Node as Node<W>>::Summary;
 
 impl<N: Node<W>, I, const W: usize> Model<W> for (N, I) {
