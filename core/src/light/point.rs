@@ -186,7 +186,7 @@ const LEAST_RATIO: f32 = pow2(-60);
 
 /// The power heuristic with exponent 2 (E. Veach and L. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo
 /// Rendering", 1995, section 5.2; one sample by each technique): the weight of a direction found with density `own`, which
-/// the other finds with density `other`; both finite. 1 where `own` is 0: points and spots, which no ray meets. On devices densities
+/// the other finds with density `other`; both 0 or normal numbers. 1 where `own` is 0: points and spots, which no ray meets. On devices densities
 /// are 0 or at least 2^-100, and at most 2^104.
 ///
 /// The weights of the two techniques, each the other's `other`, sum to one within one rounding of each.
