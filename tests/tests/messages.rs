@@ -135,7 +135,7 @@ fn lights_that_cannot_be_followed() {
     let lights = |count| Lights::new(vec![LAMP; count]).expect("lamps of one mesh light");
     let mut bvh = lightbvh::LightBvh::two_level(&lights(2), &lightbvh::BuildParams::default());
     let error = follow(&mut bvh, &lights(3)).expect_err("one more");
-    says(&error, &["mesh light 0: 3 lights, expected 2", "build it anew"]);
+    says(&error, &["mesh light 0: 3 lights, expected 2", "rebuild it"]);
     // An edit by itself names no batch, and a light by itself no place in a mesh.
     let instance = bvh.view().instance_id(0).expect("the first");
     let error = bvh
@@ -162,7 +162,7 @@ fn files() {
     says(&read(&|words| words.push(0)), &["words", "cut or damaged"]);
     says(
         &read(&|words| words[1] = 9),
-        &["format 9, expected", "build the light BVH anew"],
+        &["format 9, expected", "rebuild the light BVH"],
     );
     says(
         &read(&|words| words[5] = 99),
