@@ -3,8 +3,7 @@
 //! `cargo run --release -p lightbvh --example spots_and_ranges` (minutes). The variance is that of one sample, relative to what all
 //! lights send, without shadows: Σ f²/p / (Σ f)² − 1. A sample is wasted if its light sends nothing to the point.
 
-// No device runs this.
-#![allow(clippy::disallowed_methods)]
+#![allow(clippy::disallowed_methods, reason = "nothing here is shared with devices")]
 
 use std::collections::HashMap;
 

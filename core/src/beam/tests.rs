@@ -41,6 +41,14 @@ fn a_beam_holds_what_a_map_brings_back() {
         // What the walk allows for where the point is beside it, and the sum of errors of which it is to be a part.
         let allowed = f64::from(found.radius) + 4.0 * f64::from(rounding_at(found.c));
         assert!(squared.sqrt() <= allowed, "{round}: {} {allowed}", squared.sqrt());
+        let limits = Limits {
+            beam,
+            end: 5.0,
+            ..Limits::NONE
+        };
+        let longer = f64::from(limits.to_world(&instance, found.c).end) - 5.0;
+        let allowed = longer + 4.0 * f64::from(rounding_at(found.c)) + 1.0e-6;
+        assert!(squared.sqrt() <= allowed, "{round}: {} {allowed}", squared.sqrt());
         brought_back += usize::from(found.radius > 0.0);
     }
     assert!(brought_back > 5_000, "{brought_back}");
@@ -113,6 +121,9 @@ fn maps_that_are_uneven_are_known() {
                 (found / expected - 1.0).abs() < 1e-4,
                 "{scale}: {found}, expected {expected}"
             );
+            // Ranges are lengths of the world, rounded up.
+            let longer = f64::from(even.space().per_metre) * scale;
+            assert!((1.0..1.002).contains(&longer), "{scale}: {longer}");
             let off = 2.0_f64.powi(-10);
             for axis in 0..3 {
                 let mut lengths = [1.0; 3];
