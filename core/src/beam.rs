@@ -89,7 +89,7 @@ impl Beam {
         );
         let sum = cos_d * cosine - sin_d * sine_of(cosine) - COSINE_SLACK;
         // Both angles are below 90° where the sum is.
-        if has_axis & self.is_narrow() & (cos_d > 0.0) & (sum > LEAST_COSINE) {
+        if has_axis & self.is_narrow() & (sum > LEAST_COSINE) {
             sum
         } else {
             -1.0

@@ -194,3 +194,19 @@ impl<const ROWS: usize> Rows<ROWS> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn last_number_chooses_the_last_child_with_weight() {
+        for (count, range) in (1..=16).flat_map(|count| [(count, FULL), (count, FULL / 2 + 1)]) {
+            let weights: [f32; 16] =
+                core::array::from_fn(|slot| if slot < count { 1.0 + slot as f32 } else { 0.0 });
+            let share = choose(&weights, range, range - 1, false, 0);
+            assert!(share.count > 0 && weights[share.slot as usize] > 0.0, "{count}");
+            assert_eq!(share.first + share.count, range, "{count}");
+        }
+    }
+}

@@ -159,6 +159,13 @@ mod tests {
         assert!((mean / sum - 1.0).abs() < 1e-6, "{mean} {sum}");
     }
 
+    #[test]
+    fn tiny_probabilities_count_as_the_least() {
+        let mut stream = Resampling::EMPTY;
+        assert!(stream.candidate(1.0, pow2(-45), 0));
+        assert_eq!(stream.weight(), pow2(40));
+    }
+
     /// At the corners of all ranges together, every number is zero or normal and finite, and within its range.
     #[test]
     fn no_corner_of_the_domain_leaves_it() {

@@ -258,3 +258,9 @@ fn radiance_in_the_world() {
     }
     assert!(bent > 10, "{bent}");
 }
+
+#[test]
+fn direction_that_a_map_loses_stays() {
+    let flat = placed([Vec3::X, Vec3::Y, Vec3::ZERO], Vec3::ZERO, 1.0);
+    assert_eq!(flat.direction_to_world(Vec3::Z), Vec3::Z);
+}

@@ -249,6 +249,20 @@ mod tests {
     }
 
     #[test]
+    fn light_within_a_tiny_distance_counts_as_none() {
+        for flags in [0, LightPoint::IS_POINT] {
+            let at = LightPoint {
+                flags,
+                ..triangle([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]).point([0.0; 2])
+            };
+            let p = [at.p[0], at.p[1], exact::pow2(-55)];
+            let receiver = ShadingPoint { p, n: [0.0; 3] };
+            assert_eq!(at.irradiance(&receiver), [0.0; 3]);
+            assert_eq!(at.density_seen(receiver.position(), 1.0), 0.0);
+        }
+    }
+
+    #[test]
     fn a_triangle_without_area_has_no_density() {
         for p in [
             [[1.0; 3]; 3],

@@ -189,3 +189,18 @@ pub(super) fn beam_factor(word: u32, lobe: &Lobe, m_unit: f32, unit: f32, slack:
     let factor = if inside { within } else { OUTSIDE };
     if word == 0 { 1.0 } else { factor }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_are_rounded_up_by_a_thousandth() {
+        let set = LightMoments::EMPTY;
+        for e in -20..40 {
+            let end = 1.7 * pow2(e);
+            let found = f32::from_bits(end_word(end, &set, &set, 1.0));
+            assert!((1.0005 * end..=1.002 * end).contains(&found), "{end}: {found}");
+        }
+    }
+}

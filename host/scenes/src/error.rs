@@ -42,13 +42,28 @@ pub enum SceneError {
     NoEmissive(String, String),
 }
 
+/// The beginning of a text from a file: names are for messages, and each node may name the same mesh.
+pub(super) fn short(text: &str) -> String {
+    text.chars().take(60).collect()
+}
+
+/// Most bytes of a sentence about a file, which may quote it.
+const MAX_SENTENCE: usize = 1000;
+
+/// A sentence, cut where the file made it long.
+pub(super) fn sentence(text: impl Into<String>) -> String {
+    let mut text = text.into();
+    text.truncate(text.floor_char_boundary(MAX_SENTENCE));
+    text
+}
+
 /// [`SceneError::Malformed`].
 pub(super) fn malformed(
     place: impl Into<String>,
     problem: impl Into<String>,
     advice: impl Into<String>,
 ) -> SceneError {
-    SceneError::Malformed(place.into(), problem.into(), advice.into())
+    SceneError::Malformed(place.into(), sentence(problem), advice.into())
 }
 
 /// The program was compiled without the feature `formats`, which reads `what`.

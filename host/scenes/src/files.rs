@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use super::error::SceneError;
+use super::error::{SceneError, sentence};
 
 /// First bytes of what stands for a file that Git LFS keeps elsewhere.
 pub(super) const POINTER: &[u8] = b"version https://git-lfs";
@@ -91,16 +91,21 @@ impl Load {
         Ok(())
     }
 
-    /// Reads a file that a scene names. It lies in a permitted folder, or below it, once links are followed.
+    /// Reads a file that a scene names.
     ///
     /// # Errors
     /// [`SceneError::Outside`], [`SceneError::Memory`], [`SceneError::Read`].
     pub fn read(&self, path: &Path) -> Result<Vec<u8>, SceneError> {
+        self.read_any(&self.real(path)?)
+    }
+
+    /// The path without links of a file that a scene names. It lies in a permitted folder, or below it.
+    pub fn real(&self, path: &Path) -> Result<PathBuf, SceneError> {
         let real = fs::canonicalize(path).map_err(|source| unread(path, source))?;
-        if !self.permitted.iter().any(|folder| real.starts_with(folder)) {
-            return Err(SceneError::Outside(path.to_owned()));
+        match self.permitted.iter().any(|folder| real.starts_with(folder)) {
+            true => Ok(real),
+            false => Err(SceneError::Outside(path.to_owned())),
         }
-        self.read_any(&real)
     }
 
     /// Reads a regular file, which the user named: a pipe or a device could go on for ever.
@@ -123,7 +128,7 @@ impl Load {
 }
 
 fn unread(path: &Path, source: io::Error) -> SceneError {
-    SceneError::Read(path.to_owned(), source)
+    SceneError::Read(sentence(path.to_string_lossy()).into(), source)
 }
 
 /// `bytes` of a text file without the mark of UTF-8 that some editors put first; `path` is for messages.

@@ -10,8 +10,8 @@ use super::files::Load;
 use super::shown::Shown;
 use super::textures::{Picture, Texture};
 
-/// Texels looked at for the triangles of one primitive, about: 2^24.
-const MAX_LOOKUPS: u32 = 1 << 24;
+/// Texels looked at for all triangles of a file, about.
+const MAX_LOOKUPS: u32 = 1 << 26;
 /// Least and most subdivisions of a triangle for the mean of a texture: within a texel it is not even.
 const STEPS: (u32, f64) = (16, 2048.0);
 /// Texels along an edge from which on places are as many as texels, and not four times as many.
@@ -63,16 +63,18 @@ impl Glow {
         Ok(Self { texture, picture })
     }
 
-    /// `factor` times the mean over each triangle, whose vertices have these coordinates.
+    /// `factor` times the mean over each triangle, whose vertices have these coordinates; `count` triangles of the file share the
+    /// lookups.
     pub fn radiance(
         &self,
         triangles: &[[u32; 3]],
         coordinates: &[[f32; 2]],
         factor: [f32; 3],
+        count: usize,
     ) -> Vec<[f32; 3]> {
         let shown = &mut self.picture.shown.borrow_mut();
         shown.set(&self.texture);
-        let each = f64::from(MAX_LOOKUPS) / triangles.len().max(1) as f64;
+        let each = f64::from(MAX_LOOKUPS) / count.max(1) as f64;
         let most = each.sqrt().clamp(1.0, STEPS.1) as u32;
         let own = |triangle: &[u32; 3]| {
             let mean = self.mean_over(shown, triangle.map(|vertex| coordinates[vertex as usize]), most);

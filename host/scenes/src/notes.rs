@@ -1,5 +1,7 @@
 //! What a loader leaves out or replaces, said once for each kind.
 
+use super::error::sentence;
+
 /// Kinds kept, and places named of each; the rest is counted.
 const MAX_KINDS: usize = 50;
 const MAX_PLACES: usize = 3;
@@ -15,7 +17,7 @@ pub(super) struct Notes {
 impl Notes {
     /// Something at `place`, which may be empty, is left out or replaced: `what` has the same words for the same kind.
     pub fn add(&mut self, place: impl Into<String>, what: impl Into<String>) {
-        let (place, what) = (place.into(), what.into());
+        let (place, what) = (place.into(), sentence(what));
         let is_full = self.kinds.len() == MAX_KINDS;
         match self.kinds.iter_mut().find(|kind| kind.0 == what) {
             // Several textures of an element say the same.

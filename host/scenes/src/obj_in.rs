@@ -6,10 +6,10 @@
 //!
 //! The crate `tobj` is not used: it panics at `Kd 1 2`, and its errors name no line.
 
-use std::collections::{BTreeSet, HashMap};
-use std::path::Path;
+use std::collections::{BTreeSet, HashMap, HashSet};
+use std::path::{Path, PathBuf};
 
-use super::error::{SceneError, malformed};
+use super::error::{SceneError, malformed, short};
 use super::files::{Limits, Load, without_mark};
 use super::model::{Material, Mesh, Node, Primitive, SceneData};
 use super::notes::Notes;
@@ -37,6 +37,8 @@ struct Reading<'a> {
     /// In the order of their first face, with the names of a group and a material.
     parts: Vec<((String, String), Part)>,
     by_names: HashMap<(String, String), usize>,
+    /// The libraries that were read.
+    libraries: HashSet<PathBuf>,
     materials: HashMap<String, Material>,
 }
 
@@ -59,6 +61,7 @@ impl Scene {
             positions: Vec::new(),
             parts: Vec::new(),
             by_names: HashMap::new(),
+            libraries: HashSet::new(),
             materials: HashMap::new(),
         };
         let (mut object, mut group, mut material) = ("", "", "");
@@ -68,8 +71,9 @@ impl Scene {
             match word {
                 "v" => reading.positions.push(three(file, line, rest)?),
                 "f" => {
-                    let part = *part.get_or_insert_with(|| reading.part([object, group], material));
-                    reading.face(line, rest, part)?;
+                    let own = part.map_or_else(|| reading.part([object, group], material), Ok)?;
+                    part = Some(own);
+                    reading.face(line, rest, own)?;
                 }
                 "o" | "g" | "usemtl" => {
                     part = None;
@@ -100,7 +104,14 @@ impl Reading<'_> {
         // Without a folder nothing is permitted.
         let folder = self.load.folder().unwrap_or(Path::new(""));
         let path = folder.join(name.replace('\\', "/"));
-        let bytes = match self.load.read(&path) {
+        let real = self.load.real(&path);
+        if real
+            .as_ref()
+            .is_ok_and(|real| !self.libraries.insert(real.clone()))
+        {
+            return Ok(());
+        }
+        let bytes = match real.and_then(|real| self.load.read_any(&real)) {
             Ok(bytes) => bytes,
             Err(error) if error.ends_the_load() && self.load.folder().is_some() => return Err(error),
             Err(error) => {
@@ -119,7 +130,7 @@ impl Reading<'_> {
                 }),
                 ("Kd", Some(own)) => own.base_color = three(&file, line, rest)?.map(|x| x.clamp(0.0, 1.0)),
                 ("Ke", Some(own)) => own.radiance = three(&file, line, rest)?,
-                _ if self.left_out.len() < NAMED => _ = self.left_out.insert(shown(word)),
+                _ if self.left_out.len() < NAMED => _ = self.left_out.insert(short(word)),
                 _ => {}
             }
         }
@@ -129,13 +140,16 @@ impl Reading<'_> {
     }
 
     /// The place in `parts` of what a group has of a material.
-    fn part(&mut self, [object, group]: [&str; 2], material: &str) -> usize {
+    fn part(&mut self, [object, group]: [&str; 2], material: &str) -> Result<usize, SceneError> {
+        // The key, and the names of a node, a mesh and a material; one that is known is copied and hashed too.
+        let bytes = 8 * (object.len() + group.len() + material.len());
+        self.load.take(self.file, "the names of groups", bytes as u64)?;
         let group = format!("{object}/{group}").trim_matches('/').to_owned();
         let names = (group, material.to_owned());
-        *self.by_names.entry(names.clone()).or_insert_with(|| {
+        Ok(*self.by_names.entry(names.clone()).or_insert_with(|| {
             self.parts.push((names, Part::default()));
             self.parts.len() - 1
-        })
+        }))
     }
 
     fn face(&mut self, line: u32, rest: &str, part: usize) -> Result<(), SceneError> {
@@ -150,7 +164,7 @@ impl Reading<'_> {
                 _ => -1,
             };
             let Some(index) = usize::try_from(index).ok().filter(|&index| index < count) else {
-                let problem = format!("`{}` names none of the {count} vertices before it", shown(word));
+                let problem = format!("`{}` names none of the {count} vertices before it", short(word));
                 return Err(wrong(self.file, line, problem));
             };
             corners.push(*known.entry(index as u32).or_insert_with(|| {
@@ -180,7 +194,7 @@ impl Reading<'_> {
             let number = *numbers.entry(material).or_insert_with_key(|name| {
                 let found = self.materials.get(name).cloned();
                 if found.is_none() && !name.is_empty() {
-                    let what = format!("material `{}` is in no library, and taken as grey", shown(name));
+                    let what = format!("material `{}` is in no library, and taken as grey", short(name));
                     self.notes.add(self.file, what);
                 }
                 data.materials.push(found.unwrap_or_else(|| Material {
@@ -234,14 +248,9 @@ fn three(file: &str, line: u32, text: &str) -> Result<[f32; 3], SceneError> {
         _ => Err(wrong(
             file,
             line,
-            format!("expected 3 numbers, found `{}`", shown(text)),
+            format!("expected 3 numbers, found `{}`", short(text)),
         )),
     }
-}
-
-/// The beginning of a text, for messages.
-fn shown(text: &str) -> String {
-    text.chars().take(60).collect()
 }
 
 /// An error at a line.
@@ -315,6 +324,14 @@ f -4 -3 -2 -1
             );
             assert_eq!((lights.len(), lights[0].radiance), (2, [4.0, 5.0, 6.0]));
         }
+    }
+
+    #[test]
+    fn names_take_memory_at_each_change() {
+        let faces = "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n".repeat(2000);
+        let obj = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\no {}\n{faces}", "x".repeat(100_000));
+        let error = Scene::read_obj_slice("x.obj", obj.as_bytes(), None).expect_err("too much");
+        assert!(error.to_string().contains("the names of groups"), "{error}");
     }
 
     #[test]

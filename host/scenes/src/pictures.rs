@@ -2,7 +2,6 @@
 
 use std::fmt::Display;
 use std::io::Cursor;
-use std::path::Path;
 use std::sync::Arc;
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, RgbaImage};
@@ -18,19 +17,10 @@ pub(super) fn undecoded(name: &str, problem: impl Display) -> SceneError {
     malformed(name, format!("cannot be decoded: {problem}"), advice)
 }
 
-/// Decodes a picture; `path` says its format where its first bytes do not. Its size is read from its header before memory is
-/// taken.
-pub(super) fn decode(
-    load: &Load,
-    name: &str,
-    bytes: &[u8],
-    path: Option<&Path>,
-) -> Result<DynamicImage, SceneError> {
-    let mut reader = ImageReader::new(Cursor::new(bytes));
-    if let Some(format) = path.and_then(|path| ImageFormat::from_path(path).ok()) {
-        reader.set_format(format);
-    }
-    let mut reader = reader
+/// Decodes the picture of a surface. Its size is read from its header, and its memory taken before it is known to be sound: the
+/// memory of a load bounds its work.
+pub(super) fn decode(load: &Load, name: &str, bytes: &[u8]) -> Result<RgbaImage, SceneError> {
+    let mut reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(|error| undecoded(name, error))?;
     if reader.format() == Some(ImageFormat::WebP) && !ImageFormat::WebP.reading_enabled() {
@@ -44,17 +34,18 @@ pub(super) fn decode(
     let mut decoder = reader.into_decoder().map_err(|error| undecoded(name, error))?;
     let (width, height) = decoder.dimensions();
     // What is decoded, what the decoder works with, and the copy of eight bits a channel.
-    let bytes = (2 * decoder.total_bytes()).saturating_add(4 * u64::from(width) * u64::from(height));
-    load.check(name, "a picture, decoded,", bytes)?;
-    decoder
+    let pixels = 4 * u64::from(width) * u64::from(height);
+    load.check(
+        name,
+        "a picture, decoded,",
+        (2 * decoder.total_bytes()).saturating_add(pixels),
+    )?;
+    load.take(name, "a picture", pixels)?;
+    let decoded = decoder
         .set_limits(limits)
         .and_then(|()| DynamicImage::from_decoder(decoder))
-        .map_err(|error| undecoded(name, error))
-}
-
-/// The same for a surface, whose picture holds no light.
-pub(super) fn decode_surface(load: &Load, name: &str, bytes: &[u8]) -> Result<RgbaImage, SceneError> {
-    match decode(load, name, bytes, None)? {
+        .map_err(|error| undecoded(name, error))?;
+    match decoded {
         DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
             Err(undecoded(name, "it holds light, not colours"))
         }

@@ -1,9 +1,11 @@
 //! Hostile glTF files are errors that name the element. Damaged ones are the fuzz target `gltf`.
 
-use lightbvh_scenes::{Channel, Scene, SceneData, SceneError};
-use serde_json::json;
+use lightbvh_scenes::{Channel, Limits, Scene, SceneData, SceneError};
+use serde_json::{Value, json};
 
-use crate::files::{broken, busy, bytes, changed, embedded, read, read_json, refused, triangle};
+use crate::files::{
+    broken, busy, bytes, changed, embedded, png, push, read, read_json, refused, textured, triangle,
+};
 
 /// The place of a value, the value, and a part of the error.
 const VALUES: &str = "
@@ -40,6 +42,8 @@ const VALUES: &str = "
 /buffers/0/uri | \"http://example.com/a.bin\" | relative
 /extensionsRequired | [\"KHR_of_the_future\"] | KHR_of_the_future is not supported
 /asset | null | JSON
+/asset | { \"version\": \"3.0\" } | needs glTF 3.0
+/asset | { \"version\": \"2.0\", \"minVersion\": \"2.9\" } | needs glTF 2.9
 /meshes/0/primitives | [] | no triangles
 ";
 
@@ -101,6 +105,69 @@ fn instances_are_counted_before_memory_is_taken() {
         data.nodes.extend(std::iter::repeat_n(extra, 5_000));
     });
     assert!(error.contains("triangles over all instances"), "{error}");
+}
+
+/// Opens a file within so many bytes.
+fn within(memory: u64, root: &Value) -> String {
+    let path = std::env::temp_dir().join(format!("lightbvh-{memory}-{}.gltf", std::process::id()));
+    std::fs::write(&path, root.to_string()).expect("a file");
+    let limits = Limits {
+        memory,
+        ..Limits::default()
+    };
+    let found = Scene::open_within(path.as_os_str(), &limits);
+    std::fs::remove_file(path).expect("removed");
+    found.expect_err("too much").to_string()
+}
+
+#[test]
+fn strips_without_indices_take_memory_first() {
+    let mut root = changed("/buffers/0/uri", json!(embedded(&vec![0; 300_000])));
+    root["buffers"][0]["byteLength"] = json!(300_000);
+    root["bufferViews"][0]["byteLength"] = json!(300_000);
+    root["accessors"][0] =
+        json!({ "bufferView": 0, "componentType": 5121, "count": 100_000, "type": "VEC3" });
+    root["meshes"][0]["primitives"][0] = json!({ "attributes": { "POSITION": 0 }, "mode": 5 });
+    let error = within(3_000_000, &root);
+    assert!(error.contains("the list of triangles"), "{error}");
+}
+
+#[test]
+fn broken_pictures_take_memory() {
+    let whole = png(512, 512, |_, _| [255; 4]);
+    let mut root = textured([[0.0; 2]; 3], &whole[..whole.len() / 2]);
+    for (list, own) in [
+        ("images", root["images"][0].clone()),
+        ("textures", json!({ "source": 1 })),
+        (
+            "materials",
+            json!({ "emissiveFactor": [1, 1, 1], "emissiveTexture": { "index": 1 } }),
+        ),
+    ] {
+        push(&mut root[list], own);
+    }
+    let error = within(4_000_000, &root);
+    assert!(error.contains("images[1]: a picture, decoded"), "{error}");
+}
+
+#[test]
+fn names_are_cut_and_primitives_without_triangles_left_out() {
+    let long = "x".repeat(10_000);
+    let mut root = changed("/nodes/0/name", json!(long));
+    let short = json!({ "bufferView": 1, "componentType": 5123, "count": 2, "type": "SCALAR" });
+    push(&mut root["accessors"], short);
+    let strip = json!({ "attributes": { "POSITION": 0 }, "indices": 2, "mode": 5 });
+    push(&mut root["meshes"][0]["primitives"], strip);
+    let scene = read_json(&root);
+    assert_eq!(scene.data().nodes[0].name, long[..60]);
+    assert_eq!(scene.data().meshes[0].primitives.len(), 1);
+    for (place, value) in [
+        ("/extensionsRequired", json!([long])),
+        ("/buffers/0/uri", json!(long)),
+        ("/asset/version", json!(long)),
+    ] {
+        assert!(refused(&changed(place, value)).len() < 1500, "{place}");
+    }
 }
 
 #[test]

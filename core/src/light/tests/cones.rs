@@ -144,3 +144,17 @@ fn cones_are_made_of_angles() {
         }
     }
 }
+
+/// Axes that almost lie along each other have a normal that rounding turns.
+#[test]
+fn cones_of_flat_lights_hold_their_normals() {
+    let mut random = Random(3);
+    for k in 0..1000 {
+        let a = random.vector();
+        let half = [a, a * random.signed() + random.vector() * exact::pow2(-(k % 13))].map(|v| v.to_array());
+        let bounds = RectangleLight { half, ..rectangle(0) }.bounds();
+        let normal = normalize(cross(half[0].map(f64::from), half[1].map(f64::from)));
+        let cosine = dot(normalize(wide(bounds.axis)), normal);
+        assert!(cosine >= f64::from(bounds.cos_theta_o), "{half:?}: {cosine}");
+    }
+}

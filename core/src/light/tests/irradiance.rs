@@ -60,7 +60,7 @@ fn points_of_spheres_have_the_density_of_their_cap() {
 /// A sphere's size does not ask how bright its instance is; of an uneven map it is the mean's.
 #[test]
 fn spheres_are_scaled_by_the_mean_area() {
-    for [x, y, z] in [[3.0_f32, 3.0, 3.0], [1.0, 10.0, 10.0]] {
+    for [x, y, z] in [[3.0_f32, 3.0, 3.0], [1.0, 10.0, 10.0], [2.0, 3.0, 7.0]] {
         let transform = Transform {
             columns: [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]],
             translation: [1.0, 2.0, 3.0],

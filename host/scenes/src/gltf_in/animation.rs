@@ -6,7 +6,7 @@ use std::mem::discriminant;
 use gltf::json;
 use gltf::json::validation::Checked::{Invalid, Valid};
 
-use super::super::error::SceneError;
+use super::super::error::{SceneError, short};
 use super::super::model::{Animation, Channel, Interpolation, Property};
 use super::Document;
 
@@ -20,7 +20,10 @@ pub(super) fn read(document: &Document<'_>, place: &[Option<u32>]) -> Result<Vec
             let element = format!("animations[{a}].channels[{c}]");
             channels.extend(one(document, animation, channel, place, &element)?);
         }
-        let name = animation.name.clone().unwrap_or_else(|| format!("animation {a}"));
+        let name = animation
+            .name
+            .as_deref()
+            .map_or_else(|| format!("animation {a}"), short);
         let own = Animation {
             name,
             place: a as u32,

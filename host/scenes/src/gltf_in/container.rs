@@ -80,6 +80,18 @@ pub(super) fn parse(path: &str, text: &[u8]) -> Result<(json::Root, usize), Scen
     }
 }
 
+/// Refuses a file of another version than 2, and one that needs a later one than 2.0 (glTF 2.0, section 3.2).
+pub(super) fn check_version(path: &str, asset: &json::Asset) -> Result<(), SceneError> {
+    let (needed, is_read) = match &asset.min_version {
+        Some(needed) => (needed, needed == "2.0"),
+        None => (&asset.version, asset.version.split('.').next() == Some("2")),
+    };
+    match is_read {
+        true => Ok(()),
+        false => Err(broken(path, format!("it needs glTF {needed}"))),
+    }
+}
+
 /// All buffers, each cut to the length that the JSON claims.
 pub(super) fn buffers<'a>(
     document: &Document<'a>,
@@ -151,15 +163,17 @@ pub(super) fn fetch(document: &Document<'_>, uri: &str, element: &str) -> Result
 }
 
 /// What a `uri`, or else a view holds.
-pub(super) fn uri_or_view(
-    document: &Document<'_>,
+pub(super) fn uri_or_view<'d>(
+    document: &'d Document<'_>,
     uri: Option<&str>,
     view: Option<Index<json::buffer::View>>,
     element: &str,
-) -> Result<Vec<u8>, SceneError> {
+) -> Result<Cow<'d, [u8]>, SceneError> {
     match (uri, view) {
-        (Some(uri), _) => fetch(document, uri, element),
-        (None, Some(view)) => document.view(view, element).map(|(bytes, _)| bytes.to_vec()),
+        (Some(uri), _) => fetch(document, uri, element).map(Cow::Owned),
+        (None, Some(view)) => document
+            .view(view, element)
+            .map(|(bytes, _)| Cow::Borrowed(bytes)),
         (None, None) => {
             let problem = "it has neither a uri nor a bufferView";
             Err(document.malformed(element, problem, "export the file again"))

@@ -70,14 +70,14 @@ impl Document<'_> {
     }
 
     fn decode(&self, name: &str, bytes: &[u8]) -> Result<RgbaImage, SceneError> {
-        let pixels = if bytes.starts_with(&ktx2::IDENTIFIER) {
-            let header = ktx2::Header::read(bytes).map_err(|problem| undecoded(name, problem))?;
-            self.load.check(name, "a picture, decoded,", header.bytes())?;
-            header.decode(name, bytes)?
-        } else {
-            pictures::decode_surface(self.load, name, bytes)?
-        };
-        self.load.take(name, "a picture", pixels.as_raw().len() as u64)?;
-        Ok(pixels)
+        self.load
+            .take(name, "the file of a picture", bytes.len() as u64)?;
+        if !bytes.starts_with(&ktx2::IDENTIFIER) {
+            return pictures::decode(self.load, name, bytes);
+        }
+        let header = ktx2::Header::read(bytes).map_err(|problem| undecoded(name, problem))?;
+        self.load.check(name, "a picture, decoded,", header.bytes())?;
+        self.load.take(name, "a picture", header.pixels())?;
+        header.decode(name, bytes)
     }
 }

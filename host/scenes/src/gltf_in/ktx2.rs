@@ -70,8 +70,12 @@ impl Header {
 
     /// Bytes that are taken at most: the unpacked level, blocks of one, and the pixels.
     pub(super) fn bytes(&self) -> u64 {
-        self.unpacked
-            .saturating_add(8 * u64::from(self.width) * u64::from(self.height))
+        self.unpacked.saturating_add(2 * self.pixels())
+    }
+
+    /// Bytes of the pixels.
+    pub(super) fn pixels(&self) -> u64 {
+        4 * u64::from(self.width) * u64::from(self.height)
     }
 
     /// Decodes the largest level.

@@ -7,6 +7,7 @@ use gltf::json::validation::Checked::{Invalid, Valid};
 use lightbvh::light::MAX_COORDINATE;
 
 use super::super::analytic::{AnalyticKind, AnalyticLight};
+use super::super::error::short;
 use super::super::model::SceneData;
 use super::Document;
 
@@ -75,7 +76,7 @@ fn light(light: &Light, node: u32) -> Result<AnalyticLight, String> {
     // The domain of lights, which begins below any room and ends beyond any scene.
     let range = light.range.filter(|range| *range <= MAX_COORDINATE);
     Ok(AnalyticLight {
-        name: light.name.clone().unwrap_or_default(),
+        name: short(light.name.as_deref().unwrap_or_default()),
         node,
         kind,
         color: light.color,

@@ -7,7 +7,7 @@ use gltf::json::material::AlphaMode;
 use gltf::json::texture::Info;
 use gltf::json::validation::Checked::{Invalid, Valid};
 
-use super::super::error::SceneError;
+use super::super::error::{SceneError, short};
 use super::super::glow::Glow;
 use super::super::model::Material;
 use super::super::textures::MaterialTextures;
@@ -40,7 +40,7 @@ fn look(document: &Document<'_>, element: &str, material: &json::Material) -> Re
     let strength = extensions.emissive_strength.as_ref();
     let strength = strength.map_or(1.0, |extension| extension.emissive_strength.0);
     let mut out = Material {
-        name: material.name.clone().unwrap_or_default(),
+        name: short(material.name.as_deref().unwrap_or_default()),
         radiance: material.emissive_factor.0.map(|channel| channel * strength),
         double_sided: material.double_sided,
         metallic: pbr.metallic_factor.0,

@@ -6,7 +6,7 @@ use gltf::json;
 use gltf::json::mesh::{Mode, Semantic};
 use gltf::json::validation::Checked;
 
-use super::super::error::SceneError;
+use super::super::error::{SceneError, short};
 use super::super::model::{Mesh, Primitive};
 use super::attributes::Attributes;
 use super::material::Look;
@@ -14,20 +14,38 @@ use super::{DAMAGED, Document, RADIANCE_ATTRIBUTE};
 
 /// All meshes. Primitives without a material get one that is appended to `looks`.
 pub(super) fn read(document: &Document<'_>, looks: &mut Vec<Look>) -> Result<Vec<Mesh>, SceneError> {
-    let mut meshes = Vec::new();
+    let (mut meshes, mut glowing, mut count) = (Vec::new(), Vec::new(), 0);
     for (m, mesh) in document.root.meshes.iter().enumerate() {
         let mut primitives = Vec::new();
         for (p, primitive) in mesh.primitives.iter().enumerate() {
             let element = format!("meshes[{m}].primitives[{p}]");
-            primitives.extend(one(document, primitive, &element, looks)?);
+            let Some((own, glow)) = one(document, primitive, &element, looks)? else {
+                continue;
+            };
+            if let Some(coordinates) = glow {
+                count += own.triangles.len();
+                glowing.push((m, primitives.len(), coordinates));
+            }
+            primitives.push(own);
         }
         meshes.push(Mesh {
-            name: mesh.name.clone().unwrap_or_default(),
+            name: short(mesh.name.as_deref().unwrap_or_default()),
             primitives,
         });
     }
+    // All triangles that glow share the lookups, so their number comes first.
+    for (m, p, coordinates) in glowing {
+        let own = &mut meshes[m].primitives[p];
+        let look = &looks[own.material as usize];
+        let glow = look.glow.as_ref();
+        own.radiance =
+            glow.map(|(glow, _)| glow.radiance(&own.triangles, &coordinates, look.material.radiance, count));
+    }
     Ok(meshes)
 }
+
+/// A primitive, and its coordinates on the texture that it glows by.
+type Read = (Primitive, Option<Vec<[f32; 2]>>);
 
 /// One primitive, or `None` where it has no triangles.
 fn one(
@@ -35,7 +53,7 @@ fn one(
     primitive: &json::mesh::Primitive,
     element: &str,
     looks: &mut Vec<Look>,
-) -> Result<Option<Primitive>, SceneError> {
+) -> Result<Option<Read>, SceneError> {
     let Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) = primitive.mode
     else {
         document.note(element, "skipped, as only triangles (modes 4 to 6) are used");
@@ -75,15 +93,26 @@ fn one(
         None => document.count(index, element)?,
     };
     let mut triangles = triangles(document, &attributes, (primitive, mode), vertices)?;
+    // Each node would look at it for nothing.
+    if triangles.is_empty() {
+        return Ok(None);
+    }
     let rows = &compact(&mut triangles);
     let look = &looks[material];
-    Ok(Some(Primitive {
-        positions: attributes.floats(Semantic::Positions, rows)?.unwrap_or_default(),
+    let positions = attributes.floats(Semantic::Positions, rows)?.unwrap_or_default();
+    let radiance = radiance(&attributes, &triangles, rows)?;
+    let glow = match radiance {
+        Some(_) => None,
+        None => glow(document, &attributes, look, rows)?,
+    };
+    let primitive = Primitive {
+        positions,
         material: material as u32,
-        radiance: radiance(document, &attributes, look, &triangles, rows)?,
+        radiance,
         coordinates: coordinates(document, &attributes, look, rows)?,
         triangles,
-    }))
+    };
+    Ok(Some((primitive, glow)))
 }
 
 /// Where the vertices lie on the textures of a material; `None` where it has none, or the primitive does not say.
@@ -106,29 +135,34 @@ fn coordinates(
     Ok(values)
 }
 
-/// Radiance of each triangle where a texture or an attribute makes them differ; `None` where the material's holds for all of them.
+/// Radiance of each triangle where an attribute makes them differ.
 fn radiance(
-    document: &Document<'_>,
     attributes: &Attributes<'_, '_>,
-    look: &Look,
     triangles: &[[u32; 3]],
     rows: &[u32],
 ) -> Result<Option<Vec<[f32; 3]>>, SceneError> {
     let own = Semantic::Extras(RADIANCE_ATTRIBUTE.to_owned());
-    if let Some(values) = attributes.floats::<3>(own, rows)? {
-        let first = |&[a, _, _]: &[u32; 3]| values[a as usize];
-        return Ok(Some(triangles.iter().map(first).collect()));
-    }
-    let factor = look.material.radiance;
-    let Some((glow, set)) = look.glow.as_ref().filter(|_| factor != [0.0; 3]) else {
+    let values = attributes.floats::<3>(own, rows)?;
+    let first = |values: Vec<[f32; 3]>| triangles.iter().map(|&[a, _, _]| values[a as usize]).collect();
+    Ok(values.map(first))
+}
+
+/// Where the vertices lie on the texture that the material glows by; `None` where it has none, or the primitive does not say.
+fn glow(
+    document: &Document<'_>,
+    attributes: &Attributes<'_, '_>,
+    look: &Look,
+    rows: &[u32],
+) -> Result<Option<Vec<[f32; 2]>>, SceneError> {
+    let Some((_, set)) = look.glow.as_ref().filter(|_| look.material.radiance != [0.0; 3]) else {
         return Ok(None);
     };
-    let Some(coordinates) = attributes.floats::<2>(Semantic::TexCoords(*set), rows)? else {
+    let values = attributes.floats::<2>(Semantic::TexCoords(*set), rows)?;
+    if values.is_none() {
         let what = format!("its emissive texture is ignored, as TEXCOORD_{set} is missing");
         document.note(attributes.element, what);
-        return Ok(None);
-    };
-    Ok(Some(glow.radiance(triangles, &coordinates, factor)))
+    }
+    Ok(values)
 }
 
 /// Vertex indices in threes, all below `vertices`.
@@ -139,6 +173,10 @@ fn triangles(
     vertices: usize,
 ) -> Result<Vec<[u32; 3]>, SceneError> {
     let element = attributes.element;
+    let take = |bytes: usize| document.load.take(element, "the list of triangles", bytes as u64);
+    if primitive.indices.is_none() {
+        take(4 * vertices)?;
+    }
     let (indices, mode) = match (&attributes.draco, primitive.indices) {
         (Some(draco), _) => (draco.indices.clone(), Mode::Triangles),
         (None, Some(index)) => (document.indices(index, element)?, mode),
@@ -148,6 +186,9 @@ fn triangles(
         let problem = format!("refers to vertex {index}, but there are only {vertices}");
         return Err(document.malformed(element, problem, DAMAGED));
     }
+    let each = if mode == Mode::Triangles { 3 } else { 1 };
+    // A triangle and its radiance; where each vertex in use stands, in a table that is half empty.
+    take(24 * (indices.len() / each + indices.len().min(vertices)))?;
     Ok(match mode {
         // Every other triangle of a strip is turned, so that all have the same side in front.
         Mode::TriangleStrip => (0..indices.len().saturating_sub(2))

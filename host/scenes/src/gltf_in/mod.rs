@@ -73,6 +73,7 @@ impl Scene {
     pub(super) fn read_gltf(name: &str, bytes: &[u8], load: &Load) -> Result<Self, SceneError> {
         let (text, binary) = container::split(name, bytes)?;
         let (root, pointers) = container::parse(name, &text)?;
+        container::check_version(name, &root.asset)?;
         let mut document = Document {
             path: name,
             load,

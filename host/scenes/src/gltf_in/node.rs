@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use gltf::json;
 
-use super::super::error::SceneError;
+use super::super::error::{SceneError, short};
 use super::super::model::{Camera, Node, SceneData};
 use super::super::transform::Transform;
 use super::{BACKGROUND_EXTRA, Document};
@@ -112,7 +112,10 @@ fn add(
             None => document.note(&element, "its camera is not perspective and is ignored"),
         }
     }
-    let name = node.name.clone().unwrap_or_else(|| format!("node {index}"));
+    let name = node
+        .name
+        .as_deref()
+        .map_or_else(|| format!("node {index}"), short);
     data.nodes.push(Node {
         name,
         parent,
