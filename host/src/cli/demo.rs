@@ -113,7 +113,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         let exposure = *exposure.get_or_insert_with(|| film.auto_exposure());
         let path = args.out.join(format!("{SCENE}-{frame:03}.png"));
         film.write(&path, exposure)?;
-        written.push(path);
+        written.push(path.display().to_string());
     }
     devices::close(opened)?;
     let outcome = Outcome::good_if(rows.iter().all(|row| row.different == 0));
@@ -142,7 +142,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         }
     }
     for path in written {
-        say!("{}", path.display())?;
+        say!("{path}")?;
     }
     Ok(outcome)
 }

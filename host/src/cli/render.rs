@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use lightbvh::EmissiveTriangle;
 use lightbvh::light::AnyLight;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::reading::{BackendName, Reading, positive};
 use super::{Context, Outcome, devices, table, target};
@@ -110,7 +110,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         true => render::<AnyLight>,
         false => render::<EmissiveTriangle>,
     };
-    let report = match args.backend {
+    let (on, render_ms, exposure) = match args.backend {
         BackendName::Cpu => render(args, &recipe, &scene, Target::Cpu)?,
         BackendName::Vulkan => {
             let opened = devices::open(context)?;
@@ -125,20 +125,16 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             report
         }
     };
+    let output = args.output.display().to_string();
     if context.json {
-        table::print_json(&report)?;
+        table::print_json(&json!({
+            "scene": scene.name(), "backend": on, "frame": args.frame, "output": output,
+            "render_ms": render_ms, "exposure": exposure,
+        }))?;
         return Ok(Outcome::Good);
     }
     // All digits of the exposure: given back as an option, it makes the same picture.
-    let (output, on) = (
-        args.output.display(),
-        report["backend"].as_str().unwrap_or_default(),
-    );
-    say!(
-        "{output}: {:.1} ms on {on}, exposure {}",
-        report["render_ms"].as_f64().unwrap_or_default(),
-        report["exposure"]
-    )?;
+    say!("{output}: {render_ms:.1} ms on {on}, exposure {exposure}")?;
     Ok(Outcome::Good)
 }
 
@@ -171,13 +167,13 @@ fn scene(args: &Args, recipe: &Recipe) -> Result<Scene, HostError> {
     })
 }
 
-/// Renders and writes the image; returns what the report says of it.
+/// Renders and writes the image; returns what rendered, the milliseconds and the exposure.
 fn render<L: MethodLight>(
     args: &Args,
     recipe: &Recipe,
     scene: &Scene,
     target: Target<'_>,
-) -> Result<Value, HostError> {
+) -> Result<(String, f64, f32), HostError> {
     let arrays = arrays_lit_by::<L>(scene, args.frame, args.width, args.height)?;
     let step = Step::new(scene, args.frame, &arrays.lights);
     let size = (args.width, args.height);
@@ -189,8 +185,5 @@ fn render<L: MethodLight>(
     }
     let exposure = args.exposure.unwrap_or_else(|| film.auto_exposure());
     film.write(&args.output, exposure)?;
-    Ok(json!({
-        "scene": scene.name(), "backend": target.name(), "frame": args.frame, "output": args.output,
-        "render_ms": image.time.as_secs_f64() * 1e3, "exposure": exposure,
-    }))
+    Ok((target.name().to_owned(), image.time.as_secs_f64() * 1e3, exposure))
 }

@@ -1,7 +1,9 @@
 //! Files that are written: through links, into pipes, and after an interrupt.
 #![cfg(unix)]
 
+use std::ffi::OsStr;
 use std::fs;
+use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::{FileTypeExt, symlink};
 use std::process::{Command, Stdio};
 use std::time::Duration;
@@ -37,6 +39,26 @@ fn links_are_followed_and_pipes_are_written_directly() {
     symlink(folder.file("nothing"), &lost).expect("a link");
     let said = refused(&format!("render street {SMALL} -o {lost}"));
     assert!(said.contains(&lost) && said.contains("remove the link"), "{said}");
+}
+
+#[test]
+fn paths_need_not_be_text() {
+    let folder = Folder::new("bytes");
+    for (line, name) in [
+        (format!("render street {SMALL} -o"), &b"\xff.exr"[..]),
+        (String::from("demo --width 16 --height 9 --out"), b"\xff"),
+    ] {
+        for json in [None, Some("--json")] {
+            let output = Command::new(env!("CARGO_BIN_EXE_lightbvh"))
+                .args(line.split(' '))
+                .arg(folder.0.join(OsStr::from_bytes(name)))
+                .args(json)
+                .output()
+                .expect("the program starts");
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{line}: {said}");
+        }
+    }
 }
 
 /// At several times: between files, and while one is written.
