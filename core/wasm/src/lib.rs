@@ -2,8 +2,9 @@
 
 use lightbvh::bvh::Swap;
 use lightbvh::exact::{hash, unit_f32};
+use lightbvh::tree::Model;
 use lightbvh::{
-    Bvh, CompactNode, Edit, EmissiveTriangle, Eq4, ImportanceModel, LightNode, MomentNode, Moments, Rebuilder,
+    Bvh, CompactNode, Edit, EmissiveTriangle, Eq4, ImportanceModel, MomentNode, Moments, Rebuilder,
     RebuilderParams, ShadingPoint, Transform,
 };
 
@@ -13,13 +14,13 @@ pub const FRAMES: u32 = 40;
 /// The digest of the first `frames` frames with the default layout.
 #[unsafe(no_mangle)]
 pub extern "C" fn moments(frames: u32) -> u32 {
-    run::<MomentNode<8>, Moments, 8>(frames)
+    run::<(MomentNode<8>, Moments), 8>(frames)
 }
 
 /// The same with the paper's.
 #[unsafe(no_mangle)]
 pub extern "C" fn eq4(frames: u32) -> u32 {
-    run::<CompactNode<4>, Eq4, 4>(frames)
+    run::<(CompactNode<4>, Eq4), 4>(frames)
 }
 
 struct Random(u32);

@@ -15,7 +15,7 @@
 //! | [`numbers`] | the numbers that lights and points on them are drawn by |
 //! | [`params`], [`pixel`] | what pixels have in common; what a ray sees |
 //! | [`direct`] | the light that a surface reflects once |
-//! | [`lobe`], [`mis`] | directions with a known density; weights of two ways to find a light |
+//! | [`lobe`] | directions with a known density |
 //! | [`path`] | light along whole paths |
 //!
 //! Results agree to the bit between processors in this domain: coordinates at most [`grid::MAX_COORDINATE`] in magnitude
