@@ -1,8 +1,5 @@
 //! One walk from the root to a light, chosen by a number or along a known path.
 
-#[cfg(target_arch = "spirv")]
-use core::marker::PhantomData;
-
 use crate::beam::Space;
 use crate::choose::{FULL, FULL_BITS, Share, choose};
 use crate::exact;
@@ -17,18 +14,28 @@ use crate::tree::{INVALID, LightTree};
 /// is never drawn, and must not seem impossible.
 const MOST_HALVINGS: u32 = 98;
 
+/// What a walk keeps of the nodes that it is among.
+pub(super) trait Among<'a> {
+    /// On a device nothing: it has one buffer, and keeps no pointers. But naga takes no empty structures.
+    type Nodes: Copy;
+}
+
+impl<'a, N: 'a> Among<'a> for N {
+    #[cfg(not(target_arch = "spirv"))]
+    type Nodes = &'a [N];
+    #[cfg(target_arch = "spirv")]
+    type Nodes = u32;
+}
+
 /// The state of a walk.
 ///
 /// The numbers that lead here are a range of integers, `0..range`, of which one is the number of this walk; `range` lies in
 /// (2^21, 2^22]. Each choice cuts the range down to the child's share and doubles it until it is that long again, bits of
 /// the number following in from below. So the range and the count of doublings are the probability, exactly.
 #[derive(Clone, Copy)]
-pub(super) struct Walk<'a, N, P = ShadingPoint> {
-    /// The nodes of the tree that it is in. Selected once, for each step waits for them; a device has one buffer, and keeps no pointers.
-    #[cfg(not(target_arch = "spirv"))]
-    nodes: &'a [N],
-    #[cfg(target_arch = "spirv")]
-    nodes: PhantomData<&'a [N]>,
+pub(super) struct Walk<'a, N: 'a, P = ShadingPoint> {
+    /// The nodes of the tree that it is in. Selected once, for each step waits for them.
+    nodes: <N as Among<'a>>::Nodes,
     /// The node to look at.
     pub index: u32,
     /// The triangle reached, or [`INVALID`].
@@ -52,7 +59,7 @@ pub(super) struct Walk<'a, N, P = ShadingPoint> {
     steps: u32,
 }
 
-impl<'a, N, P: Receiver> Walk<'a, N, P> {
+impl<'a, N: 'a, P: Receiver> Walk<'a, N, P> {
     /// At the root, with the numbers from `taken` on; the others chose another way to a light. With `follow` along `path`.
     #[inline(always)]
     pub fn start<I, const W: usize>(
@@ -67,7 +74,7 @@ impl<'a, N, P: Receiver> Walk<'a, N, P> {
             #[cfg(not(target_arch = "spirv"))]
             nodes: tree.top,
             #[cfg(target_arch = "spirv")]
-            nodes: PhantomData,
+            nodes: 0,
             index: tree.root.wrapping_add(tree.first),
             triangle: INVALID,
             instance: INVALID,
