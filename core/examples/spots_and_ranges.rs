@@ -10,7 +10,8 @@ use std::collections::HashMap;
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::importance::LinkedPoint;
 use lightbvh::light::{AnyLight, Light, PointLight, RectangleLight, SphereLight, SpotLight};
-use lightbvh::{AnyLights, InstanceId, MaskedLights, ShadingPoint, Transform};
+use lightbvh::tree::{AnyKind, Masked, Model, ReceiverOf};
+use lightbvh::{AnyLights, Bvh, InstanceId, ShadingPoint, Transform};
 
 type Error = Box<dyn std::error::Error>;
 
@@ -21,7 +22,10 @@ fn main() -> Result<(), Error> {
             let scene = field(seed, origin);
             report(
                 &format!("field at {origin} m, seed {seed}"),
-                &[("AnyLights", scene.loose()?), ("MaskedLights", scene.masked()?)],
+                &[
+                    ("AnyLights", scene.loose::<AnyKind, _>(|point| point)?),
+                    ("MaskedLights", scene.loose::<Masked, _>(unmasked)?),
+                ],
             );
         }
         for seed in 1..=3 {
@@ -48,6 +52,12 @@ fn main() -> Result<(), Error> {
     Ok(())
 }
 
+/// A receiver that all lights may light.
+fn unmasked(point: ShadingPoint) -> LinkedPoint<ShadingPoint> {
+    let mask = u32::MAX;
+    LinkedPoint { point, mask }
+}
+
 /// The default, each light by itself, and two light BVHs split by hand.
 fn compare(name: &str, scene: &Scene) -> Result<(), Error> {
     let by_flux = scene.split(false)?;
@@ -56,7 +66,7 @@ fn compare(name: &str, scene: &Scene) -> Result<(), Error> {
         name,
         &[
             ("AnyLights", scene.as_given()?),
-            ("lights by themselves", scene.loose()?),
+            ("lights by themselves", scene.loose::<AnyKind, _>(|point| point)?),
             ("two by hand, by flux", by_flux),
             ("two by hand, halves", halves),
         ],
@@ -111,35 +121,20 @@ impl Scene {
         Ok((lights, Box::new(move |point, k| part.pmf(point, k)), &self.points))
     }
 
-    /// Each light by itself.
-    fn loose(&self) -> Result<Pmfs<'_>, Error> {
-        let mut bvh = AnyLights::default();
+    /// Each light by itself, in a light BVH of model `M`.
+    fn loose<M: Model<8, Light = AnyLight> + 'static, P: ReceiverOf<M, 8> + 'static>(
+        &self,
+        receiver: fn(ShadingPoint) -> P,
+    ) -> Result<Pmfs<'_>, Error> {
+        let mut bvh = Bvh::<M>::default();
         let world = Part::of(self, |_| true)?.lights;
         let ids = world
             .iter()
             .map(|light| bvh.add_light(*light))
             .collect::<Result<Vec<_>, _>>()?;
         bvh.refit();
-        let pmf = move |point: &ShadingPoint, k: usize| bvh.pmf(point, ids[k], 0).unwrap_or(0.0).into();
-        Ok((world, Box::new(pmf), &self.points))
-    }
-
-    /// The same with masks, all bits set.
-    fn masked(&self) -> Result<Pmfs<'_>, Error> {
-        let mut bvh = MaskedLights::default();
-        let world = Part::of(self, |_| true)?.lights;
-        let ids = world
-            .iter()
-            .map(|light| bvh.add_light(*light))
-            .collect::<Result<Vec<_>, _>>()?;
-        bvh.refit();
-        let pmf = move |point: &ShadingPoint, k: usize| {
-            let receiver = LinkedPoint {
-                point: *point,
-                mask: u32::MAX,
-            };
-            bvh.pmf(&receiver, ids[k], 0).unwrap_or(0.0).into()
-        };
+        let pmf =
+            move |point: &ShadingPoint, k: usize| bvh.pmf(&receiver(*point), ids[k], 0).unwrap_or(0.0).into();
         Ok((world, Box::new(pmf), &self.points))
     }
 

@@ -5,7 +5,7 @@
 pub mod bounds {
     pub use crate::bounds::*;
 }
-/// What moves all lights of a BVH at once.
+/// A BVH that follows its lights: all are moved or changed at once.
 #[cfg(feature = "alloc")]
 pub mod bvh {
     pub use crate::bvh::follow;

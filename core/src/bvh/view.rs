@@ -209,9 +209,10 @@ impl<'a, M: Model<W>, const W: usize> View<'a, M, W> {
     ///   reservoir is biased if the balance heuristic merges it.
     /// - Old surfaces need old lights: keep copies of the last frame's [`lights`](Self::lights) and [`instances`](Self::instances) for
     ///   [`world_light`](crate::refit::world_light).
-    /// - No new light gets such a number before it is taken, with one exception: if more than 65,536 wait and more than there are lights
-    ///   (or than half of what is left of 2^30, if that is less), all become free. The first range is then that of all numbers from 0 on,
-    ///   of present lights too: empty every reservoir. That edit takes time in proportion to the numbers that waited.
+    /// - A number is not reused before it is taken, unless too many wait: more than 65,536, and more than there are lights or half of the
+    ///   free numbers below 2^30, whichever is less. Then all numbers that wait are freed.
+    /// - That is reported by a first range that begins at 0 and covers every number, of present lights too: empty every reservoir.
+    ///   The edit that causes it takes time in proportion to the numbers that waited.
     /// - Ranges do not overlap, except that first one.
     #[must_use]
     pub fn removed_lights(&self) -> &'a [Range<u32>] {

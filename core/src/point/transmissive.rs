@@ -7,8 +7,8 @@ use crate::domain::DomainError;
 use crate::exact;
 use crate::instance::Instance;
 
-/// A point of a surface that light reaches from both sides: a leaf, a lampshade, a sheet of glass. The viewer takes a part of what comes from
-/// the side of the normal, and a part of what comes from the other. The receiver of [`Transmissive`](crate::importance::Transmissive).
+/// A point of a surface that light reaches from both sides: a leaf, a lampshade, a sheet of glass. The viewer receives
+/// `front` of the light on the side of the normal and `back` of that on the other side. The receiver of [`Transmissive`](crate::importance::Transmissive).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct TransmissivePoint {

@@ -107,7 +107,7 @@ fn instances_are_counted_before_memory_is_taken() {
     assert!(error.contains("triangles over all instances"), "{error}");
 }
 
-/// Opens a file within so many bytes.
+/// Opens a glTF file under a limit of `memory` bytes, and returns the error.
 fn within(memory: u64, root: &Value) -> String {
     let path = std::env::temp_dir().join(format!("lightbvh-{memory}-{}.gltf", std::process::id()));
     std::fs::write(&path, root.to_string()).expect("a file");

@@ -136,7 +136,7 @@ impl<A: clap::Args> OnDevices<A> {
 }
 
 impl Command {
-    /// Whether JSON was asked for, and what came of it.
+    /// Runs the command. Returns whether its output is JSON, and its outcome.
     fn run(self) -> (bool, Result<Outcome, HostError>) {
         match self {
             Self::Demo(args) => args.run(demo::run),

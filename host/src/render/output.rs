@@ -15,8 +15,8 @@ pub fn uninterrupted<T>(work: impl FnOnce() -> T) -> T {
     work()
 }
 
-/// Writes `bytes` to a temporary file in the folder of `path` and renames it: nobody sees half a file, and a failure leaves an
-/// older file as it was. Links are followed; pipes and devices are written directly.
+/// Writes `bytes` to a temporary file in the folder of `path` and renames it: nobody sees half a file, and a failure
+/// changes nothing. Follows links. Writes pipes and devices directly.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let Some(path) = real_path(path)? else {
         return fs::write(path, bytes);
