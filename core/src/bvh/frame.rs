@@ -433,6 +433,14 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     fn over(&mut self, lights: &[M::Light], meshes: impl Iterator<Item = Range<usize>>) {
         let meshes: Vec<_> = meshes.map(|range| &lights[range]).collect();
         let topologies = build_each(&meshes, &self.params);
+        self.lights.reserve_exact(lights.len());
+        self.trails.reserve_exact(lights.len());
+        self.nodes.reserve_exact(
+            topologies
+                .iter()
+                .map(|one| one.nodes.len() + one.nodes.len() / 8)
+                .sum(),
+        );
         for (lights, topology) in meshes.into_iter().zip(topologies) {
             let mesh = self.insert_mesh(lights, &topology);
             self.insert_instance(mesh, Transform::IDENTITY, [1.0; 3], u32::MAX);

@@ -153,10 +153,18 @@ impl Command {
     }
 }
 
+/// Ends the process with 128 and the number of the signal, as shells have it.
+#[allow(unsafe_code)]
+fn leave() {
+    // SAFETY: nothing is shared, and no code of this process runs after it; `exit` would run a driver's cleanup beside the threads that
+    // use it.
+    unsafe { libc::_exit(130) }
+}
+
 /// Runs the program.
 pub fn main() -> ExitCode {
-    // 128 and the number of the signal, as shells have it. Without the handler, a signal may leave a temporary file.
-    let _ = ctrlc::set_handler(|| uninterrupted(|| std::process::exit(130)));
+    // Without the handler, a signal may leave a temporary file.
+    let _ = ctrlc::set_handler(|| uninterrupted(leave));
     let args = match Args::try_parse() {
         Ok(args) => args,
         Err(error) => {
