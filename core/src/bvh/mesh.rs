@@ -165,12 +165,13 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                 self.log.push(Entry::Instance(user));
             }
         }
-        for (to, node) in self.nodes[start as usize..].iter_mut().zip(&topology.nodes) {
-            *to = *node;
+        let own = &mut self.nodes[start as usize..(start + count) as usize];
+        own.copy_from_slice(&topology.nodes);
+        for node in own {
             for slot in 0..W {
                 match node.kind(slot) {
-                    kind::INNER => to.relink(slot, start + node.link(slot)),
-                    kind::LIGHT => to.relink(slot, first + node.link(slot)),
+                    kind::INNER => node.relink(slot, start + node.link(slot)),
+                    kind::LIGHT => node.relink(slot, first + node.link(slot)),
                     _ => {}
                 }
             }
