@@ -9,8 +9,8 @@ use spirv_std::spirv;
 
 use crate::bvh::{AnyNode, AnyTree, WIDTH};
 use crate::invocation;
-use crate::query::{PointsPush, Query, QueryPush, query_passes};
-use crate::refit::{RefitPush, refit_passes};
+use crate::query::{PointsPush, Query, QueryPush};
+use crate::refit::RefitPush;
 
 query_passes!(
     Query,

@@ -5,11 +5,12 @@ use bytemuck::{Pod, Zeroable};
 use glam::{UVec3, Vec3};
 use lightbvh::light::Light;
 use lightbvh::refit::world_light;
-use lightbvh::{EmissiveTriangle, Instance, LightPoint, Random64, SampledLight, ShadingPoint, TreeWords};
+use lightbvh::{EmissiveTriangle, Instance, LightPoint, Random64, SampledLight, ShadingPoint};
 use spirv_std::spirv;
 
 use crate::bvh::{Compiled, Node, PaperNode, PaperTree, StandardTree, TreeOf};
 use crate::invocation;
+pub use crate::passes::QueryPush;
 
 /// A point, and what is asked: 32 bytes.
 #[repr(C)]
@@ -31,16 +32,6 @@ impl Query {
     }
 }
 
-/// Push constants of both passes.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
-pub struct QueryPush {
-    /// Number of queries.
-    pub count: u32,
-    /// The tree.
-    pub tree: TreeWords,
-}
-
 /// The answer to a query of pass `sample`.
 #[inline]
 #[must_use]
@@ -57,54 +48,6 @@ pub fn sample_query<C: Compiled<W>, const W: usize>(tree: &TreeOf<'_, C, W>, que
 #[must_use]
 pub fn pmf_query<C: Compiled<W>, const W: usize>(tree: &TreeOf<'_, C, W>, query: &Query) -> f32 {
     tree.pmf(&query.point, query.words[0], query.words[1])
-}
-
-/// The passes for one type of query and of tree: `$sample` chooses a light for each query's receiver, `$pmf` evaluates the
-/// probability of each query's light.
-macro_rules! query_passes {
-    ($query:ty, $node:ty, $tree:ident, $sample:ident = $sample_name:tt, $pmf:ident = $pmf_name:tt) => {
-        /// Chooses a light for each query's receiver.
-        #[spirv(compute(threads(64), entry_point_name = $sample_name))]
-        pub fn $sample(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &QueryPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[$node],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] trails: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] queries: &[$query],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [SampledLight],
-        ) {
-            let i = invocation(id);
-            if i < push.count && i < queries.len() as u32 {
-                let tree: $tree<'_> = push.tree.tree(nodes, instances, trails);
-                let query = queries[i as usize];
-                let number = Random64 {
-                    high: query.words[0],
-                    low: query.words[1],
-                };
-                results[i as usize] = tree.sample(&query.receiver(), number);
-            }
-        }
-
-        /// Evaluates the probability of each query's light for its receiver.
-        #[spirv(compute(threads(64), entry_point_name = $pmf_name))]
-        pub fn $pmf(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &QueryPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[$node],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] trails: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] queries: &[$query],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [f32],
-        ) {
-            let i = invocation(id);
-            if i < push.count && i < queries.len() as u32 {
-                let tree: $tree<'_> = push.tree.tree(nodes, instances, trails);
-                let query = queries[i as usize];
-                results[i as usize] = tree.pmf(&query.receiver(), query.words[0], query.words[1]);
-            }
-        }
-    };
 }
 
 query_passes!(Query, Node, StandardTree, sample = "sample", pmf = "pmf");
@@ -154,5 +97,3 @@ pub fn light_points(
         results[i as usize] = light_point(lights, instances, &sample, numbers[i as usize]);
     }
 }
-
-pub(crate) use query_passes;

@@ -12,8 +12,8 @@ use spirv_std::spirv;
 use crate::bvh::WIDTH;
 use crate::invocation;
 use crate::kinds::{light_point_for, points_for_pass};
-use crate::query::{PointsPush, QueryPush, query_passes};
-use crate::refit::{RefitPush, refit_passes};
+use crate::query::{PointsPush, QueryPush};
+use crate::refit::RefitPush;
 
 /// Node of `MaskedLights`.
 pub type LinkedNode = LinkedSpotMomentNode<8, AnyLight>;

@@ -2,7 +2,6 @@
 //! that only what changed costs anything. A level is two dispatches: one invocation for each child of its nodes, then one for each node. A
 //! barrier stands between dispatches.
 
-use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
 use lightbvh::refit::{self, BlasRoot, Children, PLAIN_ROWS};
 use lightbvh::{EmissiveTriangle, Instance};
@@ -10,136 +9,7 @@ use spirv_std::spirv;
 
 use crate::bvh::{Node, PaperNode, WIDTH};
 use crate::invocation;
-
-/// Push constants of the refit passes.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
-pub struct RefitPush {
-    /// First entry of the list.
-    pub first: u32,
-    /// Number of invocations: of entries, times the nodes' width where each child has one.
-    pub count: u32,
-    /// Index of the top level's first node.
-    pub top: u32,
-}
-
-/// The pass over roots of bottom levels.
-macro_rules! roots_pass {
-    ($node:ty, $roots:ident = $roots_name:tt) => {
-        /// The summaries of bottom levels `list[first + i]` from their root nodes.
-        #[spirv(compute(threads(64), entry_point_name = $roots_name))]
-        pub fn $roots(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RefitPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] nodes: &[$node],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &mut [BlasRoot],
-        ) {
-            let i = invocation(id);
-            let entry = push.first.wrapping_add(i);
-            if i < push.count && entry < list.len() as u32 {
-                let blas = list[entry as usize];
-                if blas < roots.len() as u32 {
-                    roots[blas as usize] = refit::root(nodes, roots[blas as usize].node);
-                }
-            }
-        }
-    };
-}
-
-/// The four passes over one type of node, its width and its rows of [`Children`], and of light; without the last where another
-/// type's does.
-macro_rules! refit_passes {
-    (
-        $node:ty,
-        $width:expr,
-        $rows:expr,
-        $light:ty,
-        $bottom:ident = $bottom_name:tt,
-        $top:ident = $top_name:tt,
-        $nodes:ident = $nodes_name:tt
-        $(, $roots:ident = $roots_name:tt)?
-    ) => {
-        /// Writes the summary of each child of the nodes `list[first + k]`, all of one level of bottom levels, into `children` for
-        /// `refit_nodes`: of its light, or of the node below. Invocation `i` computes child `i % width` of node `k = i / width`.
-        #[spirv(compute(threads(64), entry_point_name = $bottom_name))]
-        pub fn $bottom(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RefitPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] lights: &[$light],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] nodes: &[$node],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] children: &mut [Children<
-                { $width },
-                { $rows },
-            >],
-        ) {
-            let i = invocation(id);
-            let (place, slot) = (i / $width as u32, i as usize % $width);
-            let entry = push.first.wrapping_add(place);
-            if i < push.count && entry < list.len() as u32 {
-                let node = list[entry as usize];
-                if node < nodes.len() as u32 {
-                    let child = refit::bottom_child(nodes, lights, node, slot);
-                    child.put(children, place, slot);
-                }
-            }
-        }
-
-        /// Writes the summary of each child of the top-level nodes `list[first + k]`, all of one level, into `children` for `refit_nodes`:
-        /// of its instance, from the bottom level's root or its one light, or of the node below. Invocations as of the pass over bottom levels.
-        #[spirv(compute(threads(64), entry_point_name = $top_name))]
-        pub fn $top(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RefitPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] lights: &[$light],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] instances: &[Instance],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] roots: &[BlasRoot],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] nodes: &[$node],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] children: &mut [Children<
-                { $width },
-                { $rows },
-            >],
-        ) {
-            let i = invocation(id);
-            let (place, slot) = (i / $width as u32, i as usize % $width);
-            let entry = push.first.wrapping_add(place);
-            if i < push.count && entry < list.len() as u32 {
-                let node = list[entry as usize];
-                if node < nodes.len() as u32 {
-                    let child = refit::top_child(nodes, push.top, lights, instances, roots, node, slot);
-                    child.put(children, place, slot);
-                }
-            }
-        }
-
-        /// Nodes `list[first + k]` take the summaries of the children that the pass before wrote into `children` as those of node `k`.
-        #[spirv(compute(threads(64), entry_point_name = $nodes_name))]
-        pub fn $nodes(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RefitPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] children: &[Children<
-                { $width },
-                { $rows },
-            >],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] nodes: &mut [$node],
-        ) {
-            let i = invocation(id);
-            let entry = push.first.wrapping_add(i);
-            if i < push.count && entry < list.len() as u32 {
-                let node = list[entry as usize];
-                if node < nodes.len() as u32 {
-                    nodes[node as usize] = refit::assembled(nodes, node, children, i);
-                }
-            }
-        }
-        $($crate::refit::roots_pass!($node, $roots = $roots_name);)?
-    };
-}
-
-pub(crate) use {refit_passes, roots_pass};
+pub use crate::passes::RefitPush;
 
 refit_passes!(
     Node,

@@ -12,10 +12,10 @@
 #![forbid(unsafe_code)]
 
 mod branches;
-pub mod choice;
 pub mod decorate;
 pub mod files;
 pub mod manifest;
+pub mod model;
 pub mod names;
 pub mod sources;
 pub mod table;

@@ -2,10 +2,10 @@
 //! those of another crate, to modules under the same rules.
 
 use lightbvh_kernels_builder::Error;
-use lightbvh_kernels_builder::choice;
 use lightbvh_kernels_builder::compile::{Built, compile, compile_crate};
 use lightbvh_kernels_builder::files;
 use lightbvh_kernels_builder::manifest::{self, DIRECTORY, ModuleRecord, place};
+use lightbvh_kernels_builder::model::write_crate;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
@@ -15,13 +15,13 @@ renderer to host/spirv. Writes the manifest and the tables of kernels.
 
 Usage: build-kernels [--check]
        build-kernels --crate PATH --out DIR
-       build-kernels --layout LAYOUT --width WIDTH --share HALVINGS --out DIR
+       build-kernels --model MODEL --width WIDTH --receiver RECEIVER --out DIR
 
   --check       write nothing; fail when the committed modules are not what the sources give
   --crate PATH  compile the entry points of the crate in the folder PATH instead, under the same rules
-  --layout LAYOUT --width WIDTH --share HALVINGS
-                compile sample, pmf and the refits of that choice instead: moments, two-sided, lean or full
-                nodes of 4 to 16 children, with 0 to 20 halvings of 1 as the share of uniform choice (0: none)
+  --model MODEL --width WIDTH --receiver RECEIVER
+                compile sample, pmf and the refits of that model instead, and for receivers of that type:
+                types as in Rust, `Triangles` or `(MomentNode<8>, Glossy<DefaultImportance>)`, `GlossyPoint`
   --out DIR     where its modules go, one file ENTRY_POINT.spv for each
 
 Without --crate the current directory must be inside the repository. See kernels/README.md for the compiler it needs.";
@@ -43,15 +43,15 @@ fn main() -> ExitCode {
             another(Path::new(path), Path::new(out))
         }
         [
-            "--layout",
-            layout,
+            "--model",
+            model,
             "--width",
             width,
-            "--share",
-            share,
+            "--receiver",
+            receiver,
             "--out",
             out,
-        ] => another_choice([layout, width, share], Path::new(out)),
+        ] => another_model([model, width, receiver], Path::new(out)),
         ["--help" | "-h"] => {
             println!("{USAGE}");
             Ok(())
@@ -120,11 +120,9 @@ fn another(path: &Path, out: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// Builds the kernels of another choice.
-fn another_choice([layout, width, share]: [&str; 3], out: &Path) -> Result<(), Error> {
-    let choice = choice::parse(layout, width, share)?;
-    let folder = choice::write_crate(&choice, &repository()?, out)?;
-    another(&folder, out)
+/// Builds the kernels of another model.
+fn another_model(types: [&str; 3], out: &Path) -> Result<(), Error> {
+    another(&write_crate(types, &repository()?, out)?, out)
 }
 
 /// The directory above the current one that holds the kernels.

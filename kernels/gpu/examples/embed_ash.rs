@@ -1,9 +1,10 @@
 //! Moving lights on the engine's own Vulkan device: twenty frames, every word compared with the CPU.
 //!
-//! `cargo run --release -p lightbvh-gpu --example embed_ash [-- target/embed_shader/direct.spv]`
+//! `cargo run --release -p lightbvh-gpu --example embed_ash [-- target/embed_shader/direct.spv [target/glossy/sample.spv]]`
 //!
-//! The argument is the module of a compute shader of one's own, which then lights points with the same arrays: the crate
-//! `kernels/examples/embed_shader` says how it is built.
+//! The first argument is the module of a compute shader of one's own, which then lights points with the same arrays: the crate
+//! `kernels/examples/embed_shader` says how it is built. The second is the kernel `sample` for another receiver: `build-kernels --model
+//! '(MomentNode<8>, Glossy<DefaultImportance>)' --width 8 --receiver GlossyPoint --out target/glossy`.
 //!
 //! The folder `common` is the engine: it opens the device, owns buffers and pipelines, and knows nothing of lights. This file
 //! is what an engine adds for lightbvh: `DeviceLights`, which does the steps of each frame, and the queries.
@@ -18,7 +19,7 @@ use std::collections::HashMap;
 use std::process::ExitCode;
 use std::rc::Rc;
 
-use bytemuck::cast_slice;
+use bytemuck::{Pod, Zeroable, cast_slice, pod_read_unaligned};
 use common::Result;
 use common::buffer::Buffer;
 use common::commands::{read, run};
@@ -27,7 +28,9 @@ use common::pipeline::Pipeline;
 use common::words::compare;
 use common::world::{World, points};
 use direct::direct_light;
-use lightbvh::{LightBvh, SampledLight, TreeWords};
+use lightbvh::importance::{DefaultImportance, Glossy, GlossyPoint};
+use lightbvh::node::DefaultNode;
+use lightbvh::{LightBvh, LightTree, Random64, SampledLight, TreeWords};
 use lightbvh_gpu::spirv;
 use lightbvh_gpu::{DeviceBuffer, MOMENTS, Mirror, Pass, Query, Step, query_push, self_test};
 
@@ -37,6 +40,8 @@ const QUERIES: u32 = 10_000;
 const BINDINGS: [&str; 6] = ["nodes", "instances", "trails", "lights", "points", "results"];
 const POINTS: u32 = 4096;
 const SAMPLES: u32 = 16;
+/// Bindings of the kernel for another receiver.
+const SAMPLE_BINDINGS: [&str; 5] = ["nodes", "instances", "trails", "queries", "results"];
 
 /// What an engine keeps for the lights of one scene.
 struct DeviceLights {
@@ -127,8 +132,8 @@ fn check(gpu: &Rc<Gpu>) -> Result<()> {
     Ok(self_test::defect(&read(gpu, &answers)?).map_or(Ok(()), Err)?)
 }
 
-/// Runs all frames on one device, then a shader of one's own. Returns how many words were compared.
-fn frames(gpu: &Rc<Gpu>, shader: Option<&[u32]>) -> Result<u64> {
+/// Runs all frames on one device, then a shader of one's own and the kernel for glossy points. Returns how many words were compared.
+fn frames(gpu: &Rc<Gpu>, [shader, glossy]: [Option<&[u32]>; 2]) -> Result<u64> {
     check(gpu)?;
     let mut world = World::new()?;
     let mut lights = DeviceLights::new(gpu)?;
@@ -188,15 +193,82 @@ fn frames(gpu: &Rc<Gpu>, shader: Option<&[u32]>) -> Result<u64> {
         )?;
         words += compare("point", &cpu, &device)?;
     }
+    if let Some(module) = glossy {
+        words += glossy_points(gpu, &lights, lights.mirror.words(&world.bvh), module)?;
+    }
     Ok(words)
 }
 
-/// On each device; `shader` is the file of a module.
-fn on_all(shader: Option<String>) -> Result<()> {
-    let bytes = shader.map(|path| std::fs::read(&path).map_err(|error| format!("{path}: {error}")));
-    let module = bytes.transpose()?.map(|bytes| spirv::words(&bytes));
+/// A glossy point, and the number of its walk.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct GlossyQuery {
+    receiver: GlossyPoint,
+    words: [u32; 2],
+}
+
+/// The nodes of `LightBvh` serve receivers that it does not take: the importance alone is another one.
+fn glossy_points(gpu: &Rc<Gpu>, lights: &DeviceLights, tree: TreeWords, module: &[u32]) -> Result<u64> {
+    let asked: Vec<(GlossyPoint, Random64)> = points(0, QUERIES)
+        .into_iter()
+        .map(|(point, random)| {
+            let glossy = GlossyPoint {
+                point,
+                mirror: point.n,
+                diffuse: 0.25,
+                specular: 0.5,
+                exponent: 40.0,
+            };
+            (glossy, Random64::from(random))
+        })
+        .collect();
+    let queries: Vec<GlossyQuery> = asked
+        .iter()
+        .map(|&(receiver, random)| GlossyQuery {
+            receiver,
+            words: [random.high, random.low],
+        })
+        .collect();
+    let samples = ask(
+        gpu,
+        lights,
+        &Pipeline::new(gpu, module, SAMPLE_BINDINGS)?,
+        (cast_slice(&queries), QUERIES),
+        &query_push(QUERIES, tree),
+        size_of::<SampledLight>() as u32,
+    )?;
+    let [nodes, instances, trails] = ["nodes", "instances", "trails"].map(|name| lights.named(name));
+    let held = |buffer: Option<&Buffer>| read(gpu, buffer.ok_or("an array is not on the device")?);
+    let (nodes, instances, trails) = (held(nodes)?, held(instances)?, held(trails)?);
+    let nodes: Vec<DefaultNode> = elements(&nodes);
+    let (instances, trails) = (elements(&instances), elements(&trails));
+    let tree: LightTree<'_, DefaultNode, Glossy<DefaultImportance>, 8> =
+        tree.tree(&nodes, &instances, &trails);
+    let expected: Vec<SampledLight> = asked
+        .iter()
+        .map(|(receiver, random)| tree.sample(receiver, *random))
+        .collect();
+    compare("glossy point", &expected, &samples)
+}
+
+fn elements<T: Pod>(bytes: &[u8]) -> Vec<T> {
+    bytes
+        .chunks_exact(size_of::<T>())
+        .map(pod_read_unaligned)
+        .collect()
+}
+
+/// On each device; `files` are those of modules.
+fn on_all(files: [Option<String>; 2]) -> Result<()> {
+    let module = |path: String| {
+        let bytes = std::fs::read(&path).map_err(|error| format!("{path}: {error}"))?;
+        Ok::<_, String>(spirv::words(&bytes))
+    };
+    let [shader, glossy] = files.map(|path| path.map(module).transpose());
+    let modules = [shader?, glossy?];
     for gpu in Gpu::all()? {
-        let words = frames(&gpu, module.as_deref()).map_err(|error| format!("{}: {error}", gpu.name))?;
+        let words = frames(&gpu, modules.each_ref().map(Option::as_deref))
+            .map_err(|error| format!("{}: {error}", gpu.name))?;
         println!(
             "{}: {FRAMES} frames, {words} words compared, none different",
             gpu.name
@@ -206,7 +278,7 @@ fn on_all(shader: Option<String>) -> Result<()> {
 }
 
 fn main() -> ExitCode {
-    match on_all(std::env::args().nth(1)) {
+    match on_all([1, 2].map(|at| std::env::args().nth(at))) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("embed_ash: {error}");
@@ -220,6 +292,6 @@ fn main() -> ExitCode {
 fn every_word_agrees() {
     match Gpu::all() {
         Err(error) if std::env::var_os("LIGHTBVH_REQUIRE_VULKAN").is_none() => println!("skipped: {error}"),
-        _ => on_all(None).expect("equal words"),
+        _ => on_all([None, None]).expect("equal words"),
     }
 }

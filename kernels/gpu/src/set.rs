@@ -90,11 +90,11 @@ impl NotCompiled {
     /// The command that compiles the kernels, in a checkout, with the compiler that `kernels/README.md` names.
     #[must_use]
     pub fn command(&self) -> alloc::string::String {
-        let (layout, width) = (self.model.layout.name(), self.model.width);
+        let (node, importance) = (self.model.node_type(), self.model.importance_type());
+        let width = self.model.width;
         alloc::format!(
-            "cargo run --release -p lightbvh-kernels-builder --features prebuilt-backend -- --layout {layout} --width {width} --share \
-             {} --out target/kernels-{layout}-{width}",
-            self.model.uniform_halvings
+            "cargo run --release -p lightbvh-kernels-builder --features prebuilt-backend -- --model '({node}, {importance})' \
+             --width {width} --receiver ShadingPoint --out target/model"
         )
     }
 }
@@ -162,9 +162,8 @@ mod tests {
         }
         let said = alloc::format!("{}", NotCompiled { model: two_sided });
         assert!(
-            said.contains("-- --layout two-sided --width 8 --share 6 --out "),
+            said.contains("-- --model '(TwoSidedMomentNode<8>, Defensive<Moments, 6>)' --width 8 --receiver ShadingPoint --out "),
             "{said}"
         );
-        assert!(said.contains("TwoSidedMomentNode<8>"), "{said}");
     }
 }
