@@ -127,6 +127,9 @@ impl Instance {
     note = "take a `ShadingPoint`, a `LinkedPoint` for `MaskedLights`, or another of `lightbvh::importance`"
 )]
 pub trait Receiver: Copy {
+    /// Whether it receives what reaches the back of its surface, too.
+    const IS_TWO_SIDED: bool = false;
+
     /// The receiver in the space of the instance's mesh.
     fn to_local(&self, instance: &Instance) -> Self;
 

@@ -4,7 +4,7 @@ use glam::UVec3;
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::refit::world_light;
 use lightbvh::refit::{self, BlasRoot, Children, LIMITED_ROWS};
-use lightbvh::{Instance, LightPoint, Random64, SampledLight, ShadingPoint};
+use lightbvh::{Instance, LightPoint, Random64, SampledLight};
 use spirv_std::spirv;
 
 use crate::bvh::{AnyNode, AnyTree, WIDTH};
@@ -30,19 +30,6 @@ refit_passes!(
     refit_roots_any = "refit_roots_any"
 );
 
-/// The point on a sampled light that the two numbers of `uv` choose for a receiver.
-#[inline]
-#[must_use]
-pub fn light_point_for<L: Light>(
-    lights: &[L],
-    instances: &[Instance],
-    point: &ShadingPoint,
-    sample: &SampledLight,
-    uv: [f32; 2],
-) -> LightPoint {
-    world_light(lights, instances, sample.light, sample.instance).point_for(point.position(), uv)
-}
-
 /// A pass of points on lights that depend on the receiver, a field `point` of `$query`.
 macro_rules! points_for_pass {
     ($query:ty, $pass:ident = $name:tt) => {
@@ -62,9 +49,12 @@ macro_rules! points_for_pass {
             let i = invocation(id);
             let known = i < samples.len() as u32 && i < queries.len() as u32 && i < numbers.len() as u32;
             if i < push.count && known {
-                let (point, sample) = (queries[i as usize].point, samples[i as usize]);
+                let SampledLight {
+                    light, instance, ..
+                } = samples[i as usize];
+                let own = world_light(lights, instances, light, instance);
                 results[i as usize] =
-                    light_point_for(lights, instances, &point, &sample, numbers[i as usize]);
+                    own.point_for(queries[i as usize].point.position(), numbers[i as usize]);
             }
         }
     };

@@ -67,18 +67,6 @@ pub struct PointsPush {
     pub count: u32,
 }
 
-/// The point on a sampled light that the two numbers of `uv` choose, where receivers do not matter.
-#[inline]
-#[must_use]
-pub fn light_point<L: Light>(
-    lights: &[L],
-    instances: &[Instance],
-    sample: &SampledLight,
-    uv: [f32; 2],
-) -> LightPoint {
-    world_light(lights, instances, sample.light, sample.instance).point_for(Vec3::ZERO, uv)
-}
-
 /// Turns each of `samples`, as pass `sample` writes them, into a point on its light in the world, by the two numbers of `numbers`
 /// in [0, 1). It reads the lights through their instances: when an instance moves, its record is all that changes.
 #[spirv(compute(threads(64), entry_point_name = "light_points"))]
@@ -93,7 +81,9 @@ pub fn light_points(
 ) {
     let i = invocation(id);
     if i < push.count && i < samples.len() as u32 && i < numbers.len() as u32 {
-        let sample = samples[i as usize];
-        results[i as usize] = light_point(lights, instances, &sample, numbers[i as usize]);
+        let SampledLight { light, instance, .. } = samples[i as usize];
+        let own = world_light(lights, instances, light, instance);
+        // Where the receiver is does not matter.
+        results[i as usize] = own.point_for(Vec3::ZERO, numbers[i as usize]);
     }
 }

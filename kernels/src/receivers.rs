@@ -2,23 +2,23 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
-use lightbvh::importance::{Leveled, Linked, LinkedPoint};
-use lightbvh::light::AnyLight;
-use lightbvh::node::LinkedSpotMomentNode;
-use lightbvh::refit::{self, BlasRoot, Children, LIMITED_ROWS};
-use lightbvh::{Instance, LightPoint, LightTree, Moments, Random64, SampledLight, ShadingPoint};
+use lightbvh::importance::LinkedPoint;
+use lightbvh::light::{AnyLight, Light};
+use lightbvh::refit::{self, BlasRoot, Children, LIMITED_ROWS, world_light};
+use lightbvh::tree::{Masked, Model};
+use lightbvh::{Instance, LightPoint, LightTree, Random64, SampledLight, ShadingPoint};
 use spirv_std::spirv;
 
 use crate::bvh::WIDTH;
 use crate::invocation;
-use crate::kinds::{light_point_for, points_for_pass};
+use crate::kinds::points_for_pass;
 use crate::query::{PointsPush, QueryPush};
 use crate::refit::RefitPush;
 
 /// Node of `MaskedLights`.
-pub type LinkedNode = LinkedSpotMomentNode<8, AnyLight>;
+pub type LinkedNode = <Masked as Model<WIDTH>>::Node;
 /// What they are chosen by.
-pub type LinkedImportance = Linked<Leveled<Moments, 11>>;
+pub type LinkedImportance = <Masked as Model<WIDTH>>::Importance;
 
 /// A point with a mask, and what is asked: 36 bytes.
 #[repr(C)]

@@ -153,8 +153,10 @@ impl<'d, N: Node<W>, const W: usize> Held<'d, N, W> {
         let expected: Vec<_> = (0..picked.len())
             .map(|k| {
                 let SampledLight { light, instance, .. } = picked[k];
-                let light = world_light(bvh.view().lights(), tree.instances, light, instance);
-                light.point_for(points[k].position(), uv[k])
+                let own = world_light(bvh.view().lights(), tree.instances, light, instance);
+                let on = own.point_for(points[k].position(), uv[k]);
+                assert!(light != INVALID || on.density == 0.0, "{on:?} of no light");
+                on
             })
             .collect();
         same(device, kernel.name, &found, &expected);

@@ -23,7 +23,7 @@ use crate::random::Random64;
 use crate::transform::Transform;
 use crate::traverse::SampledLight;
 use crate::tree::LightTree;
-use crate::vector::vector;
+use crate::vector::{dot, vector};
 
 impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// A BVH without lights, whose trees will be built by `params`.
@@ -296,7 +296,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         number: impl Into<Random64>,
         uv: [f32; 2],
     ) -> Option<Sampled<M::Light>> {
-        let at = point.as_ref();
+        let mut at = *point.as_ref();
         let found = self.sample(point, number)?;
         let Owner {
             light,
@@ -307,6 +307,9 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         let on = light.point_for(at.position(), uv);
         let seen = on.seen_from(at.position());
         let direction = seen.d * seen.per_distance;
+        if P::IS_TWO_SIDED && dot(direction, at.normal()) < 0.0 {
+            at.n = at.n.map(|x| -x);
+        }
         Some(Sampled {
             light,
             instance,
@@ -316,7 +319,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             direction: [direction.x, direction.y, direction.z],
             distance: exact::sqrt(seen.squared) * pow2(seen.exponent),
             pdf: on.density_seen(at.position(), found.pmf),
-            irradiance: on.irradiance(at),
+            irradiance: on.irradiance(&at),
         })
     }
 

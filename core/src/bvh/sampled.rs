@@ -24,7 +24,8 @@ pub struct Sampled<L> {
     /// Density over solid angle, `pmf` included, 1/sr; 0 where no ray meets the light, as of points and spots. See
     /// [`mis_weight`](crate::light::mis_weight).
     pub pdf: f32,
-    /// Irradiance at the front of the receiver from the point, visibility apart, W/m², linear RGB: [`LightPoint::irradiance`].
+    /// Irradiance from the point, visibility apart, W/m², linear RGB: [`LightPoint::irradiance`], at the side of a
+    /// [`TransmissivePoint`](crate::importance::TransmissivePoint) that the point is seen from.
     pub irradiance: [f32; 3],
 }
 

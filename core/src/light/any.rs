@@ -140,7 +140,7 @@ kinds!(any, own:
     } own.flags, [own.p, own.half[0], own.half[1]];
 );
 
-/// What `$of` says of the light as what its kind makes it; any kind that is none counts as a point without intensity.
+/// Evaluates `$of` on the light as its own type; one of an unknown kind is a triangle without area and radiance.
 macro_rules! by_kind {
     ($self:ident, $own:ident => $of:expr, $none:expr) => {
         by_kind!(
@@ -171,7 +171,7 @@ fn placed(light: AnyLight, instance: Instance, index: u32) -> AnyLight {
 #[cfg_attr(target_arch = "spirv", inline(never))]
 #[cfg_attr(not(target_arch = "spirv"), inline(always))]
 fn point_on(light: AnyLight, from: Vec3, uv: [f32; 2]) -> LightPoint {
-    by_kind!(light, own => own.point_for(from, uv), PointLight::DARK.point_for(from, uv))
+    by_kind!(light, own => own.point_for(from, uv), EmissiveTriangle::DARK.point_for(from, uv))
 }
 
 impl Light for AnyLight {
@@ -180,7 +180,7 @@ impl Light for AnyLight {
         words: [NONE; 3],
         emission: [0.0; 3],
         mesh: INVALID,
-        kind: Self::POINT,
+        kind: Self::TRIANGLE,
     };
     of_mesh!();
     type Slots<const W: usize> = Each<Self, W>;
@@ -248,6 +248,6 @@ impl Light for AnyLight {
     }
 
     fn point_at(&self, from: Vec3, p: Vec3) -> LightPoint {
-        by_kind!(self, own => own.point_at(from, p), PointLight::DARK.point_at(from, p))
+        by_kind!(self, own => own.point_at(from, p), EmissiveTriangle::DARK.point_at(from, p))
     }
 }

@@ -5,6 +5,7 @@ use crate::instance::Instance;
 
 /// A receiver with a mask, for [`Linked`](crate::importance::Linked): lit by the instances
 /// whose mask shares a bit with its own, and by no others. Around a [`ShadingPoint`](super::ShadingPoint), or any other receiver.
+#[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkedPoint<P> {
     /// The receiver without a mask.
@@ -20,6 +21,8 @@ impl<P: AsRef<ShadingPoint>> AsRef<ShadingPoint> for LinkedPoint<P> {
 }
 
 impl<P: Receiver> Receiver for LinkedPoint<P> {
+    const IS_TWO_SIDED: bool = P::IS_TWO_SIDED;
+
     /// The mask stays.
     #[inline(always)]
     fn to_local(&self, instance: &Instance) -> Self {

@@ -63,6 +63,8 @@ impl AsRef<ShadingPoint> for TransmissivePoint {
 }
 
 impl Receiver for TransmissivePoint {
+    const IS_TWO_SIDED: bool = true;
+
     /// A map keeps what is in front in front, one that mirrors too.
     #[inline(always)]
     fn to_local(&self, instance: &Instance) -> Self {

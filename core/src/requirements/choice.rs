@@ -1,7 +1,7 @@
 //! Models: a light BVH's parts, and which of them a scene can do without.
 
 use alloc::format;
-use alloc::string::{String, ToString};
+use alloc::string::String;
 use core::fmt;
 
 use super::Requirements;
@@ -17,10 +17,7 @@ pub enum Layout {
 }
 
 impl Layout {
-    /// All layouts.
-    pub const ALL: [Self; 2] = [Self::Moments, Self::TwoSidedMoments];
-
-    /// Name for options.
+    /// Name for tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
         ["moments", "two-sided"][self as usize]
@@ -35,10 +32,6 @@ pub struct Choice {
     /// One tree over triangles that stand in the world ([`Bvh::single_level`](crate::Bvh::single_level)), instead of one over instances
     /// and one over the triangles of each mesh.
     pub single_level: bool,
-    /// Children of a node.
-    pub width: usize,
-    /// Share of uniform choice as the number of times that 1 is halved; 0 for none ([`Defensive`](crate::Defensive)).
-    pub uniform_halvings: u32,
 }
 
 impl Choice {
@@ -46,37 +39,21 @@ impl Choice {
     pub const DEFAULT: Self = Self {
         layout: Layout::Moments,
         single_level: false,
-        width: 8,
-        uniform_halvings: 6,
     };
 
     /// The type of a node, as Rust has it.
     #[must_use]
-    pub fn node_type(&self) -> String {
+    pub const fn node_type(&self) -> &'static str {
         match self.layout {
-            Layout::Moments => format!("MomentNode<{}>", self.width),
-            Layout::TwoSidedMoments => format!("TwoSidedMomentNode<{}>", self.width),
-        }
-    }
-
-    /// The type of the importance, as Rust has it.
-    #[must_use]
-    pub fn importance_type(&self) -> String {
-        match self.uniform_halvings {
-            0 => "Moments".to_string(),
-            halvings => format!("Defensive<Moments, {halvings}>"),
+            Layout::Moments => "MomentNode<8>",
+            Layout::TwoSidedMoments => "TwoSidedMomentNode<8>",
         }
     }
 
     /// The type of the light BVH, as Rust has it.
     #[must_use]
     pub fn type_name(&self) -> String {
-        let (node, importance) = (self.node_type(), self.importance_type());
-        let width = match self.width {
-            8 => String::new(),
-            width => format!(", {width}"),
-        };
-        format!("Bvh<({node}, {importance}){width}>")
+        format!("Bvh<({}, DefaultImportance)>", self.node_type())
     }
 }
 
@@ -109,7 +86,6 @@ impl Requirements {
             single_level: !(d.transforms || d.radiance || d.instances || d.meshes)
                 && (!d.triangles || self.meshes.max(self.instances) < 2)
                 && self.most_instances < 2,
-            ..Choice::DEFAULT
         }
     }
 }

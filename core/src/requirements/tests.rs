@@ -48,7 +48,6 @@ fn models_are_no_larger_than_scenes_need() {
     let still = Choice {
         layout: Layout::TwoSidedMoments,
         single_level: true,
-        ..Choice::DEFAULT
     };
     let of = |instances, change: fn(&mut Declared)| {
         let mut declared = Declared::default();

@@ -2,6 +2,7 @@
 
 use crate::kit::{Random, Wide, dot, minus, wide};
 use lightbvh::bvh::EditReason;
+use lightbvh::importance::{Transmissive, TransmissivePoint};
 use lightbvh::light::{AnyLight, Light, LightPoint, SphereLight};
 use lightbvh::node::SpotMomentNode;
 use lightbvh::{
@@ -44,6 +45,34 @@ fn length(v: Wide) -> f64 {
 
 fn is_near(found: f32, expected: f64, part: f64) -> bool {
     (f64::from(found) - expected).abs() <= part * expected.abs() + 1.0e-7 * part
+}
+
+/// What lies behind a leaf lights its back.
+#[test]
+fn a_surface_with_two_sides_receives_on_both() {
+    let mut bvh = Bvh::<(SpotMomentNode<8, AnyLight>, Transmissive<Moments>)>::default();
+    let p = [0.0, -2.0, 0.0];
+    let (radius, radiance) = (0.5, [1.0; 3]);
+    bvh.add_light(SphereLight {
+        p,
+        radius,
+        radiance,
+        mesh: 0,
+    })
+    .expect("in the domain");
+    bvh.refit();
+    let [above, below] = [1.0, -1.0].map(|y| ShadingPoint {
+        p: [0.0; 3],
+        n: [0.0, y, 0.0],
+    });
+    let leaf = TransmissivePoint {
+        point: above,
+        front: 0.5,
+        back: 0.5,
+    };
+    let sampled = bvh.sample_light(&leaf, 1_u32, [0.5; 2]).expect("the light");
+    assert!(sampled.irradiance[0] > 0.0);
+    assert_eq!(sampled.irradiance, sampled.point.irradiance(&below));
 }
 
 /// All numbers of a sample are those of its light, and the density of a ray that meets its point is that of the sample.

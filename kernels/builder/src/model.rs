@@ -14,7 +14,6 @@ const ENTRY_POINTS: &str = r#"//! The passes of a model. Written by `build-kerne
 #[path = "PASSES"]
 mod passes;
 
-use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
 use lightbvh::importance::*;
 use lightbvh::light::*;
@@ -31,7 +30,7 @@ type OwnTree<'a> = LightTree<'a, OwnNode, <Own as Model<WIDTH>>::Importance, WID
 
 /// A receiver; for `sample` the number of the walk, its high word first, for `pmf` a light and its instance.
 #[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
+#[derive(Clone, Copy)]
 pub struct Query {
     pub receiver: RECEIVER,
     pub words: [u32; 2],
@@ -86,10 +85,10 @@ pub fn write_crate([model, width, receiver]: [&str; 3], root: &Path, out: &Path)
     let root = root.canonicalize().map_err(cannot("resolve", root))?;
     let quoted = |path: &str| format!("{:?}", root.join(path).display().to_string());
     let entry_points = ENTRY_POINTS
-        .replace("\"PASSES\"", &quoted("kernels/src/passes.rs"))
         .replace("RECEIVER", receiver)
         .replace("WIDTH", width)
-        .replace("MODEL", model);
+        .replace("MODEL", model)
+        .replace("\"PASSES\"", &quoted("kernels/src/passes.rs"));
     let manifest = MANIFEST.replace("CORE", &quoted("core"));
     files::write(&folder.join("Cargo.toml"), manifest.as_bytes())?;
     files::write(&sources.join("lib.rs"), entry_points.as_bytes())?;

@@ -85,9 +85,8 @@ const BUFFERS: [DeviceBuffer; 11] = [
     DeviceBuffer::List,
     DeviceBuffer::Children,
 ];
-/// Places in [`BUFFERS`] of the nodes of the top level, the trails, and the links of the top level; and of a refit's two.
+/// Places in [`BUFFERS`] of the nodes of the top level and of its links; and of a refit's two.
 const TOP: usize = 1;
-const TRAILS: usize = 5;
 const ABOVE: usize = 6;
 const PLACES: usize = 7;
 const PARTS: usize = 8;
@@ -127,7 +126,6 @@ pub struct Mirror {
     /// By array, bytes: what the device holds of it, and how much room it has.
     held: [u64; LIST],
     room: [u64; BUFFERS.len()],
-    trail_words: u32,
 }
 
 impl Mirror {
@@ -140,16 +138,12 @@ impl Mirror {
     /// Everything is uploaded and computed if the light BVH is another than last time (a clone, or one that was read), or if its
     /// log has dropped changes since.
     pub fn frame<'a, M: Model<W>, const W: usize>(&mut self, bvh: &'a Bvh<M, W>) -> Frame<'a> {
-        let mut plan = self.cursor.plan(bvh);
+        let plan = self.cursor.plan(bvh);
         let arrays = arrays(bvh);
         // Arrays that share a buffer move if one of them needs more room.
         let mut is_new = [false; DeviceBuffer::ALL.len()];
         for (k, (own, stride)) in arrays.into_iter().enumerate() {
             is_new[BUFFERS[k] as usize] |= self.reserve(k, own.len() as u64, stride);
-        }
-        if is_new[DeviceBuffer::Nodes as usize] && !plan.everything {
-            let all = Cursor::default().plan(bvh);
-            (plan.bottom, plan.roots, plan.top) = (all.bottom, all.roots, all.top);
         }
         let roots: Vec<_> = plan.roots.iter().map(|&root| root..root + 1).collect();
         let written: [&[Range<u32>]; LIST] = [
@@ -163,21 +157,18 @@ impl Mirror {
             &plan.written_places,
             &plan.written_parts,
         ];
-        let trail_words = bvh.tree().trail_words;
         let mut uploads = Vec::new();
         for (k, ((own, stride), written)) in arrays.into_iter().zip(written).enumerate() {
             let bytes = own.len() as u64;
             let is_all = plan.everything
                 || is_new[BUFFERS[k] as usize]
-                || (plan.whole_top && [TOP, ABOVE, PLACES, PARTS].contains(&k))
-                || (k == TRAILS && trail_words != self.trail_words);
+                || (plan.whole_top && [TOP, ABOVE, PLACES, PARTS].contains(&k));
             // Elements by which an array grows are new too.
             let grown = if is_all { 0 } else { self.held[k].min(bytes) }..bytes;
             let ranges = in_bytes(written, stride).chain(core::iter::once(grown));
             uploads.extend(self.pieces(k, own, ranges.collect()));
             self.held[k] = bytes;
         }
-        self.trail_words = trail_words;
         let refit = Refit::new::<M::Node, W>(&plan, self.top::<M::Node>());
         is_new[DeviceBuffer::List as usize] = self.reserve(LIST, size_of_val(&*refit.list) as u64, 4);
         is_new[DeviceBuffer::Children as usize] = self.reserve(CHILDREN, refit.children, 4);

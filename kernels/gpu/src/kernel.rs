@@ -70,12 +70,6 @@ impl Kernel {
         crate::KERNELS.iter().copied().find(|kernel| kernel.name == name)
     }
 
-    /// The binding of that name.
-    #[must_use]
-    pub fn binding(&self, name: &str) -> Option<&Binding> {
-        self.bindings.iter().find(|binding| binding.name == name)
-    }
-
     /// The module's words, for any device.
     #[must_use]
     pub fn words(&self) -> Vec<u32> {

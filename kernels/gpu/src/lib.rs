@@ -31,7 +31,7 @@ pub use buffer::DeviceBuffer;
 pub use frame::{Frame, Mirror, Step};
 pub use refit::Pass;
 #[cfg(feature = "kernels")]
-pub use set::{EQ4, KernelSet, MOMENTS, NotCompiled};
+pub use set::{EQ4, KernelSet, MOMENTS};
 pub use spirv::ModuleError;
 #[cfg(feature = "kernels")]
 #[doc(inline)]

@@ -1,6 +1,7 @@
 //! What the kernels `sample` and `pmf` are asked, for each kind of receiver.
 
 use bytemuck::{Pod, Zeroable};
+use lightbvh::importance::LinkedPoint;
 use lightbvh::{Random64, ShadingPoint, TreeWords};
 
 /// An element of the buffer `queries`. `sample` answers with a [`SampledLight`](lightbvh::SampledLight), `pmf` with an `f32`.
@@ -17,10 +18,20 @@ impl Query {
     /// Asks `sample` what `LightTree::sample(point, random)` gives.
     #[must_use]
     pub fn sample(point: ShadingPoint, random: impl Into<Random64>) -> Self {
-        let random = random.into();
+        let Random64 { high, low } = random.into();
         Self {
             point,
-            words: [random.high, random.low],
+            words: [high, low],
+        }
+    }
+
+    /// Asks `pmf` what `LightTree::pmf(point, light, instance)` gives: as in a `SampledLight`, or the number
+    /// `lights_of(id).start + part` and `id.index()`.
+    #[must_use]
+    pub fn pmf(point: ShadingPoint, light: u32, instance: u32) -> Self {
+        Self {
+            point,
+            words: [light, instance],
         }
     }
 }
@@ -35,6 +46,25 @@ pub struct LinkedQuery {
     pub mask: u32,
     /// As of [`Query`].
     pub words: [u32; 2],
+}
+
+impl LinkedQuery {
+    /// As [`Query::sample`].
+    #[must_use]
+    pub fn sample(receiver: LinkedPoint<ShadingPoint>, random: impl Into<Random64>) -> Self {
+        Self::of(receiver, Query::sample(receiver.point, random))
+    }
+
+    /// As [`Query::pmf`].
+    #[must_use]
+    pub fn pmf(receiver: LinkedPoint<ShadingPoint>, light: u32, instance: u32) -> Self {
+        Self::of(receiver, Query::pmf(receiver.point, light, instance))
+    }
+
+    fn of(receiver: LinkedPoint<ShadingPoint>, Query { point, words }: Query) -> Self {
+        let mask = receiver.mask;
+        Self { point, mask, words }
+    }
 }
 
 /// The push constants of `sample` and `pmf` for `count` queries of the tree of [`Frame::words`](crate::Frame::words).

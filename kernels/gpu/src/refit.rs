@@ -23,17 +23,6 @@ pub enum Pass {
 impl Pass {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Bottom, Self::Roots, Self::Top, Self::Nodes];
-
-    /// Name of its kernel, without the suffix of the choice of layout.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Bottom => "refit_bottom",
-            Self::Roots => "refit_roots",
-            Self::Top => "refit_top",
-            Self::Nodes => "refit_nodes",
-        }
-    }
 }
 
 /// One dispatch of a refit: a pass over a part of the list.

@@ -1,9 +1,5 @@
 //! The kernels of one choice of node layout and importance.
 
-use core::fmt;
-
-use lightbvh::requirements::{Choice, Layout};
-
 use crate::kernel::Kernel;
 use crate::refit::Pass;
 use crate::table;
@@ -79,57 +75,7 @@ impl KernelSet {
     };
 }
 
-/// No kernels of a choice are compiled. Its text is the command that compiles them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NotCompiled {
-    /// The choice: its layout, width and share of uniform choice.
-    pub model: Choice,
-}
-
-impl NotCompiled {
-    /// The command that compiles the kernels, in a checkout, with the compiler that `kernels/README.md` names.
-    #[must_use]
-    pub fn command(&self) -> alloc::string::String {
-        let (node, importance) = (self.model.node_type(), self.model.importance_type());
-        let width = self.model.width;
-        alloc::format!(
-            "cargo run --release -p lightbvh-kernels-builder --features prebuilt-backend -- --model '({node}, {importance})' \
-             --width {width} --receiver ShadingPoint --out target/model"
-        )
-    }
-}
-
-impl fmt::Display for NotCompiled {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "no kernels are compiled for nodes {} by {}; compile them by `{}` (kernels/README.md), or take the default on devices",
-            self.model.node_type(),
-            self.model.importance_type(),
-            self.command()
-        )
-    }
-}
-
-impl core::error::Error for NotCompiled {}
-
 impl KernelSet {
-    /// The kernels of a model, which its layout, width and share of uniform choice say.
-    ///
-    /// # Errors
-    /// [`NotCompiled`] for any but the default's.
-    pub fn of(model: &Choice) -> Result<&'static Self, NotCompiled> {
-        let default = Choice::DEFAULT;
-        let is_compiled = model.layout == Layout::Moments
-            && model.width == default.width
-            && model.uniform_halvings == default.uniform_halvings;
-        if is_compiled {
-            Ok(&MOMENTS)
-        } else {
-            Err(NotCompiled { model: *model })
-        }
-    }
-
     /// The kernel of a pass of a refit.
     #[must_use]
     pub fn refit(&self, pass: Pass) -> &'static Kernel {
@@ -139,31 +85,5 @@ impl KernelSet {
             Pass::Top => self.refit_top,
             Pass::Nodes => self.refit_nodes,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_model_has_its_kernels_or_the_command_that_compiles_them() {
-        let with = |change: fn(&mut Choice)| {
-            let mut model = Choice::DEFAULT;
-            change(&mut model);
-            model
-        };
-        let set = KernelSet::of(&Choice::DEFAULT).expect("the default's kernels");
-        assert!(core::ptr::eq(set, &MOMENTS));
-        let two_sided = with(|own| own.layout = Layout::TwoSidedMoments);
-        let others: [fn(&mut Choice); 2] = [|own| own.width = 16, |own| own.uniform_halvings = 0];
-        for model in others.map(with).into_iter().chain([two_sided]) {
-            assert_eq!(KernelSet::of(&model).err(), Some(NotCompiled { model }));
-        }
-        let said = alloc::format!("{}", NotCompiled { model: two_sided });
-        assert!(
-            said.contains("-- --model '(TwoSidedMomentNode<8>, Defensive<Moments, 6>)' --width 8 --receiver ShadingPoint --out "),
-            "{said}"
-        );
     }
 }

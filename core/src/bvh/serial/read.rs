@@ -60,7 +60,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                 words.expect(!is_alone || start == capacity, "nodes of a mesh")?;
                 let flags = words.one()?;
                 // A mesh without nodes is never rebuilt.
-                let is_known = flags < 4 && !(is_alone && flags & 1 != 0);
+                let is_known = flags < 4 && flags & (if is_alone { 1 } else { 2 }) == 0;
                 words.expect(is_known, "whether a mesh changed or is a light")?;
                 mesh.is_light = flags & 2 != 0;
                 if flags & 1 != 0 {

@@ -8,7 +8,6 @@ use std::ffi::OsString;
 use lightbvh::BuildParams;
 use lightbvh::light::AnyLight;
 use lightbvh::requirements::{Choice, Declared, Layout, Requirements};
-use lightbvh_gpu::KernelSet;
 use lightbvh_kernels::bvh::{Triangles, WIDTH};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -93,9 +92,13 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let count = args.points.min(most.max(1) as u32);
     let points = points::on_surfaces(&scene, frames[1], count);
     let checked = check(&requirements, &scene, frames, &lights, &points)?;
-    let command = KernelSet::of(&checked.model)
-        .err()
-        .map(|missing| missing.command());
+    let command = (checked.model.layout != Layout::Moments).then(|| {
+        format!(
+            "cargo run --release -p lightbvh-kernels-builder --features prebuilt-backend -- \
+             --model '({}, DefaultImportance)' --width {WIDTH} --receiver ShadingPoint --out target/model",
+            checked.model.node_type()
+        )
+    });
     let (facts, reasons) = (facts(&requirements), reasons(&requirements));
     let outcome = Outcome::good_if(checked.holds());
     let [first, last] = [&checked.rows[0], &checked.rows[checked.last]];
@@ -354,6 +357,6 @@ fn model_json(model: &Choice) -> Value {
         "type": model.type_name(),
         "layout": model.layout.name(),
         "levels": 2 - u32::from(model.single_level),
-        "width": model.width,
+        "width": WIDTH,
     })
 }
