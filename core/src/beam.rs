@@ -34,7 +34,7 @@ const WIDEN_COS_DEFECT: f32 = pow2(-23);
 const LEAST_SQUARE: f32 = pow2(-60);
 /// Factor by which radii are rounded up: more than the error of the lengths in them.
 const LONGER: f32 = 1.001;
-/// Rounding of coordinates as a part of them, with that of a map.
+/// Relative rounding error of coordinates, that of a map included.
 const ROUNDING: f32 = pow2(-21);
 /// Factor on [`ROUNDING`] if the map moves a place much nearer to the origin: three products cancel.
 const BROUGHT_BACK: f32 = 4.0;
@@ -97,7 +97,7 @@ impl Beam {
     }
 
     /// The greatest distance of its places from `c`, in units of which one is 1/`per_unit` metres, rounded up. All lengths are at most some of
-    /// them. Rounding of `c` is not in it: that is the walk's, which knows how near the point is.
+    /// them. The walk adds the rounding of `c`.
     #[inline(always)]
     pub(crate) fn radius_about(&self, c: Vec3, per_unit: f32) -> f32 {
         let away = flush3((self.c - c) * per_unit, pow2(-30));

@@ -25,8 +25,7 @@ pub trait Model<const W: usize> {
 }
 
 /// A receiver that a light BVH of the model `M` chooses lights for: its importance weighs children for one.
-// A bound of `P` in place of one of the importance: where that knows one receiver alone, `P` would be inferred from it, and the error
-// would be one of types, without a note.
+// The bound is on `P`: with one on the importance, a wrong receiver would be a plain type error without a note.
 pub trait ReceiverOf<M: Model<W>, const W: usize>: Receiver {
     /// [`LightTree::sample`].
     #[doc(hidden)]

@@ -36,7 +36,7 @@ pub struct ShadingPoint {
 
 impl ShadingPoint {
     /// Brings the point into the domain of this crate, or says why it cannot be. [`LightTree`](crate::LightTree) does not check again; a
-    /// [`Bvh`](crate::Bvh) chooses no light for a point that is none.
+    /// [`Bvh`](crate::Bvh) chooses no light for an invalid point.
     ///
     /// Components smaller than [`MIN_COORDINATE`] become zero (with the sign of zero dropped); nothing else changes.
     ///

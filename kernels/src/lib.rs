@@ -8,7 +8,7 @@
 //! - buffers are storage buffers in descriptor set 0, with bindings 0, 1, .. in the order of the parameters;
 //! - scalars arrive as one push-constant structure, and the number of items is among them: invocations beyond it do
 //!   nothing, because a dispatch is a whole number of workgroups;
-//! - a kernel that reads or writes nodes exists once for each [`Compiled`](bvh::Compiled), its name ending in the choice's suffix;
+//! - a kernel that reads or writes nodes exists once for each model, its name ending in the model's suffix;
 //! - the workgroup is [`WORKGROUP`] × 1 × 1 invocations, and [`invocation`] numbers them.
 #![cfg_attr(target_arch = "spirv", no_std)]
 // A kernel has as many parameters as bindings.

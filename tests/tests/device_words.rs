@@ -44,7 +44,8 @@ impl Ask for ShadingPoint {
         point
     }
     fn query(self, words: [u32; 2]) -> Query {
-        Query { point: self, words }
+        let [high, low] = words;
+        Query::sample(self, Random64 { high, low })
     }
 }
 
@@ -56,8 +57,8 @@ impl Ask for LinkedPoint<ShadingPoint> {
         Self { point, mask }
     }
     fn query(self, words: [u32; 2]) -> LinkedQuery {
-        let Self { point, mask } = self;
-        LinkedQuery { point, mask, words }
+        let [light, instance] = words;
+        LinkedQuery::pmf(self, light, instance)
     }
 }
 

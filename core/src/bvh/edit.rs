@@ -77,7 +77,7 @@ pub enum Edit<L = EmissiveTriangle> {
         /// Which receivers it lights, as bits; `u32::MAX` for all. See [`Linked`](crate::importance::Linked).
         mask: u32,
     },
-    /// A light by itself, in the world: an instance at the identity of a mesh of its own, which goes with it. Its id is among
+    /// A light by itself, in the world: an instance at the identity of a mesh of its own, removed with it. Its id is among
     /// [`Added::instances`](super::Added::instances).
     AddLight {
         /// In the world; its `mesh` is ignored.
@@ -120,10 +120,10 @@ pub enum Edit<L = EmissiveTriangle> {
         /// As many lights as before.
         lights: Vec<L>,
     },
-    /// New vertices or new emission of some lights of a mesh, in all its instances. Takes time in proportion to them and to the
-    /// depth of the mesh's tree, of which a [`refit`](crate::Bvh::refit) then computes the paths to them; all of it where they are
-    /// more than a sixteenth of the mesh. If they reach farther from the mesh's origin than any light did since the mesh was set as
-    /// a whole, each instance of the mesh is looked at. A mesh of points and spots alone is looked at as a whole.
+    /// New vertices or new emission of some lights of a mesh, in all its instances. Takes time in proportion to them. A
+    /// [`refit`](crate::Bvh::refit) then computes their paths to the root, or, above a sixteenth of the mesh, all of it. If they reach
+    /// farther from the mesh's origin than any light so far, each instance of the mesh is checked. A mesh of points and spots alone is
+    /// looked at as a whole.
     SetLightRange {
         /// Which mesh.
         mesh: MeshId,

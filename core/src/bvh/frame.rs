@@ -325,7 +325,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
 
     /// Density over solid angle, 1/sr, with which [`sample_light`](Self::sample_light) finds the point `position`, metres, on light
     /// `part` of an instance, where a ray from the receiver has met it: for multiple importance sampling. 0 where the light does not emit to there. `None` where
-    /// there is no such instance or part, and for a receiver that is none. Near the rim of a sphere it differs from that of the
+    /// there is no such instance or part, and for an invalid receiver. Near the rim of a sphere it differs from that of the
     /// sample, for `position` has fewer digits than the angle.
     #[must_use]
     pub fn pdf_of_hit<P: ReceiverOf<M, W> + AsRef<ShadingPoint>>(
@@ -343,8 +343,8 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     }
 
     /// Chooses a light for a receiver by `number`: for a [`ShadingPoint`], or for one of which the importance knows more; see
-    /// [`LightTree::sample`]. `None` where no light that it may take has flux as of the last [`refit`](Self::refit), and for a receiver
-    /// that is none: NaN, beyond 2^60 m, or with a normal that is not of length 1.
+    /// [`LightTree::sample`]. `None` where no light that it may take has flux as of the last [`refit`](Self::refit), and for an
+    /// invalid receiver: NaN, beyond 2^60 m, or with a normal that is not of length 1.
     #[must_use]
     pub fn sample<P: ReceiverOf<M, W>>(
         &self,
@@ -358,8 +358,8 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     }
 
     /// Probability with which [`sample`](Self::sample) returns light `part` of an instance, to the bit the one that comes with the
-    /// sample; [`LightTree::pmf`] takes a [`SampledLight`]'s numbers. `None` where there is no such instance or part, and for a receiver
-    /// that is none.
+    /// sample; [`LightTree::pmf`] takes a [`SampledLight`]'s numbers. `None` where there is no such instance or part, and for an
+    /// invalid receiver.
     #[must_use]
     pub fn pmf<P: ReceiverOf<M, W>>(&self, point: &P, instance: InstanceId, part: u32) -> Option<f32> {
         let lights = self.view().lights_of(instance)?;
@@ -383,8 +383,8 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     }
 
     /// Takes the [numbers of lights that are no more](View::removed_lights) since they were taken last. From now on new lights
-    /// may get them. An engine that keeps no numbers over frames calls this too, for what it leaves waits in memory and in
-    /// files: 16 bytes for each removed instance, up to the limit above.
+    /// may get them. Call it even if you keep no numbers: ranges not taken stay in memory and in
+    /// files, 16 bytes for each removed instance, up to the limit that [`View::removed_lights`] names.
     pub fn take_removed_lights(&mut self) -> Vec<Range<u32>> {
         let removed = core::mem::take(&mut self.removed_lights);
         let given_back = usize::from(core::mem::take(&mut self.forgotten));

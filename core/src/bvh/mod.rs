@@ -111,7 +111,7 @@ pub struct Bvh<M: Model<W> = Triangles, const W: usize = 8> {
     /// Batches of refits, for a rebuilder.
     outbox: Outbox,
     log: Log,
-    /// Numbers of lights that are no more, not yet taken by the caller nor given again.
+    /// Numbers of removed lights that the caller has not taken yet.
     removed_lights: Vec<Range<u32>>,
     /// How many they are.
     waiting_lights: usize,

@@ -13,8 +13,8 @@ use crate::bounds::{LightBounds, LightMoments};
 use crate::domain::DomainError;
 use crate::instance::Instance;
 
-/// A light of any kind: 56 bytes, of which the kind says what they mean. Made of one of the others by `From`, and one of them again by
-/// [`kind`](Self::kind) and, where that is its kind, `TryFrom`.
+/// A light of any kind: 56 bytes, read by [`kind`](Self::kind). `From` makes it of a light of one kind, `TryFrom` that light
+/// of it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct AnyLight {
@@ -159,15 +159,14 @@ macro_rules! by_kind {
     };
 }
 
-/// What [`Light::in_world`] says. A function of its own on devices, by value: what is inlined wherever it is called took rust-gpu more than 10 GB, and one that
-/// takes references may be inlined whatever it says.
+/// [`Light::in_world`]. On devices a function of its own with arguments by value: inlined, rust-gpu took more than 10 GB.
 #[cfg_attr(target_arch = "spirv", inline(never))]
 #[cfg_attr(not(target_arch = "spirv"), inline(always))]
 fn placed(light: AnyLight, instance: Instance, index: u32) -> AnyLight {
     by_kind!(light, own => own.in_world(&instance, index).into(), AnyLight { mesh: index, ..AnyLight::DARK })
 }
 
-/// What [`Light::point_for`] says, as [`placed`].
+/// [`Light::point_for`], as [`placed`].
 #[cfg_attr(target_arch = "spirv", inline(never))]
 #[cfg_attr(not(target_arch = "spirv"), inline(always))]
 fn point_on(light: AnyLight, from: Vec3, uv: [f32; 2]) -> LightPoint {

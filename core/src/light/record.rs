@@ -67,8 +67,7 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     /// The light of a mesh as it stands in the world, where `instance` puts it, as part of mesh light `index`.
     #[must_use]
     fn in_world(&self, instance: &Instance, index: u32) -> Self;
-    /// A point on the light, from two numbers in [0, 1), for a receiver at `from`: none that cannot send light there, as far as the
-    /// kind knows.
+    /// A point on the light, from two numbers in [0, 1), for a receiver at `from`: one that sends light there, if the kind can tell.
     fn point_for(&self, from: Vec3, uv: [f32; 2]) -> LightPoint;
     /// The place `p` on the light, where a ray has met it, as [`point_for`](Self::point_for) finds places for a receiver at `from`.
     #[inline(always)]

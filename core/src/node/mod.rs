@@ -38,7 +38,7 @@ pub mod kind {
     pub const EMPTY: u32 = 0;
     /// Another node of the same tree; the link is its index.
     pub const INNER: u32 = 1;
-    /// An emissive triangle; the link is its index.
+    /// A light; the link is its index.
     pub const LIGHT: u32 = 2;
     /// An instance (leaf of the top level); the link is its index, and the root of its bottom level follows.
     pub const MESH: u32 = 3;
@@ -174,7 +174,7 @@ pub trait BoundsNode<const W: usize>: Node<W, Summary = LightBounds> {
     note = "`Moments` takes `MomentNode` and its kin; `Eq4` takes layouts of bounds, such as `CompactNode`"
 )]
 pub trait MomentLayout<const W: usize>: Node<W, Summary = LightMoments> {
-    /// The weights of the children at the point `p` with the normal `n`, in the node's space, by the operations `M`; see
+    /// The weights of the children at the point `p` with the normal `n`, in the node's space; see
     /// [`ImportanceModel::weights`](crate::ImportanceModel::weights). `space` is [`Instance::space`](crate::Instance::space).
     fn moment_weights(&self, p: Vec3, n: Vec3, space: Space) -> [f32; W];
 }

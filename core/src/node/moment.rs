@@ -42,7 +42,7 @@ const WORD_RANGE: f32 = EXTENT_RANGE * pow2(31);
 /// The default node, of 24 bytes per child, over lights `L`.
 ///
 /// `Bvh<(MomentNode<8, PointLight>, Defensive<Moments, 6>)>` is `LightBvh` over points. [`crate::light`] says what instances
-/// that scale make of flux, and what does not know other lights yet.
+/// that scale make of flux.
 pub type MomentNode<const W: usize, L = EmissiveTriangle> = PackedMomentNode<W, ORIENTED, L>;
 
 /// A node of 20 bytes per child for scenes whose lights all shine from both sides: the mean normals of [`MomentNode`] are then zero, and

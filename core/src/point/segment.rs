@@ -31,7 +31,7 @@ impl RaySegment {
         })
     }
 
-    /// The place before which the part `part` of the segment lies, 0 to 1, metres.
+    /// The point at the fraction `part` of the segment, 0 to 1, metres.
     #[inline]
     #[must_use]
     pub fn at(&self, part: f32) -> [f32; 3] {

@@ -47,7 +47,7 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
     /// a [`ShadingPoint`](crate::ShadingPoint), or a receiver of which the importance knows more, as
     /// [`Glossy`](crate::importance::Glossy) does of a [`GlossyPoint`](crate::point::GlossyPoint).
     ///
-    /// A light is returned whenever one has flux. The pmf is to the bit the one that [`pmf`](Self::pmf) gives for the light, and
+    /// A light is returned whenever one has flux and, with masks, may be taken. The pmf is to the bit the one that [`pmf`](Self::pmf) gives for the light, and
     /// the share of random numbers that choose it.
     #[inline(always)]
     #[must_use]

@@ -16,7 +16,7 @@ const MOST_HALVINGS: u32 = 98;
 
 /// What a walk keeps of the nodes that it is among.
 pub(super) trait Among<'a> {
-    /// On a device nothing: it has one buffer, and keeps no pointers. But naga takes no empty structures.
+    /// A device has one buffer and keeps no pointer; a word, for naga refuses empty structures.
     type Nodes: Copy;
 }
 
@@ -34,7 +34,7 @@ impl<'a, N: 'a> Among<'a> for N {
 /// the number following in from below. So the range and the count of doublings are the probability, exactly.
 #[derive(Clone, Copy)]
 pub(super) struct Walk<'a, N: 'a, P = ShadingPoint> {
-    /// The nodes of the tree that it is in. Selected once, for each step waits for them.
+    /// The nodes of the current tree, kept to save a selection at each step.
     nodes: <N as Among<'a>>::Nodes,
     /// The node to look at.
     pub index: u32,

@@ -17,7 +17,7 @@ pub enum DeviceBuffer {
     /// Indices of the nodes and roots that a frame's refit computes. Like [`Children`](Self::Children) it belongs to one frame
     /// until the device is done with it.
     List,
-    /// What dispatches of a refit hand over to the next. It is never uploaded.
+    /// Passed from one dispatch of a refit to the next; never uploaded.
     Children,
 }
 

@@ -8,13 +8,13 @@ use crate::table;
 /// [`KERNELS`](crate::KERNELS) serve all.
 #[derive(Clone, Copy, Debug)]
 pub struct KernelSet {
-    /// Children of nodes of bottom levels anew.
+    /// Recomputes children of nodes of bottom levels.
     pub refit_bottom: &'static Kernel,
-    /// Roots of bottom levels anew.
+    /// Recomputes roots of bottom levels.
     pub refit_roots: &'static Kernel,
-    /// Children of nodes of the top level anew.
+    /// Recomputes children of nodes of the top level.
     pub refit_top: &'static Kernel,
-    /// Nodes anew, from their children.
+    /// Recomputes nodes from their children.
     pub refit_nodes: &'static Kernel,
     /// A light for each query's point.
     pub sample: &'static Kernel,

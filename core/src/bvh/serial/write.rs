@@ -12,7 +12,7 @@ use crate::tree::INVALID;
 
 impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// The BVH as words, which [`from_words`](Self::from_words) reads; a file holds them in little-endian order. They name the
-    /// layout `N` and the width `W`, not the importance `I`, of which no word depends. Takes time and memory in proportion to
+    /// layout and the width, not the importance, of which no word depends. Takes time and memory in proportion to
     /// the arrays.
     ///
     /// Nothing is refitted here, and nothing need be: where edits wait for their refit, what is read has been refitted, and may
