@@ -149,14 +149,14 @@ impl Transform {
         Ok(())
     }
 
-    /// Image of the origin, as in an instance's words, metres.
-    pub(crate) fn origin(&self) -> [f32; 3] {
-        self.translation.map(|t| exact::flush(t, MIN_COORDINATE))
-    }
-
-    fn column(&self, k: usize) -> [f64; 3] {
-        let [x, y, z] = self.columns[k];
-        [f64::from(x), f64::from(y), f64::from(z)]
+    /// The map as an instance's words hold it.
+    pub(crate) fn flushed(&self) -> Self {
+        Self {
+            columns: self
+                .columns
+                .map(|column| column.map(|x| exact::flush(x, TINY_ENTRY))),
+            translation: self.translation.map(|t| exact::flush(t, MIN_COORDINATE)),
+        }
     }
 
     /// The instance of a bottom level under this map; its links are not set.
@@ -170,7 +170,8 @@ impl Transform {
 
     /// The same of a mesh whose flux grows with area, or not at all.
     pub(crate) fn instance_by(&self, radiance: [f32; 3], is_by_area: bool) -> Instance {
-        let columns = [self.column(0), self.column(1), self.column(2)];
+        let flushed = self.flushed();
+        let columns = flushed.columns.map(|column| column.map(f64::from));
         // Entries of about 1, so that products of three stay in range.
         let entry = columns
             .iter()
@@ -204,10 +205,8 @@ impl Transform {
         let not_by_area = if is_by_area { 0 } else { Instance::IS_NOT_BY_AREA };
         let flux = (factor * f64::from(luminance)) as f32;
         Instance {
-            columns: self
-                .columns
-                .map(|column| column.map(|x| exact::flush(x, TINY_ENTRY))),
-            translation: self.origin(),
+            columns: flushed.columns,
+            translation: flushed.translation,
             inverse,
             per_inverse: per_inverse as f32,
             flux: if luminance > 0.0 {
@@ -218,6 +217,16 @@ impl Transform {
             radiance,
             mirrored: u32::from(determinant < 0.0) | not_by_area,
             ..Instance::IDENTITY
+        }
+    }
+}
+
+impl Instance {
+    /// Its map.
+    pub(crate) fn transform(&self) -> Transform {
+        Transform {
+            columns: self.columns,
+            translation: self.translation,
         }
     }
 }

@@ -77,6 +77,6 @@ fn models_are_no_larger_than_scenes_need() {
     assert_eq!(one_sided.layout, Layout::Moments);
     assert_eq!(
         Choice::DEFAULT.to_string(),
-        "Bvh<(MomentNode<8>, Defensive<Moments, 6>)>, two levels"
+        "Bvh<(MomentNode<8>, DefaultImportance)>, two levels"
     );
 }

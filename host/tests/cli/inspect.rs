@@ -73,7 +73,7 @@ fn one_mesh_of_two_sided_lamps_needs_neither_normals_nor_a_top_level() {
     assert_eq!(fact(&found, "one mesh"), "yes");
     assert_eq!(
         found["model"]["type"],
-        "Bvh<(TwoSidedMomentNode<8>, Defensive<Moments, 6>)>"
+        "Bvh<(TwoSidedMomentNode<8>, DefaultImportance)>"
     );
     assert_eq!(found["model"]["levels"], 1);
     assert_eq!(step(&found, "layout")["promise"], "bits");

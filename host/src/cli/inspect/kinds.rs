@@ -74,7 +74,7 @@ impl LightKinds {
 
     /// The type of the light BVH over all of them.
     pub fn tree(&self) -> String {
-        format!("Bvh<({}, Defensive<Moments, 6>)>", self.node_type(WIDTH))
+        format!("Bvh<({}, DefaultImportance)>", self.node_type(WIDTH))
     }
 
     pub fn json(&self) -> Value {
