@@ -71,9 +71,20 @@ impl From<EditReason> for Fault {
             EditReason::TooMany => Status::TooMany,
             _ => Status::Refused,
         };
-        Self::new(status, reason)
+        let message = NAMES
+            .iter()
+            .fold(reason.to_string(), |text, [rust, c]| text.replace(rust, c));
+        Self::new(status, message)
     }
 }
+
+/// Functions that messages of Rust name, and those of C.
+const NAMES: [[&str; 2]; 4] = [
+    ["`mesh_id`", "`lightbvh_mesh_at`"],
+    ["`instance_id`", "`lightbvh_instance_at`"],
+    ["`Edit::SetLights`", "`lightbvh_set_lights`"],
+    ["`take_removed_lights`", "`lightbvh_forget_removed_lights`"],
+];
 
 thread_local! {
     static LAST: RefCell<CString> = RefCell::default();

@@ -37,6 +37,9 @@ fn kernel(model: u32, which: u32) -> Result<&'static Kernel, Fault> {
 /// Buffers that an engine has besides those of [`DeviceBuffer`], in the order of `lightbvh_buffer` after those.
 const OTHERS: [&str; 6] = ["queries", "results", "samples", "numbers", "operands", "answers"];
 
+/// Number of buffers in `lightbvh_buffer`.
+pub(crate) const BUFFERS: u32 = (DeviceBuffer::ALL.len() + OTHERS.len()) as u32;
+
 /// `lightbvh_kernel`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,10 +7,11 @@ use lightbvh::tree::Model as LightModel;
 use lightbvh::{Bvh, TreeWords};
 use lightbvh_gpu::{DeviceBuffer, Mirror, Step, query_push};
 
-use crate::error::Fault;
+use crate::error::{Fault, Status};
 use crate::held::{Handle, Held, functions};
+use crate::kernel::BUFFERS;
 use crate::raw;
-use crate::scene::{Model, Scene, by_model, wrong_model};
+use crate::scene::{Model, Scene, by_model};
 
 /// `lightbvh_mirror`.
 pub type CMirror = Held<Follower>;
@@ -49,9 +50,10 @@ pub struct CFrame {
 
 impl Follower {
     fn expect(&self, scene: &Scene) -> Result<(), Fault> {
+        let message = "this mirror is for another model than the light BVH; make another mirror";
         match self.model == scene.model() {
             true => Ok(()),
-            false => Err(wrong_model("mirror")),
+            false => Err(Fault::new(Status::WrongModel, message)),
         }
     }
 
@@ -121,6 +123,10 @@ functions! {
         let held = raw::array(held, bytes, "the buffer's bytes")?;
         let (compared, different) = (raw::place(compared, "compared")?, raw::place(different, "different")?);
         own.expect(scene)?;
+        if buffer >= BUFFERS {
+            let message = format!("buffer {buffer}, expected one of lightbvh_buffer");
+            return Err(Fault::new(Status::BadTag, message));
+        }
         let used = by_model!(scene, bvh => own.mirror.in_use(bvh)).into_iter();
         let used = used.filter(|(own, ..)| *own as u32 == buffer);
         let words = used.flat_map(|(_, at, bytes)| (at as usize..).step_by(4).zip(bytes.chunks_exact(4)));

@@ -4,9 +4,8 @@ use std::ops::Range;
 
 use bytemuck::Zeroable;
 use lightbvh::bvh::EditReason;
-use lightbvh::error::DomainError;
 use lightbvh::importance::LinkedPoint;
-use lightbvh::light::Light;
+use lightbvh::light::{Light, MAX_COORDINATE, mis_weight};
 use lightbvh::{InstanceId, LightPoint, Random64, SampledLight, ShadingPoint};
 
 use crate::error::{Fault, Status};
@@ -27,7 +26,8 @@ pub struct CPoint {
 impl CPoint {
     fn plain(&self) -> Result<ShadingPoint, Fault> {
         let Self { p, n, .. } = *self;
-        ShadingPoint { p, n }.checked().map_err(bad_point)
+        let point = ShadingPoint { p, n }.checked();
+        point.map_err(|error| Fault::new(Status::BadPoint, error))
     }
 
     fn linked(&self) -> Result<LinkedPoint<ShadingPoint>, Fault> {
@@ -36,23 +36,19 @@ impl CPoint {
     }
 }
 
-fn bad_point(error: DomainError) -> Fault {
-    Fault::new(Status::BadPoint, error)
-}
-
 /// `$do` with the light BVH, whatever its model, and the function that makes its receivers.
 macro_rules! by_receiver {
     ($scene:expr, $bvh:ident, $receiver:ident => $do:expr) => {
         match $scene {
-            Scene::Triangles($bvh) => {
+            Scene::Triangles($bvh, ..) => {
                 let $receiver = CPoint::plain;
                 $do
             }
-            Scene::Any($bvh) => {
+            Scene::Any($bvh, ..) => {
                 let $receiver = CPoint::plain;
                 $do
             }
-            Scene::Masked($bvh) => {
+            Scene::Masked($bvh, ..) => {
                 let $receiver = CPoint::linked;
                 $do
             }
@@ -67,6 +63,22 @@ fn unit(u: f32, v: f32) -> Result<[f32; 2], Fault> {
         return Ok(uv);
     }
     let message = format!("u and v are {u} and {v}, expected numbers in [0, 1)");
+    Err(Fault::new(Status::BadPoint, message))
+}
+
+/// The position where a ray has met a light.
+fn hit(position: &[f32; 3]) -> Result<[f32; 3], Fault> {
+    // NaN is in no range.
+    let is_far = |x: &f32| !(-MAX_COORDINATE..=MAX_COORDINATE).contains(x);
+    let Some(axis) = position.iter().position(is_far) else {
+        return Ok(*position);
+    };
+    let found = format!(
+        "{} of the hit position is {}",
+        ["x", "y", "z"][axis],
+        position[axis]
+    );
+    let message = format!("coordinate {found}, expected a magnitude of at most 2^40 (1.1e12)");
     Err(Fault::new(Status::BadPoint, message))
 }
 
@@ -116,6 +128,12 @@ fn no_light(light: u32, instance: u32) -> Fault {
     )
 }
 
+/// The power heuristic with exponent 2.
+#[unsafe(no_mangle)]
+pub extern "C" fn lightbvh_mis_weight(own: f32, other: f32) -> f32 {
+    mis_weight(own, other)
+}
+
 functions! {
     /// Chooses a light for a point, and a point on it.
     fn lightbvh_sample_light(
@@ -145,10 +163,9 @@ functions! {
     ) {
         let scene = Handle::of(bvh, "bvh")?;
         let (point, place) = (raw::shared(point, "point")?, raw::place(pdf, "pdf")?);
-        let (p, n) = (*raw::shared(position, "position")?, [0.0; 3]);
-        let p = ShadingPoint { p, n }.checked().map_err(bad_point)?.p;
+        let position = hit(raw::shared(position, "position")?)?;
         let id = known(scene, instance, part)?;
-        let found = by_receiver!(scene, bvh, receiver => bvh.pdf_of_hit(&receiver(point)?, id, part, p));
+        let found = by_receiver!(scene, bvh, receiver => bvh.pdf_of_hit(&receiver(point)?, id, part, position));
         place.write(found.unwrap_or(0.0));
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! The light BVH behind a handle: one of three models, and its life from creation to words.
 
-use lightbvh::{AnyLights, LightBvh, MaskedLights};
+use lightbvh::tree::{AnyKind, Masked};
+use lightbvh::{AnyLights, LightBvh, MaskedLights, Rebuilder};
 
 use crate::error::{Fault, Status};
 use crate::held::{Handle, Held};
@@ -23,30 +24,24 @@ impl Model {
     }
 }
 
-/// Why a `what` is refused with a light BVH of another model.
-pub(crate) fn wrong_model(what: &str) -> Fault {
-    let message = format!("this {what} is for another model than the light BVH; make another {what}");
-    Fault::new(Status::WrongModel, message)
-}
-
-/// `lightbvh`.
+/// `lightbvh`. A rebuilder starts no thread before the end of a frame.
 #[derive(Debug)]
 pub enum Scene {
     /// `LIGHTBVH_TRIANGLES`.
-    Triangles(LightBvh),
+    Triangles(LightBvh, Rebuilder),
     /// `LIGHTBVH_ANY_LIGHTS`.
-    Any(AnyLights),
+    Any(AnyLights, Rebuilder<AnyKind>),
     /// `LIGHTBVH_MASKED_LIGHTS`.
-    Masked(MaskedLights),
+    Masked(MaskedLights, Rebuilder<Masked>),
 }
 
-/// `$do` with the light BVH, whatever its model.
+/// `$do` with the light BVH, and its rebuilder if that is named, whatever its model.
 macro_rules! by_model {
-    ($scene:expr, $bvh:ident => $do:expr) => {
+    ($scene:expr, $bvh:ident $(, $rebuilder:ident)? => $do:expr) => {
         match $scene {
-            $crate::scene::Scene::Triangles($bvh) => $do,
-            $crate::scene::Scene::Any($bvh) => $do,
-            $crate::scene::Scene::Masked($bvh) => $do,
+            $crate::scene::Scene::Triangles($bvh, $($rebuilder,)? ..) => $do,
+            $crate::scene::Scene::Any($bvh, $($rebuilder,)? ..) => $do,
+            $crate::scene::Scene::Masked($bvh, $($rebuilder,)? ..) => $do,
         }
     };
 }
@@ -55,17 +50,17 @@ pub(crate) use by_model;
 impl Scene {
     fn new(model: Model) -> Self {
         match model {
-            Model::Triangles => Self::Triangles(LightBvh::default()),
-            Model::Any => Self::Any(AnyLights::default()),
-            Model::Masked => Self::Masked(MaskedLights::default()),
+            Model::Triangles => Self::Triangles(Default::default(), Default::default()),
+            Model::Any => Self::Any(Default::default(), Default::default()),
+            Model::Masked => Self::Masked(Default::default(), Default::default()),
         }
     }
 
     pub(crate) fn model(&self) -> Model {
         match self {
-            Self::Triangles(_) => Model::Triangles,
-            Self::Any(_) => Model::Any,
-            Self::Masked(_) => Model::Masked,
+            Self::Triangles(..) => Model::Triangles,
+            Self::Any(..) => Model::Any,
+            Self::Masked(..) => Model::Masked,
         }
     }
 }

@@ -88,7 +88,6 @@ unsafe fn add(bvh: *mut Handle, places: &[f32]) -> (CId, Vec<CId>) {
 #[test]
 fn null_and_unaligned_pointers_are_refused() {
     let bvh = lightbvh_create(1);
-    let rebuilder = lightbvh_rebuilder_create(1, 0);
     let mirror = lightbvh_mirror_create(1);
     let ([mut id], [mut sample], [mut sampled], [mut on]) = (
         nothing::<CId, 1>(),
@@ -152,11 +151,10 @@ fn null_and_unaligned_pointers_are_refused() {
             lightbvh_forget_removed_lights(null_mut()),
             lightbvh_words(bvh, null_mut(), 1, &mut count),
             lightbvh_words(bvh, null_mut(), 0, null_mut()),
-            lightbvh_begin_frame(null_mut(), bvh, null_mut()),
-            lightbvh_begin_frame(rebuilder, null_mut(), null_mut()),
-            lightbvh_begin_frame(rebuilder, bvh, odd.cast()),
-            lightbvh_end_frame(null_mut(), bvh),
-            lightbvh_end_frame(rebuilder, null()),
+            lightbvh_swap_after(null_mut(), 1),
+            lightbvh_begin_frame(null_mut(), null_mut()),
+            lightbvh_begin_frame(bvh, odd.cast()),
+            lightbvh_end_frame(null_mut()),
             lightbvh_kernel_of(0, 0, null_mut()),
             lightbvh_kernel_words(0, 0, 0, null_mut(), 1, &mut count),
             lightbvh_kernel_words(0, 0, 0, null_mut(), 0, null_mut()),
@@ -179,8 +177,6 @@ fn null_and_unaligned_pointers_are_refused() {
         ok(lightbvh_apply(bvh, null(), 0, null_mut(), null_mut()));
         ok(lightbvh_pmf(bvh, &POINT, 7, 0, &mut pmf));
         assert_eq!(pmf.to_bits(), 0);
-        lightbvh_rebuilder_free(rebuilder);
-        lightbvh_rebuilder_free(null_mut());
         lightbvh_mirror_free(mirror);
         lightbvh_mirror_free(null_mut());
         lightbvh_free(bvh);
@@ -221,9 +217,18 @@ fn counts_and_numbers_out_of_range_are_refused() {
             says(Status::BadPoint, found, "expected numbers in [0, 1)");
         }
         ok(lightbvh_point_of(bvh, &POINT, 0, 0, 0.0, 0.999, &mut on));
-        let far = [f32::NAN, 0.0, 0.0];
-        let found = lightbvh_pdf_of_hit(bvh, &POINT, own[0], 0, &far, &mut pdf);
-        says(Status::BadPoint, found, "coordinate x");
+        for far in [f32::NAN, f32::INFINITY, -1.2e12] {
+            let found = lightbvh_pdf_of_hit(bvh, &POINT, own[0], 0, &[0.0, far, 0.0], &mut pdf);
+            says(Status::BadPoint, found, "coordinate y of the hit position");
+        }
+        ok(lightbvh_pdf_of_hit(
+            bvh,
+            &POINT,
+            own[0],
+            0,
+            &[0.2, 3.0, 0.2],
+            &mut pdf,
+        ));
         let found = lightbvh_groups(u32::MAX, &mut [0; 3]);
         says(Status::TooMany, found, "dispatch several times");
         lightbvh_free(bvh);
@@ -234,7 +239,6 @@ fn counts_and_numbers_out_of_range_are_refused() {
 fn unknown_tags_and_other_models_are_refused() {
     assert!(lightbvh_create(3).is_null());
     assert!(last().contains("lightbvh_model"), "{}", last());
-    assert!(lightbvh_rebuilder_create(u32::MAX, 0).is_null());
     assert!(lightbvh_mirror_create(7).is_null());
     let [mut id] = nothing::<CId, 1>();
     let [mut frame] = nothing::<CFrame, 1>();
@@ -249,6 +253,13 @@ fn unknown_tags_and_other_models_are_refused() {
         assert_eq!(lightbvh_kernel_of(0, u32::MAX, &mut kernel), Status::BadTag);
         for model in MODELS {
             let bvh = lightbvh_create(model);
+            let mirror = lightbvh_mirror_create(model);
+            for buffer in [13, 99, u32::MAX] {
+                let (compared, different) = (&mut 0, &mut 0);
+                let found = lightbvh_mirror_compare(mirror, bvh, buffer, null(), 0, compared, different);
+                says(Status::BadTag, found, "lightbvh_buffer");
+            }
+            lightbvh_mirror_free(mirror);
             let edit = CEdit {
                 kind: 10,
                 ..CEdit::default()
@@ -264,11 +275,6 @@ fn unknown_tags_and_other_models_are_refused() {
                 _ => ok(found),
             }
             for other in MODELS.into_iter().filter(|&other| other != model) {
-                let rebuilder = lightbvh_rebuilder_create(other, 0);
-                let found = lightbvh_begin_frame(rebuilder, bvh, null_mut());
-                says(Status::WrongModel, found, "another rebuilder");
-                assert_eq!(lightbvh_end_frame(rebuilder, bvh), Status::WrongModel);
-                lightbvh_rebuilder_free(rebuilder);
                 let mirror = lightbvh_mirror_create(other);
                 let found = lightbvh_mirror_frame(mirror, bvh, &mut frame);
                 says(Status::WrongModel, found, "another mirror");
@@ -344,6 +350,36 @@ fn lights_out_of_the_domain_are_refused() {
     }
 }
 
+/// Whatever is under way: another delay, words, the end.
+#[test]
+fn builds_under_way_may_be_dropped() {
+    for frames in [0, 1, 3, u32::MAX] {
+        let bvh = lightbvh_create(1);
+        let (mut start, mut swapped) = (CFrameStart::default(), 0);
+        // SAFETY: all pointers are good.
+        unsafe {
+            ok(lightbvh_end_frame(bvh));
+            for frame in 0..30_u8 {
+                ok(lightbvh_begin_frame(bvh, &mut start));
+                swapped += start.swapped;
+                add(bvh, &[0.0, f32::from(frame)]);
+                ok(lightbvh_end_frame(bvh));
+                if frame == 2 {
+                    ok(lightbvh_swap_after(bvh, frames));
+                    ok(lightbvh_end_frame(bvh));
+                    swapped = 0;
+                }
+            }
+            // Without a delay it depends on the thread.
+            assert!(
+                frames == 0 || (swapped > 0) == (frames < 30),
+                "{frames}: {swapped}"
+            );
+            lightbvh_free(bvh);
+        }
+    }
+}
+
 /// A number of a light that went is no other's until it is forgotten.
 #[test]
 fn numbers_of_lights_are_kept_until_they_are_forgotten() {
@@ -399,12 +435,19 @@ fn wrong_ids_points_and_lights_are_refused() {
         says(Status::UnknownMesh, found, "lightbvh_add_mesh");
         let found = lightbvh_add_instance(other, mesh, at(0.0), &mut id);
         says(Status::UnknownMesh, found, "another light BVH");
+        assert!(last().contains("`lightbvh_mesh_at`"), "{}", last());
+        let found = lightbvh_set_mask(other, instance, 1);
+        says(Status::UnknownInstance, found, "`lightbvh_instance_at`");
         let found = lightbvh_add_instance(bvh, instance, at(0.0), &mut id);
         says(Status::UnknownMesh, found, "no id of a mesh");
         let found = lightbvh_set_mask(bvh, mesh, 1);
         says(Status::UnknownInstance, found, "no id of an instance");
         let found = lightbvh_set_light(bvh, instance, &LAMP);
-        says(Status::NotALight, found, "of a mesh");
+        says(
+            Status::NotALight,
+            found,
+            "of a mesh; change the mesh's lights by `lightbvh_set_lights`",
+        );
         let found = lightbvh_set_radiance(bvh, instance, 1.0, f32::NAN, 1.0);
         says(Status::BadRadiance, found, "NaN");
         let found = lightbvh_set_transform(bvh, instance, at(f32::INFINITY));
