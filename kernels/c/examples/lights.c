@@ -87,7 +87,6 @@ static void arrange(lightbvh_light *panel, int frame)
 int main(void)
 {
     lightbvh *bvh = lightbvh_create(LIGHTBVH_MASKED_LIGHTS), *again;
-    lightbvh_rebuilder *rebuilder = lightbvh_rebuilder_create(LIGHTBVH_MASKED_LIGHTS, 1);
     lightbvh_light lights[LAMPS], panel[PANEL], other;
     lightbvh_edit edits[LAMPS];
     lightbvh_id lamps[LAMPS], mesh, instance, id;
@@ -102,17 +101,18 @@ int main(void)
     unsigned trees = 0;
     int k, frame;
 
-    if (bvh == NULL || rebuilder == NULL) {
+    if (bvh == NULL) {
         fprintf(stderr, "lightbvh: %s\n", lightbvh_last_error());
         return 1;
     }
     /* Lights by themselves, in one batch; one more by a call of its own. */
-    memset(edits, 0, sizeof edits);
     for (k = 0; k < LAMPS - 1; k++) {
         lights[k] = lamp(k);
-        edits[k].kind = LIGHTBVH_ADD_LIGHT;
+        edits[k] = lightbvh_edit_of(LIGHTBVH_ADD_LIGHT);
         edits[k].lights = &lights[k];
-        edits[k].mask = k % 3 == 0 ? 1 : LIGHTBVH_ALL_MASKS;
+        if (k % 3 == 0) {
+            edits[k].mask = 1;
+        }
     }
     must(lightbvh_apply(bvh, edits, LAMPS - 1, lamps, NULL));
     lights[k] = lamp(k);
@@ -136,17 +136,22 @@ int main(void)
     must(lightbvh_forget_removed_lights(bvh));
 
     /* The triangles of a panel change places in each frame, so its tree is rebuilt in the background. If runs need not be
-     * bit-identical, lightbvh_rebuilder_create(model, 0) keeps frames from waiting. */
+     * bit-identical, leave out lightbvh_swap_after: then no frame waits. */
+    must(lightbvh_swap_after(bvh, 1));
     arrange(panel, 1);
     must(lightbvh_add_mesh(bvh, panel, PANEL, &mesh));
     must(lightbvh_add_instance(bvh, mesh, at(0, 1, 4), &instance));
+    edits[0] = lightbvh_edit_of(LIGHTBVH_ADD_INSTANCE);
+    edits[0].id = mesh;
+    edits[0].transform.translation[2] = -4;
+    must(lightbvh_apply(bvh, edits, 1, NULL, NULL));
     for (frame = 1; frame <= 30; frame++) {
-        must(lightbvh_begin_frame(rebuilder, bvh, &start));
+        must(lightbvh_begin_frame(bvh, &start));
         trees += start.swapped + start.meshes;
         arrange(panel, frame);
         must(lightbvh_set_lights(bvh, mesh, 0, panel, PANEL));
         must(lightbvh_refit(bvh));
-        must(lightbvh_end_frame(rebuilder, bvh));
+        must(lightbvh_end_frame(bvh));
     }
     printf("%u trees were built\n", trees);
     must(lightbvh_lights_of(bvh, instance, &first, &count));
@@ -192,12 +197,13 @@ int main(void)
             fprintf(stderr, "point %d: two functions differ\n", k);
             return 1;
         }
-        printf("%" PRIu32 " %" PRIu32 " %08" PRIx32 " %08" PRIx32 " %08" PRIx32 " %08" PRIx32 "\n", one.light,
-               one.instance, bits(pmf), bits(pdf), bits(sampled.pdf), bits(sampled.irradiance[0]));
+        printf("%" PRIu32 " %" PRIu32 " %08" PRIx32 " %08" PRIx32 " %08" PRIx32 " %08" PRIx32 " %08" PRIx32 "\n",
+               one.light, one.instance, bits(pmf), bits(pdf), bits(sampled.pdf),
+               bits(lightbvh_mis_weight(sampled.pdf, 0.25f)), bits(sampled.irradiance[0]));
     }
 
     /* What is wrong is refused, with a sentence: all of a batch, or it alone. */
-    edits[0].kind = LIGHTBVH_SET_RADIANCE;
+    edits[0] = lightbvh_edit_of(LIGHTBVH_SET_RADIANCE);
     edits[0].id = lamps[41];
     edits[0].radiance[0] = 2;
     edits[1] = edits[0];
@@ -209,7 +215,6 @@ int main(void)
         return 1;
     }
     printf("%s\n", lightbvh_last_error());
-    lightbvh_rebuilder_free(rebuilder);
     lightbvh_free(again);
     lightbvh_free(bvh);
     return 0;

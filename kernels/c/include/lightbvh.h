@@ -22,16 +22,16 @@ extern "C" {
 typedef enum lightbvh_status {
     LIGHTBVH_OK = 0,
     LIGHTBVH_BAD_POINTER = 1,      /* a pointer is null or not aligned, or a length is beyond all memory */
-    LIGHTBVH_BAD_TAG = 2,          /* a model, a kind of light or edit, a kernel or a bit of a device is unknown */
+    LIGHTBVH_BAD_TAG = 2,          /* a model, a kind of light or edit, a kernel, a buffer or a device bit is unknown */
     LIGHTBVH_BAD_POINT = 3,        /* a point is not within 2^40 m, its normal neither zero nor of length 1 (its square
                                       within 2^-7), or u, v are not in [0, 1) */
     LIGHTBVH_NO_LIGHT = 4,         /* there is no light of that number or part in that instance */
     LIGHTBVH_PANICKED = 5,         /* a defect of this library; what was being changed can only be freed */
     LIGHTBVH_NO_REBUILD = 6,       /* a background build failed; the light BVH keeps its trees, another build follows */
-    LIGHTBVH_WRONG_MODEL = 7,      /* handles are of different models, or the model does not hold that kind of light */
+    LIGHTBVH_WRONG_MODEL = 7,      /* the mirror is of another model, or the model does not hold that kind of light */
     LIGHTBVH_UNKNOWN_MESH = 8,     /* no mesh has that id: it was removed, or is of another light BVH */
     LIGHTBVH_UNKNOWN_INSTANCE = 9, /* no instance has that id, as above */
-    LIGHTBVH_NOT_A_LIGHT = 10,     /* the instance is of a mesh, no light by itself */
+    LIGHTBVH_NOT_A_LIGHT = 10,     /* the instance is of a mesh, no light by itself; Rust's EditReason::NoLight */
     LIGHTBVH_EMPTY_MESH = 11,
     LIGHTBVH_BAD_LIGHT = 12,       /* a number of a light is outside its range */
     LIGHTBVH_BAD_TRANSFORM = 13,   /* an entry, or a place where it moves a light, is beyond 2^40 */
@@ -50,7 +50,8 @@ const char *lightbvh_last_error(void);
 
 /* ---- Light BVHs ---- */
 
-/* A light BVH: lights by themselves, meshes of lights with their instances, and the trees over them. */
+/* A light BVH: lights by themselves, meshes of lights with their instances, and the trees over them. It starts a thread
+ * only if lightbvh_end_frame is called. */
 typedef struct lightbvh lightbvh;
 
 /* What a light BVH holds. Each has kernels of its own. */
@@ -68,7 +69,7 @@ lightbvh *lightbvh_create_from_words(uint32_t model, const uint32_t *words, size
 /* Its words (docs/format.md): `count` of them, of which the first `capacity` are written. Takes the time of a copy
  * of all arrays, so give enough capacity at once in a loop. */
 lightbvh_status lightbvh_words(const lightbvh *bvh, uint32_t *words, size_t capacity, size_t *count);
-/* Frees it. Null does nothing. */
+/* Frees it, once a build under way has ended: 0.4 s for a mesh of 10^6 triangles. Null does nothing. */
 void lightbvh_free(lightbvh *bvh);
 
 /* ---- Lights ---- */
@@ -92,8 +93,9 @@ typedef struct lightbvh_light {
     float p[3], a[3], b[3]; /* coordinates within 2^40 m */
     float emission[3];     /* radiance; of points and spots intensity. Each 0, or from 2^-100 to 2^100 */
     float radius;          /* m, 2^-60 to 2^40 */
-    float range;           /* m, 2^-20 to 2^40, from which on nothing arrives; 0 for none */
-    float inner, outer;    /* half angles of a spot: all of it to inner, none from outer on; 0 <= inner <= outer <= pi */
+    float range;           /* m, 2^-20 to 2^40: the factor at distance d is 1 - (d / range)^4, beyond 0. 0 for none */
+    float inner, outer;    /* half angles of a spot, 0 <= inner <= outer <= pi: the factor is 1 up to inner and 0 from
+                              outer on, at t between them ((cos t - cos outer) / (cos inner - cos outer))^2 */
 } lightbvh_light;
 
 /* An affine map from the mesh's space to the world: x -> A x + t. Entries within 2^40. */
@@ -144,7 +146,8 @@ typedef enum lightbvh_edit_kind {       /* fields that are read */
 /* lightbvh_edit.mask, lightbvh_point.mask: every bit. 0 lights nothing. */
 #define LIGHTBVH_ALL_MASKS UINT32_MAX
 
-/* One of several edits. Ids that others of the same batch make are not known to it. */
+/* One of several edits, to be made by lightbvh_edit_of: in cleared memory the factor on radiance and the mask are 0, so
+ * nothing shines. Ids that others of the same batch make are not known to it. */
 typedef struct lightbvh_edit {
     uint32_t kind; /* lightbvh_edit_kind */
     uint32_t first;
@@ -155,6 +158,14 @@ typedef struct lightbvh_edit {
     float radiance[3];
     uint32_t mask;
 } lightbvh_edit;
+
+/* An edit of a kind: the identity, factors of 1, all masks; no id and no lights. */
+static inline lightbvh_edit lightbvh_edit_of(uint32_t kind)
+{
+    lightbvh_edit edit = {kind, 0, {0, 0, 0, 0}, NULL, 0, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}}, {1, 1, 1},
+                          LIGHTBVH_ALL_MASKS};
+    return edit;
+}
 
 /* Applies `count` edits in their order, all or none; many together take less time than one at a time. `ids` is null
  * or has a place for each: the id that it made, or zeros. If an edit is refused, its index is written to `failed`,
@@ -171,10 +182,8 @@ lightbvh_status lightbvh_refit(lightbvh *bvh);
 /* Refits, then builds all trees again that changed, within the call. */
 lightbvh_status lightbvh_rebuild(lightbvh *bvh);
 
-/* ---- Builds in the background. A frame: lightbvh_begin_frame, edits, lightbvh_refit, lightbvh_end_frame ---- */
-
-/* Builds the trees of one light BVH again, on a thread of its own. */
-typedef struct lightbvh_rebuilder lightbvh_rebuilder;
+/* ---- Builds in the background, on one thread for each light BVH. A frame: lightbvh_begin_frame, edits,
+ * lightbvh_refit, lightbvh_mirror_frame and its steps if there is a device, lightbvh_end_frame ---- */
 
 /* What the start of a frame did. */
 typedef struct lightbvh_frame_start {
@@ -182,16 +191,14 @@ typedef struct lightbvh_frame_start {
     uint32_t meshes;  /* number of meshes that got new trees */
 } lightbvh_frame_start;
 
-/* A rebuilder, to be freed by lightbvh_rebuilder_free; null as lightbvh_create. If `after` is 0, trees are swapped
- * in once they are ready, and no frame waits. Otherwise they are swapped in after `after` frames, and that frame
- * waits for them if needed: samples then depend on the edits alone, never on the thread's speed. */
-lightbvh_rebuilder *lightbvh_rebuilder_create(uint32_t model, uint32_t after);
-/* Waits for the build under way, 0.4 s for a mesh of 10^6 triangles, and frees it. Null does nothing. */
-void lightbvh_rebuilder_free(lightbvh_rebuilder *rebuilder);
 /* Swaps in finished trees. Call it before the frame's lightbvh_refit. `start` may be null. */
-lightbvh_status lightbvh_begin_frame(lightbvh_rebuilder *rebuilder, lightbvh *bvh, lightbvh_frame_start *start);
+lightbvh_status lightbvh_begin_frame(lightbvh *bvh, lightbvh_frame_start *start);
 /* Starts the next build. Call it after the frame's lightbvh_refit. */
-lightbvh_status lightbvh_end_frame(lightbvh_rebuilder *rebuilder, const lightbvh *bvh);
+lightbvh_status lightbvh_end_frame(lightbvh *bvh);
+/* Call it once, before the first frame. If `frames` is 0, the default, trees are swapped in once they are ready, and no
+ * frame waits. Otherwise they are swapped in after that many frames, and that frame waits for them if needed: samples
+ * then depend on the edits alone, never on the thread's speed. A build under way is waited for and dropped. */
+lightbvh_status lightbvh_swap_after(lightbvh *bvh, uint32_t frames);
 
 /* ---- Samples ---- */
 
@@ -206,10 +213,12 @@ typedef struct lightbvh_point {
  * density pmf * density * d * d / c over solid angle. */
 typedef struct lightbvh_light_point {
     float p[3];
-    float density;     /* over the light's area, 1/m^2; 0 where it has none; 1 of points and spots */
+    float density;     /* 1 / area, 1/m^2, the same for all points of the light; of a sphere the area that the receiver
+                          sees, 2 pi r^2 (1 - r / distance of its centre). 0 without area and within a sphere; 1 of
+                          points and spots */
     float normal[3];   /* of the front side, of length 1; zero of points and spots */
     uint32_t flags;    /* LIGHTBVH_TWO_SIDED, or 2 of points and spots: `radiance` is intensity then, W/sr */
-    float radiance[3];
+    float radiance[3]; /* W/(m^2 sr), with the instance's factor; of points and spots with cone and range, too */
 } lightbvh_light_point;
 
 /* A light, a point on it, and what it sends. The estimate is irradiance / pmf, if a shadow ray is free. */
@@ -220,7 +229,8 @@ typedef struct lightbvh_sampled {
     lightbvh_light_point point;
     float direction[3];   /* from the receiver, of length 1 */
     float distance;       /* m */
-    float pdf;            /* density over solid angle, pmf included, 1/sr; 0 of points and spots */
+    float pdf;            /* density over solid angle, pmf included, 1/sr: see lightbvh_mis_weight; 0 of points and
+                             spots */
     float irradiance[3];  /* at the receiver's front, visibility apart, W/m^2 */
 } lightbvh_sampled;
 
@@ -229,9 +239,15 @@ lightbvh_status lightbvh_sample_light(const lightbvh *bvh, const lightbvh_point 
                                       float v, lightbvh_sampled *sampled);
 /* Density over solid angle, 1/sr, with which lightbvh_sample_light finds `position` on a light, where a ray from the
  * point has met it: for multiple importance sampling. 0 where the light does not emit to there, and of points and
- * spots. */
+ * spots. `position` is not checked to lie on the light. */
 lightbvh_status lightbvh_pdf_of_hit(const lightbvh *bvh, const lightbvh_point *point, lightbvh_id instance,
                                     uint32_t part, const float position[3], float *pdf);
+/* Weight of a direction that was chosen with the density `own`, 1/sr, and that another technique chooses with `other`:
+ * own^2 / (own^2 + other^2), the power heuristic. Densities are 0 or normal numbers. If the surface scatters with the
+ * density s, a light sample has the weight lightbvh_mis_weight(sampled.pdf, s). A ray that met a light has
+ * 1 - lightbvh_mis_weight(pdf, s), with the pdf of lightbvh_pdf_of_hit. The weight is 1 where `own` is 0: no ray hits
+ * points and spots. */
+float lightbvh_mis_weight(float own, float other);
 
 /* lightbvh_sample.light and .instance where there is no light with flux. */
 #define LIGHTBVH_INVALID UINT32_MAX
@@ -275,13 +291,12 @@ typedef struct lightbvh_range {
     uint32_t first, count;
 } lightbvh_range;
 
-/* What keeps numbers of lights from frame to frame, as reservoirs do, asks in each frame after its edits which
- * numbers are no more, replaces what it keeps of them, and has them forgotten: until then no new light gets such a
- * number. Once more of them wait than 65536 and than there are lights (or than half of what is left of 2^30, where
- * that is less), all of them are free; the first range then covers every number there was: drop all that is kept by
- * number. */
+/* If you keep light numbers (reservoirs): each frame, after the edits, read the removed ones, replace what you keep,
+ * then forget them. Until then no new light gets such a number. If more than 65536 of them wait, and more than there
+ * are lights (or than half of what is left of 2^30, if that is less), all are free: the first range then covers every
+ * number there was, so drop all that is kept by number. */
 
-/* Ranges of numbers of lights that are no more, since they were forgotten last: `count` of them, of which the first
+/* Ranges of numbers of removed lights, since they were forgotten last: `count` of them, of which the first
  * `capacity` are written. */
 lightbvh_status lightbvh_removed_lights(const lightbvh *bvh, lightbvh_range *ranges, size_t capacity, size_t *count);
 /* New lights may get those numbers from now on. */
@@ -289,23 +304,31 @@ lightbvh_status lightbvh_forget_removed_lights(lightbvh *bvh);
 
 /* ---- Devices: Vulkan 1.2 with vulkanMemoryModel, or another API that takes SPIR-V (kernels/gpu/README.md) ---- */
 
-/* Storage buffers. The first seven follow the light BVH; the engine fills and reads the others. */
+/* Storage buffers. The steps of lightbvh_mirror_frame fill the first seven. The engine fills QUERIES, SAMPLES, NUMBERS
+ * and OPERANDS, and reads RESULTS and ANSWERS, which kernels write. */
 typedef enum lightbvh_buffer {
     LIGHTBVH_NODES = 0,
     LIGHTBVH_LIGHTS = 1,
     LIGHTBVH_INSTANCES = 2,
     LIGHTBVH_ROOTS = 3,
     LIGHTBVH_TRAILS = 4,
-    LIGHTBVH_LIST = 5,     /* as LIGHTBVH_CHILDREN, of one frame until the device is done with it */
-    LIGHTBVH_CHILDREN = 6,
+    LIGHTBVH_LIST = 5,     /* uploaded whole in each frame. Frames under way at once need one each */
+    LIGHTBVH_CHILDREN = 6, /* written and read by the refit's kernels alone. Frames under way at once need one each */
     LIGHTBVH_QUERIES = 7,  /* lightbvh_query; lightbvh_masked_query of LIGHTBVH_MASKED_LIGHTS */
     LIGHTBVH_RESULTS = 8,  /* of _SAMPLE lightbvh_sampled_light, of _PMF float, of _LIGHT_POINTS lightbvh_light_point */
-    LIGHTBVH_SAMPLES = 9,  /* lightbvh_sampled_light */
+    LIGHTBVH_SAMPLES = 9,  /* lightbvh_sampled_light: the buffer that _SAMPLE wrote as its RESULTS */
     LIGHTBVH_NUMBERS = 10, /* float[2], in [0, 1) */
     LIGHTBVH_OPERANDS = 11,
     LIGHTBVH_ANSWERS = 12
 } lightbvh_buffer;
 
+/* Points on sampled lights: after _SAMPLE dispatch _LIGHT_POINTS with the same QUERIES, the RESULTS of _SAMPLE bound as
+ * SAMPLES, and another buffer as RESULTS. Sample k is that of query k, and takes numbers k.
+ *
+ * Density over solid angle of a hit, as of lightbvh_pdf_of_hit: _PMF with the hit's light and instance in query k gives
+ * pmf. _LIGHT_POINTS with that light and instance in sample k, and any numbers, gives density. The result is
+ * pmf * density * d * d / c, for the distance d of the hit and the cosine c of the light's normal there, without its
+ * sign if the light is LIGHTBVH_TWO_SIDED. If c is not above 0, the result is 0. */
 typedef enum lightbvh_kernel_id {
     LIGHTBVH_REFIT_BOTTOM = 0,
     LIGHTBVH_REFIT_ROOTS = 1,
@@ -313,7 +336,7 @@ typedef enum lightbvh_kernel_id {
     LIGHTBVH_REFIT_NODES = 3,
     LIGHTBVH_SAMPLE = 4,       /* a sample for each query; push constants: lightbvh_frame.push */
     LIGHTBVH_PMF = 5,          /* the probability of each query's light; the same push constants */
-    LIGHTBVH_LIGHT_POINTS = 6, /* a point on each sample's light; push constant: their number */
+    LIGHTBVH_LIGHT_POINTS = 6, /* a point on each sample's light, for its query; push constant: their number */
     LIGHTBVH_SELF_TEST = 7     /* 128 invocations; push constant: 128 */
 } lightbvh_kernel_id;
 
@@ -393,11 +416,14 @@ typedef struct lightbvh_frame {
 /* A mirror, to be freed by lightbvh_mirror_free; null as lightbvh_create. */
 lightbvh_mirror *lightbvh_mirror_create(uint32_t model);
 void lightbvh_mirror_free(lightbvh_mirror *mirror);
-/* The steps that bring the device's buffers to the light BVH as of its last lightbvh_refit. If the device failed to
- * do them, begin with a new mirror. A mirror may skip frames. */
+/* The steps that bring the device's buffers to the light BVH. Call it after the frame's edits and lightbvh_refit. If
+ * the device failed to do them, begin with a new mirror. A mirror may skip frames.
+ *
+ * With two frames under way, keep a buffer that was replaced until the submissions that use it have ended. A
+ * LIGHTBVH_RESIZE of LIST or CHILDREN is for both copies: replace the other one before its next frame. */
 lightbvh_status lightbvh_mirror_frame(lightbvh_mirror *mirror, const lightbvh *bvh, lightbvh_frame *frame);
-/* Compares a buffer (lightbvh_buffer), as the device has it after a frame, with the CPU's words: those in use, for others
- * mean nothing. Writes how many were compared, 0 of what the engine fills, and how many differ. */
+/* Compares a buffer (lightbvh_buffer), as the device has it after a frame, with the CPU's words in use; other words
+ * mean nothing. Writes how many were compared and how many differ. From LIST on no buffer has words to compare: 0 and 0. */
 lightbvh_status lightbvh_mirror_compare(const lightbvh_mirror *mirror, const lightbvh *bvh, uint32_t buffer,
                                         const void *held, size_t bytes, uint64_t *compared, uint64_t *different);
 

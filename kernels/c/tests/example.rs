@@ -8,7 +8,7 @@ use std::process::Command;
 use lightbvh::bvh::{RebuilderParams, Swap};
 use lightbvh::importance::LinkedPoint;
 use lightbvh::light::{
-    AnyLight, DiscLight, Light, PointLight, RectangleLight, SphereLight, SpotLight, TWO_SIDED,
+    AnyLight, DiscLight, Light, PointLight, RectangleLight, SphereLight, SpotLight, TWO_SIDED, mis_weight,
 };
 use lightbvh::{Edit, EmissiveTriangle, MaskedLights, Rebuilder, ShadingPoint, Transform};
 
@@ -126,6 +126,7 @@ fn expected() -> String {
     };
     let mesh = bvh.add_mesh(arrange(1)).unwrap();
     let panel = bvh.add_instance(mesh, Transform::at([0.0, 1.0, 4.0])).unwrap();
+    bvh.add_instance(mesh, Transform::at([0.0, 0.0, -4.0])).unwrap();
     for frame in 1..=30 {
         let start = rebuilder.begin_frame(&mut bvh).unwrap();
         trees += u32::from(start.swapped) + start.meshes;
@@ -164,12 +165,13 @@ fn expected() -> String {
         let own = bvh.sample_light(&receiver, random, [0.25, 0.5]).unwrap();
         let met = bvh.pdf_of_hit(&receiver, own.instance, own.part, own.point.p);
         let light = bvh.view().lights_of(own.instance).unwrap().start + own.part;
-        let words = [own.pmf, met.unwrap(), own.pdf, own.irradiance[0]].map(f32::to_bits);
-        let [pmf, met, pdf, irradiance] = words;
+        let weight = mis_weight(own.pdf, 0.25);
+        let words = [own.pmf, met.unwrap(), own.pdf, weight, own.irradiance[0]].map(f32::to_bits);
+        let [pmf, met, pdf, weight, irradiance] = words;
         let index = own.instance.index();
         writeln!(
             text,
-            "{light} {index} {pmf:08x} {met:08x} {pdf:08x} {irradiance:08x}"
+            "{light} {index} {pmf:08x} {met:08x} {pdf:08x} {weight:08x} {irradiance:08x}"
         )
         .unwrap();
     }
@@ -242,6 +244,7 @@ fn header_and_library_have_the_same_functions() {
     let mut in_c: Vec<String> = header
         .lines()
         .filter(|line| line.contains("lightbvh_") && line.contains('(') && !line.starts_with(['/', ' ', '#']))
+        .filter(|line| !line.starts_with("static"))
         .filter_map(|line| line.split('(').next()?.split([' ', '*']).next_back())
         .filter(|name| name.starts_with("lightbvh_"))
         .map(str::to_owned)
