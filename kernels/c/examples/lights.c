@@ -135,8 +135,8 @@ int main(void)
     }
     must(lightbvh_forget_removed_lights(bvh));
 
-    /* The triangles of a panel change places in each frame, so its tree is rebuilt in the background. If runs need not be
-     * bit-identical, leave out lightbvh_swap_after: then no frame waits. */
+    /* The triangles of a panel change places in each frame, so its tree is rebuilt in the background. If runs need not
+     * be bit-identical, leave out lightbvh_swap_after: then no frame waits. */
     must(lightbvh_swap_after(bvh, 1));
     arrange(panel, 1);
     must(lightbvh_add_mesh(bvh, panel, PANEL, &mesh));

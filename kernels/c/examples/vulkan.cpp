@@ -1,5 +1,5 @@
-// 2,000 moving points and spots with masks, ranges and colours on the program's own Vulkan devices: in each frame
-// edits, a refit, its steps, and samples; every word is compared with the CPU's. Exit code 1 if one differs.
+// 2,000 moving points and spots with masks, ranges and colours on the program's own Vulkan devices: the self-test; in
+// each frame edits, a refit, its steps, and samples; every word is compared with the CPU's. Exit code 1 if one differs.
 #include "lightbvh.h"
 
 #include <cstdio>
@@ -22,8 +22,8 @@ struct Buffer { VkBuffer raw; VkDeviceMemory memory; char *at; uint64_t bytes; }
 struct Gpu {
     VkDevice device; VkQueue queue; VkCommandBuffer commands; VkDescriptorPool sets;
     VkDescriptorSetLayout bindings; VkPipelineLayout layout; VkPhysicalDeviceMemoryProperties memory;
-    Buffer buffers[LIGHTBVH_RESULTS + 1];
-    lightbvh_kernel kernels[LIGHTBVH_SAMPLE + 1]; VkPipeline pipelines[LIGHTBVH_SAMPLE + 1];
+    Buffer buffers[LIGHTBVH_ANSWERS + 1];
+    lightbvh_kernel kernels[LIGHTBVH_SELF_TEST + 1]; VkPipeline pipelines[LIGHTBVH_SELF_TEST + 1];
 
     void open(VkPhysicalDevice physical, uint32_t controls) {
         vkGetPhysicalDeviceMemoryProperties(physical, &memory);
@@ -38,8 +38,7 @@ struct Gpu {
         VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &wanted, 0, 1, &one};
         must(vkCreateDevice(physical, &info, nullptr, &device));
         vkGetDeviceQueue(device, family, 0, &queue);
-        VkCommandPool pool;
-        const uint32_t reset = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+        VkCommandPool pool; const uint32_t reset = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
         VkCommandPoolCreateInfo own{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, reset, family};
         must(vkCreateCommandPool(device, &own, nullptr, &pool));
         VkCommandBufferAllocateInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool, {}, 1};
@@ -54,11 +53,10 @@ struct Gpu {
         VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(lightbvh_frame::push)};
         VkPipelineLayoutCreateInfo all{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, {}, 0, 1, &bindings, 1, &push};
         must(vkCreatePipelineLayout(device, &all, nullptr, &layout));
-        for (uint32_t which = 0; which <= LIGHTBVH_SAMPLE; ++which) load(which, controls);
+        for (uint32_t which = 0; which <= LIGHTBVH_SELF_TEST; ++which) load(which, controls);
     }
     void load(uint32_t which, uint32_t controls) {
-        size_t count = 0;
-        must(lightbvh_kernel_of(MODEL, which, &kernels[which]));
+        size_t count = 0; must(lightbvh_kernel_of(MODEL, which, &kernels[which]));
         must(lightbvh_kernel_words(MODEL, which, controls, nullptr, 0, &count));
         std::vector<uint32_t> words(count);
         must(lightbvh_kernel_words(MODEL, which, controls, words.data(), count, &count));
@@ -93,8 +91,7 @@ struct Gpu {
             VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, {}, set, k, 0, 1, STORAGE, {}, &buffer};
             vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
         }
-        uint32_t groups[3];
-        must(lightbvh_groups(count, groups));
+        uint32_t groups[3]; must(lightbvh_groups(count, groups));
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines[which]);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
         vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, kernels[which].push_bytes, push);
@@ -113,6 +110,15 @@ struct Gpu {
     }
 };
 
+// Does it calculate as the CPU does? Operands are less than 4,096 bytes.
+void self_test(Gpu &gpu) {
+    const uint32_t push = 128; size_t count = 0;
+    gpu.resize(LIGHTBVH_OPERANDS, 4096), gpu.resize(LIGHTBVH_ANSWERS, LIGHTBVH_ANSWERS_BYTES);
+    must(lightbvh_self_test_operands(reinterpret_cast<uint32_t *>(gpu.buffers[LIGHTBVH_OPERANDS].at), 1024, &count));
+    gpu.run([&] { gpu.dispatch(LIGHTBVH_SELF_TEST, &push, push); });
+    must(lightbvh_self_test_check(gpu.buffers[LIGHTBVH_ANSWERS].at, LIGHTBVH_ANSWERS_BYTES));
+}
+
 uint32_t state;
 uint32_t bits() { return state = state * 1664525u + 1013904223u, state ^ state >> 16; }
 float unit() { return float(bits() >> 8) / 16777216.0f; }
@@ -122,36 +128,32 @@ lightbvh_edit change(lightbvh_light &light, lightbvh_id id, bool is_first) {
     const uint32_t kinds[] = {LIGHTBVH_SET_LIGHT, LIGHTBVH_SET_MASK, LIGHTBVH_SET_RADIANCE, LIGHTBVH_SET_TRANSFORM};
     light = {bits() % 2 ? LIGHTBVH_POINT : LIGHTBVH_SPOT, 0, {200 * unit(), 3 + unit(), 200 * unit()}, {0, -1, 0}, {},
              {20 * unit(), 20, 20 * unit()}, 0, bits() % 2 ? 15.0f : 25.0f, 0.3f, 0.8f};
-    lightbvh_edit own{is_first ? LIGHTBVH_ADD_LIGHT : kinds[bits() % 4], 0, id, &light, 1, {}, {1, unit(), 1}, 0};
-    own.transform = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {unit(), 0, unit()}};
-    return own.mask = 1u << bits() % 4, own;
+    lightbvh_edit own = lightbvh_edit_of(is_first ? LIGHTBVH_ADD_LIGHT : kinds[bits() % 4]);
+    own.id = id, own.lights = &light, own.radiance[1] = unit(), own.mask = 1u << bits() % 4;
+    return own.transform.translation[0] = unit(), own.transform.translation[2] = unit(), own;
 }
 
 // All frames on one device; returns how many words were compared.
 uint64_t frames(Gpu &gpu) {
     uint64_t words = 0, compared = 0, different = state = 0;
-    lightbvh *bvh = lightbvh_create(MODEL);
-    lightbvh_mirror *mirror = lightbvh_mirror_create(MODEL);
+    lightbvh *bvh = lightbvh_create(MODEL); lightbvh_mirror *mirror = lightbvh_mirror_create(MODEL);
     std::vector<lightbvh_id> ids(LIGHTS);
     gpu.resize(LIGHTBVH_QUERIES, POINTS * sizeof(lightbvh_masked_query));
     gpu.resize(LIGHTBVH_RESULTS, POINTS * sizeof(lightbvh_sampled_light));
     for (uint32_t frame = 0; frame < FRAMES; ++frame) {
-        std::vector<lightbvh_light> lights(LIGHTS);
-        std::vector<lightbvh_edit> edits;
+        std::vector<lightbvh_light> lights(LIGHTS); std::vector<lightbvh_edit> edits;
         for (uint32_t k = 0; k < LIGHTS; ++k) // One in eight changes.
             if (frame == 0 || bits() % 8 == 0) edits.push_back(change(lights[k], ids[k], frame == 0));
         must(lightbvh_apply(bvh, edits.data(), edits.size(), frame ? nullptr : ids.data(), nullptr));
         must(lightbvh_refit(bvh));
-        std::vector<lightbvh_point> points(POINTS);
-        std::vector<uint64_t> randoms(POINTS);
+        std::vector<lightbvh_point> points(POINTS); std::vector<uint64_t> randoms(POINTS);
         auto *queries = reinterpret_cast<lightbvh_masked_query *>(gpu.buffers[LIGHTBVH_QUERIES].at);
         for (uint32_t k = 0; k < POINTS; ++k) {
             points[k] = {{200 * unit(), 0, 200 * unit()}, {0, 1, 0}, 1u << bits() % 4};
             queries[k] = {points[k], {bits(), bits()}};
             randoms[k] = uint64_t(queries[k].words[0]) << 32 | queries[k].words[1];
         }
-        lightbvh_frame work;
-        must(lightbvh_mirror_frame(mirror, bvh, &work));
+        lightbvh_frame work; must(lightbvh_mirror_frame(mirror, bvh, &work));
         gpu.run([&] {
             for (const lightbvh_step *step = work.steps; step != work.steps + work.count; ++step) {
                 Buffer &buffer = gpu.buffers[step->which];
@@ -179,9 +181,7 @@ uint64_t frames(Gpu &gpu) {
 int main() {
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO, {}, "lights", 0, {}, 0, VK_API_VERSION_1_2};
     VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, nullptr, 0, &application};
-    VkInstance instance;
-    VkPhysicalDevice all[16];
-    uint32_t count = 16, devices = 0;
+    VkInstance instance; VkPhysicalDevice all[16]; uint32_t count = 16, devices = 0;
     must(vkCreateInstance(&info, nullptr, &instance));
     vkEnumeratePhysicalDevices(instance, &count, all);
     for (uint32_t k = 0; k < count; ++k) {
@@ -193,7 +193,7 @@ int main() {
         if (properties.properties.apiVersion < VK_API_VERSION_1_2 || !vulkan12.vulkanMemoryModel) continue;
         const VkBool32 keeps = floats.shaderSignedZeroInfNanPreserveFloat32, even = floats.shaderRoundingModeRTEFloat32;
         Gpu gpu{};
-        gpu.open(all[k], LIGHTBVH_PRESERVES_ZERO_INF_NAN * keeps | LIGHTBVH_ROUNDS_TO_EVEN * even);
+        gpu.open(all[k], LIGHTBVH_PRESERVES_ZERO_INF_NAN * keeps | LIGHTBVH_ROUNDS_TO_EVEN * even), self_test(gpu);
         std::printf("%s: %u words are the CPU's\n", properties.properties.deviceName, unsigned(frames(gpu))), ++devices;
     }
     if (devices == 0) fail("no Vulkan 1.2 device with vulkanMemoryModel");
