@@ -84,6 +84,17 @@ static void arrange(lightbvh_light *panel, int frame)
     }
 }
 
+/* Density over solid angle of a hit at `sampled`, as it is calculated on devices: lightbvh_kernel_id. */
+static float density(const lightbvh_sampled *sampled, float pmf, const lightbvh_light_point *on)
+{
+    const float *d = sampled->direction, *n = sampled->point.normal;
+    float cosine = -(d[0] * n[0] + d[1] * n[1] + d[2] * n[2]);
+    if (on->flags & LIGHTBVH_TWO_SIDED && cosine < 0) {
+        cosine = -cosine;
+    }
+    return cosine > 0 ? pmf * on->density * sampled->distance * sampled->distance / cosine : 0;
+}
+
 int main(void)
 {
     lightbvh *bvh = lightbvh_create(LIGHTBVH_MASKED_LIGHTS), *again;
@@ -183,7 +194,7 @@ int main(void)
         lightbvh_sampled_light one;
         lightbvh_sampled sampled;
         lightbvh_light_point on;
-        float pmf, pmf_of, pdf;
+        float pmf, pmf_of, pdf, expected;
         must(lightbvh_sample(again, &points[k], randoms[k], &one));
         must(lightbvh_pmf(bvh, &points[k], one.light, one.instance, &pmf));
         must(lightbvh_owner(bvh, one.light, one.instance, &id, &part));
@@ -195,6 +206,12 @@ int main(void)
             memcmp(&id, &sampled.instance, sizeof id) != 0 || part != sampled.part ||
             memcmp(&on, &sampled.point, sizeof on) != 0) {
             fprintf(stderr, "point %d: two functions differ\n", k);
+            return 1;
+        }
+        must(lightbvh_point_of(bvh, &points[k], one.light, one.instance, 0.75f, 0, &on));
+        expected = density(&sampled, pmf, &on);
+        if (pdf < 0.999f * expected || pdf > 1.001f * expected) {
+            fprintf(stderr, "point %d: another density than on devices\n", k);
             return 1;
         }
         printf("%" PRIu32 " %" PRIu32 " %08" PRIx32 " %08" PRIx32 " %08" PRIx32 " %08" PRIx32 " %08" PRIx32 "\n",

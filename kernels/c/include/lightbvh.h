@@ -93,9 +93,9 @@ typedef struct lightbvh_light {
     float p[3], a[3], b[3]; /* coordinates within 2^40 m */
     float emission[3];     /* radiance; of points and spots intensity. Each 0, or from 2^-100 to 2^100 */
     float radius;          /* m, 2^-60 to 2^40 */
-    float range;           /* m, 2^-20 to 2^40: the factor at distance d is 1 - (d / range)^4, beyond 0. 0 for none */
-    float inner, outer;    /* half angles of a spot, 0 <= inner <= outer <= pi: the factor is 1 up to inner and 0 from
-                              outer on, at t between them ((cos t - cos outer) / (cos inner - cos outer))^2 */
+    float range;           /* m, 2^-20 to 2^40: times 1 - (d / range)^4 at distance d, nothing beyond; 0 for none */
+    float inner, outer;    /* half angles of a spot, 0 <= inner <= outer <= pi: all of it up to inner, nothing from
+                              outer on, at t between times ((cos t - cos outer) / (cos inner - cos outer))^2 */
 } lightbvh_light;
 
 /* An affine map from the mesh's space to the world: x -> A x + t. Entries within 2^40. */
@@ -423,7 +423,8 @@ void lightbvh_mirror_free(lightbvh_mirror *mirror);
  * LIGHTBVH_RESIZE of LIST or CHILDREN is for both copies: replace the other one before its next frame. */
 lightbvh_status lightbvh_mirror_frame(lightbvh_mirror *mirror, const lightbvh *bvh, lightbvh_frame *frame);
 /* Compares a buffer (lightbvh_buffer), as the device has it after a frame, with the CPU's words in use; other words
- * mean nothing. Writes how many were compared and how many differ. From LIST on no buffer has words to compare: 0 and 0. */
+ * mean nothing. Writes how many were compared and how many differ. LIST and the buffers after it have no such words:
+ * none is compared. */
 lightbvh_status lightbvh_mirror_compare(const lightbvh_mirror *mirror, const lightbvh *bvh, uint32_t buffer,
                                         const void *held, size_t bytes, uint64_t *compared, uint64_t *different);
 
