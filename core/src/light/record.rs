@@ -173,7 +173,7 @@ pub(in crate::light) fn checked_axis(axis: [f32; 3]) -> Result<[f32; 3], DomainE
     if (1.0 - NORMAL_TOLERANCE..=1.0 + NORMAL_TOLERANCE).contains(&squared) {
         Ok(unit(axis))
     } else {
-        let what = "the axis of a spot,";
+        let what = "the axis of a spot";
         Err(DomainError::vector(what, axis, "length 1; normalize it"))
     }
 }
