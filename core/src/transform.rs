@@ -18,6 +18,9 @@ const FLUX: [f32; 2] = [exact::pow2(-100), exact::pow2(100)];
 /// Least determinant, as a share of the cube of the greatest entry, that is divided by: 2^-60. Flatter maps have no inverse.
 const FLAT: f64 = 1.0 / 1_152_921_504_606_846_976.0;
 
+/// Squared sine below which the cross product of two unit vectors is rounding: 2^-30.
+const NEARLY_PARALLEL: f32 = exact::pow2(-30);
+
 /// Names of the entries, by column.
 const ENTRIES: [[&str; 3]; 4] = [
     ["columns[0][0]", "columns[0][1]", "columns[0][2]"],
@@ -92,14 +95,25 @@ impl Transform {
     }
 
     /// Puts the mesh's origin at `p`, metres, and turns its −Z to `direction`, of any length, and its +Y as near to `up` as may be: as cameras
-    /// and spots look in glTF. Where the two are parallel, or one is zero, any turn about the direction is taken.
+    /// and spots look in glTF. Where the two are parallel, or one is zero, any turn about the direction is taken. Where one is not finite, so
+    /// is the map, which edits refuse.
     #[must_use]
     pub fn look_along(p: [f32; 3], direction: [f32; 3], up: [f32; 3]) -> Self {
-        let back = -Vec3::from(direction).normalize_or(Vec3::NEG_Z);
-        let across = vector::cross(Vec3::from(up), back);
-        let across = across
-            .try_normalize()
-            .unwrap_or_else(|| back.any_orthonormal_vector());
+        let [direction, up] = [direction, up].map(Vec3::from);
+        if !(direction.is_finite() && up.is_finite()) {
+            return Self::at([f32::NAN; 3]);
+        }
+        // Squares of what is left neither overflow nor vanish.
+        let within = |v: Vec3| {
+            let [x, y, z] = vector::abs3(v).to_array();
+            v / exact::max(exact::max(exact::max(x, y), z), f32::MIN_POSITIVE)
+        };
+        let back = -within(direction).normalize_or(Vec3::NEG_Z);
+        let across = vector::cross(within(up).normalize_or(Vec3::ZERO), back);
+        let across = match vector::length_squared(across) > NEARLY_PARALLEL {
+            true => across.normalize_or(Vec3::X),
+            false => back.any_orthonormal_vector(),
+        };
         Self {
             columns: [across, vector::cross(back, across), back].map(|v| v.to_array()),
             translation: p,

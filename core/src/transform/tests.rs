@@ -4,7 +4,7 @@ extern crate std;
 
 use super::*;
 use crate::exact::{self, hash, pow2};
-use crate::kit::Random;
+use crate::kit::{Random, narrow, normalize};
 use crate::vector::length_squared;
 
 fn map(columns: [[f32; 3]; 3], translation: [f32; 3]) -> Transform {
@@ -245,8 +245,22 @@ fn maps_are_made_of_what_engines_have() {
 /// −Z goes to the direction, +Y towards up, and the map is a rotation, also where there is no up.
 #[test]
 fn maps_look_along_their_direction() {
-    let ups = [[0.0, 1.0, 0.0], [0.3, -2.0, 0.1], [0.0; 3], [0.0, 0.0, -5.0]];
-    for direction in [[0.0, 0.0, -5.0], [0.0, -1.0, 0.0], [3.0, 4.0, -1.0], [0.0; 3]] {
+    let ups = [
+        [0.0, 1.0, 0.0],
+        [0.3, -2.0, 0.1],
+        [0.0; 3],
+        [0.0, 0.0, -5.0],
+        [0.9, 1.5, 2.1],
+    ];
+    for direction in [
+        [0.0, 0.0, -5.0],
+        [0.0, -1.0, 0.0],
+        [3.0, 4.0, -1.0],
+        [0.0; 3],
+        [0.3, 0.5, 0.7],
+        [1.0e20, 0.0, 0.0],
+        [0.0, 1.0e-24, 0.0],
+    ] {
         for up in ups {
             let made = Transform::look_along([7.0, 8.0, 9.0], direction, up);
             let [x, y, z] = made.columns.map(Vec3::from);
@@ -254,10 +268,19 @@ fn maps_look_along_their_direction() {
                 assert!(exact::abs(length_squared(unit) - 1.0) < 1e-5, "{made:?}");
             }
             assert!(length_squared(crate::vector::cross(x, y) - z) < 1e-9, "{made:?}");
-            assert!(crate::vector::dot(y, up.into()) > -1e-5, "{made:?}");
-            let to = Vec3::from(direction).normalize_or(-z);
+            assert!(crate::vector::dot(y, up.into()) > -1e-3, "{made:?}");
+            let to = match direction == [0.0; 3] {
+                true => -z,
+                false => narrow(normalize(direction.map(f64::from))),
+            };
             assert!(length_squared(to + z) < 1e-9, "{made:?}");
             assert_eq!(made.translation, [7.0, 8.0, 9.0]);
         }
+    }
+    for (direction, up) in [
+        ([f32::NAN, 0.0, 0.0], ups[0]),
+        (ups[0], [0.0, f32::INFINITY, 0.0]),
+    ] {
+        assert!(Transform::look_along([0.0; 3], direction, up).check(1.0).is_err());
     }
 }

@@ -3,7 +3,7 @@
 use crate::kit::{Random, Wide, dot, minus, wide};
 use lightbvh::bvh::EditReason;
 use lightbvh::importance::{Transmissive, TransmissivePoint};
-use lightbvh::light::{AnyLight, Light, LightPoint, SphereLight};
+use lightbvh::light::{AnyLight, Light, LightPoint, PointLight, SphereLight};
 use lightbvh::node::SpotMomentNode;
 use lightbvh::{
     BuildParams, Bvh, Defensive, Edit, InstanceId, LightBvh, Lights, Moments, ShadingPoint, Transform,
@@ -45,6 +45,100 @@ fn length(v: Wide) -> f64 {
 
 fn is_near(found: f32, expected: f64, part: f64) -> bool {
     (f64::from(found) - expected).abs() <= part * expected.abs() + 1.0e-7 * part
+}
+
+/// A light stays within the domain whichever edit takes it out, also together with others of its batch.
+#[test]
+fn every_edit_is_checked_with_those_before_it() {
+    let limit = 1_099_511_627_776.0; // 2^40
+    let light = |x: f32| {
+        let (p, intensity) = ([x, 0.0, 0.0], [1.0; 3]);
+        AnyLight::from(PointLight {
+            p,
+            intensity,
+            range: 0.0,
+            mesh: 0,
+        })
+    };
+    let far = Transform::at([limit, 0.0, 0.0]);
+    let mut bvh = Tree::default();
+    let id = bvh.add_light(light(0.0)).expect("in the domain");
+    let mesh = bvh.view().mesh_of(id).expect("a mesh of its own");
+    let place = |transform| Edit::SetTransform {
+        instance: id,
+        transform,
+    };
+    let set = |x| Edit::SetLight {
+        instance: id,
+        light: light(x),
+    };
+    assert!(bvh.apply(vec![place(far), set(limit)]).is_err());
+    bvh.set_transform(id, far).expect("in the domain");
+    assert!(bvh.set_light(id, light(limit)).is_err());
+    let add = |mesh, transform| Edit::AddInstance {
+        mesh,
+        transform,
+        radiance: [1.0; 3],
+        mask: u32::MAX,
+    };
+    // Another instance keeps the mesh.
+    let other = bvh.add_instance(mesh, Transform::IDENTITY).expect("a mesh");
+    let batch = vec![Edit::RemoveInstance(id), add(mesh, Transform::IDENTITY)];
+    bvh.apply(batch).expect("the mesh is there");
+    assert!(bvh.view().mesh_of(other).is_some());
+
+    let mesh = bvh
+        .add_mesh(vec![light(limit / 2.0), light(0.0)])
+        .expect("in the domain");
+    let lights = vec![light(limit), light(0.0)];
+    assert!(
+        bvh.apply(vec![add(mesh, far), Edit::SetLights { mesh, lights }])
+            .is_err()
+    );
+    let id = bvh.add_instance(mesh, Transform::IDENTITY).expect("a mesh");
+    let (first, lights) = (1, vec![light(1.0)]);
+    let range = Edit::SetLightRange { mesh, first, lights };
+    bvh.apply(vec![range]).expect("in the domain");
+    assert!(
+        bvh.set_transform(id, Transform::at([0.75 * limit, 0.0, 0.0]))
+            .is_err()
+    );
+}
+
+/// Numbers that are taken at once never run out, and nobody owns a removed light's sample.
+#[test]
+fn removed_lights_are_nobodys() {
+    let mut bvh = Tree::default();
+    let point = ShadingPoint {
+        p: [0.0, 1.0, 0.0],
+        n: [0.0; 3],
+    };
+    let light = PointLight {
+        intensity: [1.0; 3],
+        ..PointLight::DARK
+    };
+    bvh.add_light(light).expect("in the domain");
+    for round in 0..140_000 {
+        let id = bvh.add_light(light).expect("in the domain");
+        if round == 0 {
+            bvh.refit();
+            let mut number = 0_u32;
+            let found = loop {
+                let found = bvh.sample(&point, number).expect("a light");
+                if found.instance == id.index() {
+                    break found;
+                }
+                number += 1 << 24;
+            };
+            bvh.remove(id).expect("a light");
+            assert!(bvh.owner(&found).is_none());
+            bvh.take_removed_lights();
+            continue;
+        }
+        let numbers = bvh.view().lights_of(id).expect("a light");
+        bvh.remove(id).expect("a light");
+        assert_eq!(bvh.take_removed_lights(), [numbers]);
+    }
 }
 
 /// What lies behind a leaf lights its back.

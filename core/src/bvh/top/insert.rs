@@ -106,23 +106,28 @@ impl<N> Top<N> {
                 height: self.height_of(to, link),
             }
         });
-        let mut best: Option<(f64, Step)> = None;
-        let mut offer = |cost: f64, step: Step| {
-            if best.is_none_or(|(least, _)| cost < least) {
-                best = Some((cost, step));
+        let mut best: Option<((f64, u32), Step)> = None;
+        let mut offer = |cost: f64, height: u32, step: Step| {
+            if best.is_none_or(|(least, _)| (cost, height) < least) {
+                best = Some(((cost, height), step));
             }
         };
         for (k, one) in children.iter().enumerate() {
             if level + 2 + item_height <= levels {
                 match one.height > item_height {
-                    true => offer(one.cluster.merging(item) + item.cost(), Step::Enter(one.slot)),
-                    false => offer(one.cluster.pairing(item), Step::Pair(one.slot)),
+                    true => offer(
+                        one.cluster.merging(item) + item.cost(),
+                        one.height,
+                        Step::Enter(one.slot),
+                    ),
+                    false => offer(one.cluster.pairing(item), 1, Step::Pair(one.slot)),
                 }
             }
             for other in &children[k + 1..] {
                 if level + 2 + one.height.max(other.height) <= levels {
                     offer(
                         one.cluster.pairing(&other.cluster),
+                        1 + one.height.max(other.height),
                         Step::Merge(one.slot, other.slot),
                     );
                 }
