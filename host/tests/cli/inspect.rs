@@ -80,7 +80,7 @@ fn one_mesh_of_two_sided_lamps_needs_neither_normals_nor_a_top_level() {
     assert_eq!(step(&found, "levels")["promise"], "bits-below-instance");
     let command = found["kernels"]["command"].as_str().expect("a command");
     assert!(
-        command.contains("--layout two-sided --width 8 --share 6"),
+        command.contains("--model '(TwoSidedMomentNode<8>, DefaultImportance)' --width 8"),
         "{command}"
     );
     let output = run(&format!("inspect {path} --points 16"));
