@@ -163,14 +163,14 @@ impl Transform {
         Ok(())
     }
 
-    /// The map as an instance's words hold it.
-    pub(crate) fn flushed(&self) -> Self {
-        Self {
-            columns: self
-                .columns
-                .map(|column| column.map(|x| exact::flush(x, TINY_ENTRY))),
-            translation: self.translation.map(|t| exact::flush(t, MIN_COORDINATE)),
-        }
+    /// Image of the origin, as in an instance's words, metres.
+    pub(crate) fn origin(&self) -> [f32; 3] {
+        self.translation.map(|t| exact::flush(t, MIN_COORDINATE))
+    }
+
+    fn column(&self, k: usize) -> [f64; 3] {
+        let [x, y, z] = self.columns[k];
+        [f64::from(x), f64::from(y), f64::from(z)]
     }
 
     /// The instance of a bottom level under this map; its links are not set.
@@ -184,8 +184,7 @@ impl Transform {
 
     /// The same of a mesh whose flux grows with area, or not at all.
     pub(crate) fn instance_by(&self, radiance: [f32; 3], is_by_area: bool) -> Instance {
-        let flushed = self.flushed();
-        let columns = flushed.columns.map(|column| column.map(f64::from));
+        let columns = [self.column(0), self.column(1), self.column(2)];
         // Entries of about 1, so that products of three stay in range.
         let entry = columns
             .iter()
@@ -219,8 +218,10 @@ impl Transform {
         let not_by_area = if is_by_area { 0 } else { Instance::IS_NOT_BY_AREA };
         let flux = (factor * f64::from(luminance)) as f32;
         Instance {
-            columns: flushed.columns,
-            translation: flushed.translation,
+            columns: self
+                .columns
+                .map(|column| column.map(|x| exact::flush(x, TINY_ENTRY))),
+            translation: self.origin(),
             inverse,
             per_inverse: per_inverse as f32,
             flux: if luminance > 0.0 {
@@ -231,16 +232,6 @@ impl Transform {
             radiance,
             mirrored: u32::from(determinant < 0.0) | not_by_area,
             ..Instance::IDENTITY
-        }
-    }
-}
-
-impl Instance {
-    /// Its map.
-    pub(crate) fn transform(&self) -> Transform {
-        Transform {
-            columns: self.columns,
-            translation: self.translation,
         }
     }
 }

@@ -22,14 +22,16 @@ pub struct Added {
 
 impl<M: Model<W>, const W: usize> Bvh<M, W> {
     pub(super) fn set_place(&mut self, index: u32, transform: Transform) {
-        let own = &mut self.instances[index as usize];
-        let [known, new] = [own.transform(), transform.flushed()];
-        if known.columns != new.columns {
-            let (radiance, mask) = (own.radiance, own.mask);
-            self.place_by(index, &new, radiance, mask);
-        } else if known.translation != new.translation {
+        let own = &mut self.placed[index as usize].transform;
+        let bits = |column: &[f32; 3]| column.map(f32::to_bits);
+        let is_turned = own.columns.each_ref().map(bits) != transform.columns.each_ref().map(bits);
+        let is_moved = bits(&own.translation) != bits(&transform.translation);
+        *own = transform;
+        if is_turned {
+            self.place(index);
+        } else if is_moved {
             // No other word depends on it.
-            own.translation = new.translation;
+            self.instances[index as usize].translation = transform.origin();
             self.log.push(Entry::Instance(index));
             self.mark_stale(index);
         }
@@ -54,6 +56,9 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             generation,
             mesh: mesh.index,
             user,
+            transform,
+            radiance,
+            mask,
             listed: self.live.len() as u32,
             numbers: self.numbers.take(count as u32),
             is_stale,
@@ -64,7 +69,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         }
         self.live.push(index);
         self.list(self.live.len() as u32 - 1);
-        self.place_by(index, &transform.flushed(), radiance, mask);
+        self.place(index);
         self.id_of_instance(index)
     }
 
@@ -109,8 +114,8 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         self.log.push(Entry::Instance(entry));
     }
 
-    /// The words of an instance by its mesh, and by a transform, a factor and a mask.
-    fn record_by(&self, index: u32, transform: &Transform, radiance: [f32; 3], mask: u32) -> Instance {
+    /// The words of an instance by its mesh, transform and radiance.
+    pub(super) fn record_of(&self, index: u32) -> Instance {
         let placed = &self.placed[index as usize];
         let mesh = &self.meshes[placed.mesh as usize];
         Instance {
@@ -120,26 +125,14 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             first_light: mesh.lights.start,
             count: placed.numbers.len() as u32,
             listed: self.instances[index as usize].listed,
-            mask,
-            ..transform.instance_by(radiance, mesh.is_by_area)
+            mask: placed.mask,
+            ..placed.transform.instance_by(placed.radiance, mesh.is_by_area)
         }
     }
 
-    /// The words of an instance as they follow from its mesh, and from those that edits set.
-    pub(super) fn record_of(&self, index: u32) -> Instance {
-        let own = &self.instances[index as usize];
-        self.record_by(index, &own.transform(), own.radiance, own.mask)
-    }
-
-    /// Brings the words of an instance in line with its mesh.
+    /// Brings the words of an instance in line with its mesh, transform and radiance.
     pub(super) fn place(&mut self, index: u32) {
-        let own = self.instances[index as usize];
-        self.place_by(index, &own.transform(), own.radiance, own.mask);
-    }
-
-    /// Sets what edits set of an instance.
-    pub(super) fn place_by(&mut self, index: u32, transform: &Transform, radiance: [f32; 3], mask: u32) {
-        self.instances[index as usize] = self.record_by(index, transform, radiance, mask);
+        self.instances[index as usize] = self.record_of(index);
         self.log.push(Entry::Instance(index));
         self.mark_stale(index);
     }

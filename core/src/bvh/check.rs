@@ -203,10 +203,10 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         }
         if reach > known {
             for &index in &self.meshes[mesh.index as usize].users {
+                let placed = &self.placed[index as usize];
                 let id = self.id_of_instance(index);
                 if !batch.removed_instances.contains(&id) {
-                    let known = self.instances[index as usize].transform();
-                    let transform = batch.transforms.get(&id).unwrap_or(&known);
+                    let transform = batch.transforms.get(&id).unwrap_or(&placed.transform);
                     transform.check(reach).map_err(EditReason::Transform)?;
                 }
             }

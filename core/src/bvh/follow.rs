@@ -36,7 +36,7 @@ pub fn follow<M: Model<W>, const W: usize>(
         let lights = &lights.all()[range];
         let reach = reach_of(lights);
         for &user in bvh.meshes.get(index).map_or(&[][..], |mesh| &mesh.users) {
-            let transform = bvh.instances[user as usize].transform();
+            let transform = &bvh.placed[user as usize].transform;
             let checked = transform.check(reach);
             checked.map_err(|reason| wrong(EditReason::Transform(reason)))?;
         }

@@ -218,15 +218,15 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                 // Skip edits that change nothing.
                 Edit::SetTransform { instance, transform } => self.set_place(instance.index, transform),
                 Edit::SetRadiance { instance, radiance } => {
-                    let own = &self.instances[instance.index as usize];
-                    if own.radiance.map(f32::to_bits) != radiance.map(f32::to_bits) {
-                        self.place_by(instance.index, &own.transform(), radiance, own.mask);
+                    let own = &mut self.placed[instance.index as usize].radiance;
+                    if core::mem::replace(own, radiance).map(f32::to_bits) != radiance.map(f32::to_bits) {
+                        self.place(instance.index);
                     }
                 }
                 Edit::SetMask { instance, mask } => {
-                    let own = &self.instances[instance.index as usize];
-                    if own.mask != mask {
-                        self.place_by(instance.index, &own.transform(), own.radiance, mask);
+                    let own = &mut self.placed[instance.index as usize].mask;
+                    if core::mem::replace(own, mask) != mask {
+                        self.place(instance.index);
                     }
                 }
                 Edit::SetLights { mesh, lights } => self.write_lights(mesh.index, 0, &lights),

@@ -5,6 +5,7 @@ use core::fmt;
 use core::ops::Range;
 use core::sync::atomic::{AtomicU32, Ordering};
 
+use crate::transform::Transform;
 use crate::tree::INVALID;
 
 /// A mesh: lights and a tree over them in a space of their own, which its instances share.
@@ -40,7 +41,7 @@ impl Mesh {
     }
 }
 
-/// What the CPU knows of an instance beside its words.
+/// An instance as the CPU knows it.
 #[derive(Clone, Debug)]
 pub(super) struct InstanceState {
     pub live: bool,
@@ -48,6 +49,9 @@ pub(super) struct InstanceState {
     pub mesh: u32,
     /// Its place in the mesh's list of users.
     pub user: u32,
+    pub transform: Transform,
+    pub radiance: [f32; 3],
+    pub mask: u32,
     /// Its place in the list of instances in use.
     pub listed: u32,
     pub numbers: Range<u32>,
@@ -62,6 +66,9 @@ impl InstanceState {
         generation: 0,
         mesh: 0,
         user: 0,
+        transform: Transform::IDENTITY,
+        radiance: [0.0; 3],
+        mask: 0,
         listed: 0,
         numbers: 0..0,
         is_stale: false,

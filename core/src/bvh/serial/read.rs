@@ -5,16 +5,14 @@ use alloc::vec::Vec;
 
 use super::header::{FORGOTTEN, Header, SINGLE};
 use super::words::{ReadError, Words, damaged, taken};
-use crate::bvh::apply::NO_INSTANCE;
 use crate::bvh::area::is_by_area;
 use crate::bvh::check::factor;
 use crate::bvh::records::Mesh;
 use crate::bvh::top::{Opened, Shape, Top};
 use crate::bvh::{Bvh, EditReason, InstanceState};
-use crate::instance::Instance;
 use crate::light::Light;
 use crate::node::{Node, kind};
-use crate::transform::reach_of;
+use crate::transform::{Transform, reach_of};
 use crate::tree::INVALID;
 
 impl<M: Model<W>, const W: usize> Bvh<M, W> {
@@ -83,8 +81,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
 
     fn read_instances(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
         self.placed = Vec::with_capacity(words.need(header.instances)?);
-        self.instances = alloc::vec![NO_INSTANCE; header.instances as usize];
-        for index in 0..header.instances as usize {
+        for _ in 0..header.instances {
             let mesh = words.one()?;
             let mut placed = InstanceState::NONE;
             placed.live = mesh != INVALID;
@@ -103,16 +100,13 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                     return Err(words.wrong("first light of an instance"));
                 };
                 placed.numbers = first..end;
-                let radiance = words.array::<3>()?.map(f32::from_bits);
-                let mask = words.one()?;
+                placed.radiance = words.array::<3>()?.map(f32::from_bits);
+                placed.mask = words.one()?;
                 let entries = words.array::<12>()?.map(f32::from_bits);
                 let column = |k: usize| [entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]];
-                self.instances[index] = Instance {
+                placed.transform = Transform {
                     columns: [column(0), column(1), column(2)],
                     translation: column(3),
-                    radiance,
-                    mask,
-                    ..NO_INSTANCE
                 };
             }
             self.placed.push(placed);
@@ -205,12 +199,11 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             mesh.reach = reach_of(&self.lights[range.clone()]);
             mesh.is_by_area = is_by_area(&self.lights[range]);
         }
-        for (instance, placed) in (0u32..).zip(&self.placed).filter(|(_, placed)| placed.live) {
-            let own = &self.instances[instance as usize];
-            let checked = own.transform().check(self.meshes[placed.mesh as usize].reach);
+        for (instance, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
+            let checked = placed.transform.check(self.meshes[placed.mesh as usize].reach);
             checked
                 .map_err(EditReason::Transform)
-                .and_then(|()| factor(own.radiance))
+                .and_then(|()| factor(placed.radiance))
                 .map_err(|reason| damaged(format_args!("instance {instance}: {reason}")))?;
         }
         Ok(())

@@ -7,6 +7,7 @@ use core::ops::Range;
 use super::header::Header;
 use super::words::{ReadError, damaged, misplaced, taken};
 use crate::bvh::Bvh;
+use crate::bvh::apply::NO_INSTANCE;
 use crate::bvh::log::Log;
 use crate::bvh::validate::Found;
 use crate::node::kind;
@@ -24,6 +25,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         self.restore_lists()?;
         self.restore_lights(header)?;
         self.restore_meshes()?;
+        self.instances = alloc::vec![NO_INSTANCE; self.placed.len()];
         for (instance, &listed) in self.instances.iter_mut().zip(&self.live) {
             instance.listed = listed;
         }
@@ -177,12 +179,11 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     fn check_single(&self) -> Result<(), ReadError> {
         let is_alone = match (&*self.placed, &*self.meshes) {
             ([placed], [mesh]) => {
-                let own = &self.instances[0];
                 placed.live
                     && mesh.live
-                    && own.transform() == Transform::IDENTITY
-                    && own.radiance == [1.0; 3]
-                    && own.mask == u32::MAX
+                    && placed.transform == Transform::IDENTITY
+                    && placed.radiance == [1.0; 3]
+                    && placed.mask == u32::MAX
                     && placed.numbers.start == 0
                     && mesh.lights.start == 0
             }

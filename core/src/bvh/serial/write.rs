@@ -66,7 +66,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
     }
 
     fn write_instances(&self, words: &mut Vec<u32>) {
-        for (placed, own) in self.placed.iter().zip(&self.instances) {
+        for placed in &self.placed {
             if !placed.live {
                 words.push(INVALID);
                 continue;
@@ -75,9 +75,10 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                 mesh, user, listed, ..
             } = *placed;
             words.extend([mesh, user, listed, placed.numbers.start]);
-            words.extend(own.radiance.map(f32::to_bits));
-            words.push(own.mask);
-            let entries = own.columns.iter().flatten().chain(&own.translation);
+            words.extend(placed.radiance.map(f32::to_bits));
+            words.push(placed.mask);
+            let transform = &placed.transform;
+            let entries = transform.columns.iter().flatten().chain(&transform.translation);
             words.extend(entries.map(|x| x.to_bits()));
         }
     }

@@ -140,7 +140,7 @@ fn broken_instances_are_found() {
             ..NO_INSTANCE
         };
     });
-    finds("word 18", |s| s.instances[2].columns[0][0] = 3.0);
+    finds("word 6", |s| s.placed[2].transform.columns[0][0] = 3.0);
     finds("range of lights", |s| s.placed[2].numbers.end += 1);
     // The lights of another instance of the mesh.
     finds("range of lights", |s| {
