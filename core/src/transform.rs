@@ -103,7 +103,7 @@ impl Transform {
         if !(direction.is_finite() && up.is_finite()) {
             return Self::at([f32::NAN; 3]);
         }
-        // Squares of what is left neither overflow nor vanish.
+        // Scaled, so that no square overflows or becomes zero.
         let within = |v: Vec3| {
             let [x, y, z] = vector::abs3(v).to_array();
             v / exact::max(exact::max(exact::max(x, y), z), f32::MIN_POSITIVE)

@@ -32,7 +32,7 @@ pub struct PointLight {
 }
 
 /// A point that sends light into a cone: all its intensity up to an inner angle, none from an outer one on, between them the square of
-/// what is linear in the cosine (glTF 2.0, `KHR_lights_punctual`, "Inner and Outer Cone Angles"). An instance turns its axis, and leaves its cone as it is. Trees weight narrow spots above their flux, by what points in
+/// what is linear in the cosine (glTF 2.0, `KHR_lights_punctual`, "Inner and Outer Cone Angles"). An instance turns the axis and keeps the cone. Trees weight narrow spots above their flux, by what points in
 /// the cone receive.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

@@ -1,7 +1,7 @@
 //! Samples with all that shading needs, and densities where rays meet lights.
 
 use crate::kit::{Random, Wide, dot, minus, wide};
-use lightbvh::bvh::EditReason;
+use lightbvh::bvh::{Cursor, EditReason};
 use lightbvh::importance::{Transmissive, TransmissivePoint};
 use lightbvh::light::{AnyLight, Light, LightPoint, PointLight, SphereLight};
 use lightbvh::node::SpotMomentNode;
@@ -138,6 +138,28 @@ fn removed_lights_are_nobodys() {
         let numbers = bvh.view().lights_of(id).expect("a light");
         bvh.remove(id).expect("a light");
         assert_eq!(bvh.take_removed_lights(), [numbers]);
+    }
+}
+
+/// Lamps that go to one place, as a pool of those that are off does, are put in one by one: the top level is not built again.
+#[test]
+fn lights_at_one_place_are_inserted() {
+    let random = &mut Random(5);
+    let mut bvh = Tree::default();
+    let at = |p: [f32; 3]| PointLight {
+        p,
+        ..PointLight::DARK
+    };
+    let add = |_| bvh.add_light(at(random.point(1000.0).p)).expect("in the domain");
+    let ids: Vec<InstanceId> = (0..3000).map(add).collect();
+    bvh.refit();
+    let mut cursor = Cursor::default();
+    let _ = cursor.plan(&bvh);
+    for id in &ids[..300] {
+        bvh.set_light(*id, at([0.0; 3])).expect("in the domain");
+        bvh.refit();
+        let plan = cursor.plan(&bvh);
+        assert!(!plan.everything && !plan.whole_top);
     }
 }
 

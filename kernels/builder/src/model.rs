@@ -74,7 +74,7 @@ spirv-std = "=0.11.0"
 "#;
 
 /// Writes the crate of a model of `width` and of a receiver, types as Rust has them, into the folder `out`, for the repository at `root`, and
-/// returns its folder. The compiler says what is wrong with a type.
+/// returns its folder. A wrong type is an error of the compiler.
 ///
 /// # Errors
 /// Names the file that cannot be written.
