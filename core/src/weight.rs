@@ -114,9 +114,15 @@ pub(crate) fn weight(l: &Lobe, side: &Side) -> f32 {
     let (n1, d1) = soft(incident, incident_spread, cut);
 
     // The emitters' side: spread by the depth of the set along its normal, and by the spread of the normals.
-    let depth = u + u * l.less;
+    let along = dot(l.m, l.x) * side.m_unit;
+    let ratio = 1.0 + l.less;
+    let wide = exact::max(ratio, l.spread);
+    let inside = exact::max(d_squared - 2.5 * squared, 0.25 * (along * along));
+    let inverse = rsqrt_rough((inside + LEAST_DISTANCE) + FAR * (squared * (wide * wide)));
+    let u = l.breadth * inverse;
+    let depth = u * ratio;
     let emitted_spread = (SOFT + depth) + l.spread * (0.5 - depth);
-    let emitted = dot(l.m, l.x) * (side.m_unit * inverse);
+    let emitted = along * inverse;
     let (n2, d2) = soft(emitted, emitted_spread, emitted_spread);
 
     (l.phi * (n1 * n2)) * recip((d1 * d2) * near)
