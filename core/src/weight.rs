@@ -13,6 +13,8 @@ const FLOOR: f32 = 1.0e-4;
 const FAR: f32 = 1.25;
 /// The variance in the denominator's second distance: less than in the first, which did better than equal ones.
 const NEAR: f32 = 0.5;
+/// Squared distance of a flat set's farthest part from its centre, in squared breadths: 2 for a disc, 3 for a row.
+const NEAREST: f32 = 2.5;
 /// Squared distances, in units of the scale, are at least this: about (2^-25)². It absorbs whatever devices flush.
 const LEAST_DISTANCE: f32 = pow2(-50);
 /// A frame this much smaller than its distance counts as this small: its square is far below LEAST_DISTANCE's part of 1.
@@ -113,10 +115,14 @@ pub(crate) fn weight(l: &Lobe, side: &Side) -> f32 {
     let cut = exact::min(exact::max(incident + l.reach * u, FLOOR), incident_spread);
     let (n1, d1) = soft(incident, incident_spread, cut);
 
-    // The emitters' side: spread by the depth of the set along its normal, and by the spread of the normals.
-    let depth = u + u * l.less;
+    // The emitters' side, from the nearest part of the set: spread by its depth along its normal, and by the spread of the normals.
+    let (ratio, height) = (1.0 + l.less, dot(l.m, l.x) * side.m_unit);
+    let deep = l.breadth * exact::max(ratio, l.spread);
+    let nearest = exact::max(d_squared - NEAREST * squared, 0.25 * (height * height));
+    let inverse = rsqrt_rough((nearest + LEAST_DISTANCE) + FAR * (deep * deep));
+    let depth = (l.breadth * inverse) * ratio;
     let emitted_spread = (SOFT + depth) + l.spread * (0.5 - depth);
-    let emitted = dot(l.m, l.x) * (side.m_unit * inverse);
+    let emitted = height * inverse;
     let (n2, d2) = soft(emitted, emitted_spread, emitted_spread);
 
     (l.phi * (n1 * n2)) * recip((d1 * d2) * near)

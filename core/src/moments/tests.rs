@@ -138,12 +138,13 @@ fn packed_moments_are_within_half_a_code() {
             let unit = f64::from((high - low).max_element()).max(2.0_f64.powi(-87));
             for (slot, s) in sets.iter().enumerate() {
                 let found = node.summary(slot);
+                let across = exact::max(s.across, 0.5 * s.along);
                 let (size, breadth) = (f64::from(scale), f64::from(found.across) * 2.0_f64.sqrt());
                 near(found.phi, s.phi.into(), f64::from(s.phi) / 32.0, "flux");
                 near(
                     found.across,
-                    s.across.into(),
-                    f64::from(s.across) / 16.0 + 1e-6 * size,
+                    across.into(),
+                    f64::from(across) / 16.0 + 1e-6 * size,
                     "across",
                 );
                 for k in 0..3 {
@@ -157,12 +158,11 @@ fn packed_moments_are_within_half_a_code() {
                     let stored = f64::from(s.h[k]).min(breadth * (16.0 - 1.0 / 16.0));
                     near(found.h[k], stored, breadth / 16.0 + breadth / 32.0, "half extent");
                 }
-                let along =
-                    f64::from(exact::min(s.along, 2.0 * s.across)).min(f64::from(found.across) * 63.0 / 32.0);
+                let along = f64::from(s.along).min(f64::from(found.across) * 63.0 / 32.0);
                 near(
                     found.along,
                     along,
-                    f64::from(found.across) / 20.0 + f64::from(s.across) / 16.0,
+                    f64::from(found.across) / 20.0 + f64::from(across) / 16.0,
                     "along",
                 );
             }

@@ -141,10 +141,11 @@ impl<const W: usize, const ROWS: usize, L> PackedMomentNode<W, ROWS, L> {
             let s: LightMoments = sets.get(i);
             let c = (s.c - frame.origin) * per_unit;
             let phi = phi_code(s.phi, frame.phi_exponent);
-            let breadth = breadth_code(s.across, per_unit);
+            let across = exact::max(s.across, 0.5 * s.along);
+            let breadth = breadth_code(across, per_unit);
             let per_breadth = exact::recip(breadth_value(breadth));
             // From the low fields up: each knows what lies below it.
-            let ratio = exact::min(s.along, s.across + s.across) * (per_unit * SQRT_2) * per_breadth;
+            let ratio = s.along * (per_unit * SQRT_2) * per_breadth;
             let w1 = field(ratio - 1.0, 15, 6, phi);
             let w1 = field(c.z, 0, 15, w1);
             let kind = self.0[WORD_0][i] & 3;

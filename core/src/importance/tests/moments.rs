@@ -38,6 +38,9 @@ fn table(c: &Child, n: Wide, up_by: f64) -> f64 {
     let s = least + u * (1.0 + (c.ratio - 1.0) * dot(n, c.m).powi(2));
     let t = s.min((2.0 * y * (dot(n, c.x) + c.up * up_by)).max(1e-4));
     let received = g(a, s, t);
+    let nearest = (d2 - 2.5 * b2).max(dot(c.m, c.x).powi(2));
+    let y = 1.0 / (nearest + 1.25 * b2 * c.ratio.max(c.q).powi(2)).sqrt();
+    let u = c.b * y;
     let s = least + u * c.ratio + c.q * (0.5 - u * c.ratio);
     let emitted = g(-y * dot(c.m, c.x), s, s);
     c.phi * received * emitted / near
@@ -174,7 +177,7 @@ fn weights_are_the_table_s() {
             let parts = deciding(c, n);
             (0..6).for_each(|k| seen[k] += u32::from(parts[k]));
             let taken = LightMoments {
-                along: exact::min(sets[slot].along, 2.0 * sets[slot].across),
+                across: exact::max(sets[slot].across, 0.5 * sets[slot].along),
                 ..sets[slot]
             };
             let given = child(&taken, spread(taken.m), &point);
