@@ -31,12 +31,6 @@ pub(crate) fn build_over<N: Node<W>, const W: usize>(
     lights: &[N::Light],
     params: &BuildParams,
 ) -> Topology<N> {
-    if N::HAS_BEAMS && params.opens && lights.len() <= W {
-        let is_spot = |light: &N::Light| light.beam().is_narrow();
-        if lights.iter().any(is_spot) && !lights.iter().all(is_spot) {
-            return build_apart::<N, W>(lights, is_spot);
-        }
-    }
     if params.heuristic != Heuristic::Ward {
         let bounds = |(i, light): (u32, &N::Light)| Primitive::new(i, &light.bounds());
         let mut primitives: Vec<Primitive> = (0..).zip(lights).map(bounds).collect();
@@ -47,27 +41,6 @@ pub(crate) fn build_over<N: Node<W>, const W: usize>(
         .map(|(index, light)| WardPrimitive::of_light(index, light))
         .collect();
     build_ward::<N, W>(&mut primitives, kind::LIGHT, params)
-}
-
-/// A root over two nodes, one of the lights that `is_first` holds for: the top level may hold these in place of the mesh.
-fn build_apart<N: Node<W>, const W: usize>(
-    lights: &[N::Light],
-    is_first: impl Fn(&N::Light) -> bool,
-) -> Topology<N> {
-    let mut out = Topology {
-        nodes: Vec::with_capacity(3),
-        trails: Vec::with_capacity(lights.len()),
-        depth: 0,
-    };
-    let children = |side: Option<bool>, _| match side {
-        None => [true, false].map(|side| Child::Node(Some(side))).to_vec(),
-        Some(side) => {
-            let own = (0..).zip(lights).filter(|(_, light)| is_first(light) == side);
-            own.map(|(index, _)| Child::Leaf(index)).collect()
-        }
-    };
-    emit::<N, _, _, W>(&mut out, kind::LIGHT, &children, None, (0, BitTrail::default()));
-    out
 }
 
 /// Builds a tree over leaves of the top level, at least one, each a link and a summary. A leaf counts for a flux of at least

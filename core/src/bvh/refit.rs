@@ -105,13 +105,13 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         batch
     }
 
-    /// The number of subtrees into which an instance may be opened: the children of its mesh's root if all are nodes, in slots
-    /// without gaps; else 0.
+    /// The number of subtrees into which an instance may be opened: the children of its mesh's root if they are in slots without
+    /// gaps; else 0.
     fn part_count(&self, index: u32) -> usize {
         let Some(root) = self.nodes.get(self.instances[index as usize].root as usize) else {
             return 0;
         };
-        let count = (0..W).take_while(|&slot| root.kind(slot) == kind::INNER).count();
+        let count = (0..W).take_while(|&slot| root.kind(slot) != kind::EMPTY).count();
         match (count..W).all(|slot| root.kind(slot) == kind::EMPTY) {
             true => count,
             false => 0,

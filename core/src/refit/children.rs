@@ -153,12 +153,14 @@ pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
             if known {
                 local = light_child::<N, W>(&lights[light as usize]);
             }
+        } else if part > 0 {
+            known = instance.root < nodes.len() as u32;
+            if known {
+                local = bottom_child(nodes, lights, instance.root, (part as usize - 1) % W);
+            }
         } else if blas < roots.len() as u32 {
             known = true;
-            let mut root_of = roots[blas as usize];
-            if part > 0 && root_of.node < nodes.len() as u32 {
-                root_of = root(nodes, nodes[root_of.node as usize].link((part as usize - 1) % W));
-            }
+            let root_of = roots[blas as usize];
             local.summary = root_of.summary();
             if has_limits::<N, W>() {
                 local.limits = limits_of_root(nodes, &root_of);

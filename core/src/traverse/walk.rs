@@ -197,8 +197,12 @@ impl<'a, N: 'a, P: Receiver> Walk<'a, N, P> {
             self.done |= is_alone;
             self.position = levels;
             if part > 0 {
-                // A part begins one level below the root.
-                self.index = self.node(tree).link((part as usize - 1) % W);
+                // A part is a child of the root: a node, or a light.
+                let (root, slot) = (self.node(tree), (part as usize - 1) % W);
+                let (to, link) = (root.kind(slot), root.link(slot));
+                self.index = link;
+                self.triangle = if to == kind::LIGHT { link } else { INVALID };
+                self.done |= to != kind::INNER;
                 self.position += 1;
             }
             self.point = world.to_local(instance);
