@@ -1,20 +1,20 @@
-//! Several walks at once.
+//! Several walks at once: for a point each, or for one point.
 
 use super::sample::{SampledLight, Started, begin};
+use super::walk::leading;
+use crate::choose::{Share, choose};
 use crate::importance::ImportanceModel;
 use crate::node::Node;
 use crate::point::Receiver;
 use crate::random::Random64;
 use crate::tree::LightTree;
 
-/// Walks that take turns: enough to hide the latency of memory behind the others' arithmetic, few enough to stay in the first
-/// cache.
-const TURNS: usize = 8;
+/// Walks that go down together: registers hold as many numbers, and all their states lie in the first cache.
+const TOGETHER: usize = 8;
+/// The same of one point: the more, the more nodes are shared.
+const OF_POINT: usize = 32;
 
 /// Chooses a light for each point by its random number, to the same words as one at a time.
-///
-/// Walks take turns, a node each, so that one computes while the next node of the others is on its way from memory: in
-/// trees larger than the caches that is where the time goes.
 #[inline(always)]
 pub(super) fn sample_batch<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
@@ -22,37 +22,113 @@ pub(super) fn sample_batch<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver,
     randoms: &[Random64],
     sampled: &mut [SampledLight],
 ) {
-    let queries = points.chunks(TURNS).zip(randoms.chunks(TURNS));
-    for ((points, randoms), out) in queries.zip(sampled.chunks_mut(TURNS)) {
+    let queries = points.chunks(TOGETHER).zip(randoms.chunks(TOGETHER));
+    for ((points, randoms), out) in queries.zip(sampled.chunks_mut(TOGETHER)) {
         let count = points.len().min(randoms.len()).min(out.len());
-        let nothing = begin(tree, &points[0], randoms[0]);
-        let mut walks = [nothing; TURNS];
-        for k in 1..count {
-            walks[k] = begin(tree, &points[k], randoms[k]);
-        }
-        turns(tree, &points[..count], &mut walks);
-        for k in 0..count {
-            out[k] = walks[k].end(tree);
-        }
+        let query = |k: usize| (&points[k], randoms[k]);
+        together::<N, I, P, _, W, TOGETHER, false>(tree, query, &mut out[..count]);
     }
 }
 
-/// Brings the first walks, one for each point, to their ends.
+/// See [`LightTree::sample_spaced`].
 #[inline(always)]
-fn turns<'a, N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
-    tree: &LightTree<'a, N, I, W>,
-    points: &[P],
-    walks: &mut [Started<'a, N, P>; TURNS],
+pub(super) fn sample_spaced<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
+    tree: &LightTree<'_, N, I, W>,
+    point: &P,
+    random: Random64,
+    first: u32,
+    count: u32,
+    sampled: &mut [SampledLight],
 ) {
+    let mut first = first;
+    for out in sampled.chunks_mut(OF_POINT) {
+        let query = |k: usize| (point, random.spaced(first.wrapping_add(k as u32), count));
+        match out {
+            few if few.len() <= TOGETHER => together::<N, I, P, _, W, TOGETHER, true>(tree, query, few),
+            _ => together::<N, I, P, _, W, OF_POINT, true>(tree, query, out),
+        }
+        first = first.wrapping_add(OF_POINT as u32);
+    }
+}
+
+/// A light for each of at most `K` queries, one for each place of `sampled`. All walks go down a level before any goes on, phase by
+/// phase: a processor overlaps the walks within each, chooses for all at once, and fetches their next nodes meanwhile. With
+/// `SHARES` all points are one, and neighbours at one node evaluate it once.
+#[inline(always)]
+pub(super) fn together<
+    'q,
+    N: Node<W>,
+    I: ImportanceModel<N, W, P>,
+    P: Receiver + 'q,
+    Q: Fn(usize) -> (&'q P, Random64),
+    const W: usize,
+    const K: usize,
+    const SHARES: bool,
+>(
+    tree: &LightTree<'_, N, I, W>,
+    query: Q,
+    sampled: &mut [SampledLight],
+) {
+    let count = sampled.len().min(K);
+    if count == 0 {
+        return;
+    }
+    // In ascending order, from the first number on that has passed 1: those that share nodes are neighbours then.
+    let passed = |k: &usize| SHARES && query(*k).1.high < query(0).1.high;
+    let least = (1..count).find(passed).unwrap_or(0);
+    let query = |k: usize| query(if k + least < count { k + least } else { k + least - count });
+    let (point, random) = query(0);
+    let mut walks = [begin(tree, point, random); K];
+    for k in 1..count {
+        let (point, random) = query(k);
+        walks[k] = begin(tree, point, random);
+    }
     let mut left = true;
     while left {
         left = false;
-        for (walk, point) in walks.iter_mut().zip(points) {
-            if !walk.walk.done {
-                walk.walk.step(tree, point);
-                left |= !walk.walk.done;
-                walk.walk.fetch_node();
+        // By child, then by walk.
+        let mut weights = [[0.0; K]; W];
+        let (mut ranges, mut numbers, mut follow, mut wanted) = ([0; K], [0; K], [false; K], [0; K]);
+        for k in 0..count {
+            let walk = &walks[k].walk;
+            if walk.done {
+                continue;
+            }
+            if SHARES && k > 0 && walk.is_with(&walks[k - 1].walk) {
+                for of_child in &mut weights {
+                    of_child[k] = of_child[k - 1];
+                }
+            } else {
+                let own = I::weights_in(walk.node(tree), &walk.point, walk.space);
+                for slot in 0..W {
+                    weights[slot][k] = own[slot];
+                }
+            }
+            (ranges[k], numbers[k]) = (walk.range, leading(walk.number));
+            (follow[k], wanted[k]) = (walk.follow, walk.wanted::<W>());
+        }
+        let (mut slots, mut firsts, mut counts) = ([0; K], [0; K], [0; K]);
+        for k in 0..K {
+            let weight = |slot: usize| weights[slot][k];
+            let share = choose::<W>(weight, ranges[k], numbers[k], follow[k], wanted[k]);
+            (slots[k], firsts[k], counts[k]) = (share.slot, share.first, share.count);
+        }
+        for k in 0..count {
+            let walk = &mut walks[k].walk;
+            if !walk.done {
+                let share = Share {
+                    slot: slots[k],
+                    first: firsts[k],
+                    count: counts[k],
+                };
+                walk.descend(tree, query(k).0, walk.node(tree), share);
+                walk.fetch_node();
+                left |= !walk.done;
             }
         }
     }
+    for (walk, out) in walks.iter().zip(&mut *sampled) {
+        *out = Started::end(walk, tree);
+    }
+    sampled[..count].rotate_right(least);
 }

@@ -9,7 +9,6 @@
 //! share of numbers that lead to the light.
 
 mod batch;
-mod many;
 mod sample;
 #[cfg(test)]
 mod tests;
@@ -90,14 +89,8 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
         const { assert!(COUNT > 0 && COUNT <= 256, "1 to 256") };
         let random = random.into();
         let mut sampled = [SampledLight::NONE; COUNT];
-        dispatched!(many::by_rows::<N, I, P, W, COUNT>(
-            self,
-            point,
-            random,
-            0,
-            COUNT as u32,
-            &mut sampled
-        ));
+        let query = |k: usize| (point, random.spaced(k as u32, COUNT as u32));
+        dispatched!(batch::together::<N, I, P, _, W, COUNT, true>(self, query, &mut sampled));
         sampled
     }
 
@@ -116,7 +109,7 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
         I: ImportanceModel<N, W, P>,
     {
         let random = random.into();
-        dispatched!(many::sample_spaced(self, point, random, first, count, sampled));
+        dispatched!(batch::sample_spaced(self, point, random, first, count, sampled));
     }
 
     /// The probability with which [`sample`](Self::sample) returns light `light` of instance `instance`

@@ -104,8 +104,8 @@ impl<'a, N: 'a, P: Receiver> Walk<'a, N, P> {
     {
         let node = self.node(tree);
         let weights = I::weights_in(node, &self.point, self.space);
-        let share = choose(
-            &weights,
+        let share = choose::<W>(
+            |slot| weights[slot],
             self.range,
             leading(self.number),
             self.follow,
@@ -135,6 +135,12 @@ impl<'a, N: 'a, P: Receiver> Walk<'a, N, P> {
     #[inline(always)]
     pub fn is_above<const W: usize>(&self) -> bool {
         self.position < max_levels(W)
+    }
+
+    /// Whether another walk for the same point looks at the same node.
+    #[inline(always)]
+    pub fn is_with(&self, other: &Self) -> bool {
+        (self.index == other.index) & (self.instance == other.instance) & !other.done
     }
 
     /// Asks for the node to look at early.

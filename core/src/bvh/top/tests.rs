@@ -14,7 +14,7 @@ use crate::kit::scenes::{lamps, moved, scattered, sound, with_one_far};
 use crate::kit::{Random, triangle};
 use crate::node::{CompactNode, MomentNode};
 use crate::trail::max_levels;
-use crate::{InstanceId, LightBvh, Transform};
+use crate::{InstanceId, LightBvh, ShadingPoint, Transform};
 
 /// Small lamps at places.
 fn small<M: Model<W, Light = EmissiveTriangle>, const W: usize>(
@@ -223,8 +223,23 @@ fn whole_builds_alone_open_instances() {
         lights: with_one_far(random, 200)
     }])
     .expect("as many");
-    assert_eq!(leaves(&mut bvh), [8, 1]);
+    assert_eq!(leaves(&mut bvh), [8, 8]);
     bvh.remove(id).expect("there");
+    let lights = with_one_far(random, 3);
+    let mesh = bvh.add_mesh(lights).expect("lights");
+    let id = bvh.add_instance(mesh, Transform::IDENTITY).expect("a mesh");
     bvh.refit();
+    assert_eq!(bvh.top.links_of(id.index()), 0..1);
+    bvh.rebuild();
     bvh.view().validate().expect("valid");
+    assert_eq!(bvh.top.links_of(id.index()), 1..4, "single lights");
+    let tree = bvh.tree();
+    let point = ShadingPoint {
+        p: [0.0; 3],
+        n: [0.0; 3],
+    };
+    for number in 0..64u32 {
+        let sampled = tree.sample(&point, number << 26);
+        assert_eq!(sampled.pmf, tree.pmf(&point, sampled.light, sampled.instance));
+    }
 }

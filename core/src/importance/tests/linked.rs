@@ -46,11 +46,11 @@ fn allowed_children_share_all_numbers() {
         for slot in 0..4 {
             let is_left = mask >> slot & 1 == 1 && WEIGHTS[slot] > 0.0;
             assert_eq!(weights[slot] > 0.0, is_left, "{mask} {slot}");
-            let share = choose(&weights, FULL, 0, true, slot as u32);
+            let share = choose::<4>(|k| weights[k], FULL, 0, true, slot as u32);
             assert_eq!(share.count > 0, is_left, "{mask} {slot}");
             sum += share.count;
             if is_left {
-                let found = choose(&weights, FULL, share.first, false, 0);
+                let found = choose::<4>(|k| weights[k], FULL, share.first, false, 0);
                 assert_eq!((found.slot, found.count), (slot as u32, share.count));
             }
         }
