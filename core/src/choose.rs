@@ -46,7 +46,11 @@ pub(crate) fn choose<const W: usize>(
     let alive = sum > 0.0;
     let scale = (range as i32 as f32 * GIVEN) * exact::recip(if alive { sum } else { 1.0 });
     // Shares that end at or before this, of children before that, are passed. Integers that are signed compare faster.
-    let (at, most) = if follow { (i32::MAX, wanted) } else { (number as i32, last) };
+    let (at, most) = if follow {
+        (i32::MAX, wanted)
+    } else {
+        (number as i32, last)
+    };
     let (mut slot, mut first, mut end, mut upto, mut passes) = (0, 0, 0, 0, u32::MAX);
     each!(k, W, {
         let own = weight(k);

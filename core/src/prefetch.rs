@@ -3,13 +3,13 @@
 use bytemuck::Pod;
 
 /// Bytes in a line of the caches.
-#[cfg(feature = "prefetch")]
+#[cfg(feature = "std")]
 const LINE: usize = 64;
 
-/// Asks for an item that will be read soon, line by line; without the feature `prefetch`, for nothing.
+/// Asks for an item that will be read soon, line by line; without the feature `std`, for nothing.
 #[inline(always)]
 pub(crate) fn fetch<T: Pod>(items: &[T], index: u32) {
-    #[cfg(feature = "prefetch")]
+    #[cfg(feature = "std")]
     {
         let bytes: &[u8] = bytemuck::cast_slice(items);
         // An index out of range, from malformed words, asks for a line that is not read.
@@ -22,7 +22,7 @@ pub(crate) fn fetch<T: Pod>(items: &[T], index: u32) {
             prefetch_index::prefetch_index(bytes, first.wrapping_add(size_of::<T>() - 1));
         }
     }
-    #[cfg(not(feature = "prefetch"))]
+    #[cfg(not(feature = "std"))]
     {
         let _ = (items, index);
     }

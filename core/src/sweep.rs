@@ -31,7 +31,7 @@ const AHEAD: usize = 4;
 /// Asks for the lights that a node's refit will read.
 #[inline(always)]
 fn fetch_lights<N: Node<W>, const W: usize>(node: &N, lights: &[N::Light]) {
-    if cfg!(feature = "prefetch") {
+    if cfg!(feature = "std") {
         for slot in 0..W {
             if node.kind(slot) == kind::LIGHT {
                 fetch(lights, node.link(slot));

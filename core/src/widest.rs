@@ -1,10 +1,10 @@
 //! Code compiled for several sets of vector instructions, of which the machine's widest is taken when the program runs.
 //!
-//! All are compiled from one source without contraction, so they give the same words. Without the feature `simd` there is one:
+//! All are compiled from one source without contraction, so they give the same words. Without the feature `std` there is one:
 //! that of the instructions that the program is compiled for.
 
 /// Runs `job` with the machine's widest registers. It is compiled for them where it is inlined, so closures are `#[inline(always)]`.
-#[cfg(feature = "simd")]
+#[cfg(feature = "std")]
 #[inline(always)]
 pub fn widest<R>(job: impl FnOnce() -> R) -> R {
     use pulp::{Arch, Simd, WithSimd};
@@ -24,7 +24,7 @@ pub fn widest<R>(job: impl FnOnce() -> R) -> R {
 }
 
 /// Runs `job`.
-#[cfg(not(feature = "simd"))]
+#[cfg(not(feature = "std"))]
 #[inline(always)]
 pub fn widest<R>(job: impl FnOnce() -> R) -> R {
     job()

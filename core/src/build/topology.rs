@@ -104,6 +104,36 @@ fn build_binary<N: Node<W>, const W: usize>(
     out
 }
 
+/// Primitives from which the children of the root are built in parallel.
+#[cfg(feature = "rayon")]
+const PARALLEL: usize = 4096;
+
+#[cfg(feature = "rayon")]
+impl<N> Topology<N> {
+    /// Appends a child of the root: its nodes, or the one leaf it is.
+    fn append<const W: usize>(&mut self, root: usize, slot: usize, leaf_kind: u32, below: Self)
+    where
+        N: Node<W>,
+    {
+        let first = self.nodes.len() as u32;
+        let (to, link) = match (&below.nodes[..], &below.trails[..]) {
+            ([], &[(index, _)]) => (leaf_kind, index),
+            _ => (kind::INNER, first),
+        };
+        self.nodes[root].set_child(slot, to, link);
+        self.nodes.extend(below.nodes);
+        for node in &mut self.nodes[first as usize..] {
+            for slot in 0..W {
+                if node.kind(slot) == kind::INNER {
+                    node.relink(slot, first + node.link(slot));
+                }
+            }
+        }
+        self.trails.extend(below.trails);
+        self.depth = self.depth.max(below.depth);
+    }
+}
+
 /// A child of a wide node.
 #[derive(Clone, Copy)]
 pub(super) enum Child<T> {
@@ -115,16 +145,39 @@ pub(super) enum Child<T> {
 
 /// Emits the node over `item` at a level and a trail, and those below it, whose children are found by `children` from the item and
 /// its level; recursion is as deep as the tree, at most 64.
-pub(super) fn emit<N: Node<W>, T, C: IntoIterator<Item = Child<T>>, const W: usize>(
+pub(super) fn emit<N: Node<W>, T: Send, C: IntoIterator<Item = Child<T>>, const W: usize>(
     out: &mut Topology<N>,
     leaf_kind: u32,
-    children: &impl Fn(T, u32) -> C,
+    children: &(impl Fn(T, u32) -> C + Sync),
     item: T,
     (level, trail): (u32, BitTrail),
 ) {
     let node = out.nodes.len();
     out.nodes.push(N::EMPTY);
     out.depth = out.depth.max(level + 1);
+    #[cfg(feature = "rayon")]
+    if level == 0 && out.trails.capacity() >= PARALLEL {
+        use rayon::prelude::*;
+        let all: Vec<_> = (0u32..).zip(children(item, level)).collect();
+        let below = |(slot, child)| {
+            let mut below = Topology {
+                nodes: Vec::new(),
+                trails: Vec::new(),
+                depth: 0,
+            };
+            let own = trail.with::<W>(level, slot);
+            match child {
+                Child::Leaf(index) => below.trails.push((index, own)),
+                Child::Node(item) => emit(&mut below, leaf_kind, children, item, (level + 1, own)),
+            }
+            (slot as usize, below)
+        };
+        let all: Vec<(usize, Topology<N>)> = all.into_par_iter().map(below).collect();
+        for (slot, below) in all {
+            out.append(node, slot, leaf_kind, below);
+        }
+        return;
+    }
     for (slot, child) in children(item, level).into_iter().enumerate() {
         let own = trail.with::<W>(level, slot as u32);
         match child {

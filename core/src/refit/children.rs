@@ -7,7 +7,7 @@
 use glam::Vec3;
 
 use super::limits::{has_limits, in_world, limits_of_light, limits_of_root};
-use super::{BlasRoot, Instance, root};
+use super::{BlasRoot, Instance};
 use crate::beam::{Beam, Limits};
 use crate::node::{Node, kind};
 use crate::summary::{Lanes, SUMMARY_WORDS, Summary};

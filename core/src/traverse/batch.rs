@@ -76,7 +76,13 @@ pub(super) fn together<
     // In ascending order, from the first number on that has passed 1: those that share nodes are neighbours then.
     let passed = |k: &usize| SHARES && query(*k).1.high < query(0).1.high;
     let least = (1..count).find(passed).unwrap_or(0);
-    let query = |k: usize| query(if k + least < count { k + least } else { k + least - count });
+    let query = |k: usize| {
+        query(if k + least < count {
+            k + least
+        } else {
+            k + least - count
+        })
+    };
     let (point, random) = query(0);
     let mut walks = [begin(tree, point, random); K];
     for k in 1..count {

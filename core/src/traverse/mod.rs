@@ -23,7 +23,7 @@ use crate::random::Random64;
 use crate::tree::LightTree;
 
 /// A walk with the machine's widest registers.
-#[cfg(feature = "simd")]
+#[cfg(feature = "std")]
 macro_rules! dispatched {
     ($walk:expr) => {
         crate::widest::widest(
@@ -34,7 +34,7 @@ macro_rules! dispatched {
 }
 
 /// A walk as it is.
-#[cfg(not(feature = "simd"))]
+#[cfg(not(feature = "std"))]
 macro_rules! dispatched {
     ($walk:expr) => {
         $walk
@@ -90,7 +90,11 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
         let random = random.into();
         let mut sampled = [SampledLight::NONE; COUNT];
         let query = |k: usize| (point, random.spaced(k as u32, COUNT as u32));
-        dispatched!(batch::together::<N, I, P, _, W, COUNT, true>(self, query, &mut sampled));
+        dispatched!(batch::together::<N, I, P, _, W, COUNT, true>(
+            self,
+            query,
+            &mut sampled
+        ));
         sampled
     }
 

@@ -9,7 +9,7 @@ use lightbvh::importance::Space;
 use lightbvh::light::{AnyLight, Light, PointLight, SpotLight};
 use lightbvh::node::{MomentNode, Node, SpotMomentNode, kind};
 use lightbvh::refit::world_light;
-use lightbvh::{BuildParams, Bvh, ImportanceModel, Instance, Lights, Moments, ShadingPoint, Transform};
+use lightbvh::{BuildParams, Bvh, ImportanceModel, Lights, Moments, ShadingPoint, Transform};
 
 type Tree = Bvh<(SpotMomentNode<8, AnyLight>, Moments)>;
 
@@ -109,22 +109,25 @@ fn told(bvh: &Tree, point: &ShadingPoint) -> Vec<Told> {
                 kind::INNER => open.push((link, above, least)),
                 kind::MESH => {
                     let (instance, part) = leaf_parts(link);
-                    let Instance {
-                        root, first: light, ..
-                    } = tree.instances[instance as usize];
-                    if root == u32::MAX {
-                        found.push(Told {
-                            light,
+                    let own = &tree.instances[instance as usize];
+                    let child = |slot| {
+                        let root = &tree.nodes[own.root as usize];
+                        (root.kind(slot), root.link(slot))
+                    };
+                    // The whole, a part of it, or one light.
+                    let (to, link) = match part {
+                        0 if own.root == u32::MAX => (kind::LIGHT, own.first_light),
+                        0 => (kind::INNER, own.root),
+                        _ => child(part as usize - 1),
+                    };
+                    match to {
+                        kind::LIGHT => found.push(Told {
+                            light: own.light_of(link),
                             instance,
                             least,
-                        });
-                        continue;
+                        }),
+                        _ => open.push((link, instance, least)),
                     }
-                    let below = match part {
-                        0 => root,
-                        _ => tree.nodes[root as usize].link(part as usize - 1),
-                    };
-                    open.push((below, instance, least));
                 }
                 _ => found.push(Told {
                     light: own.map_or(link, |own| own.light_of(link)),

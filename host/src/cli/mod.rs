@@ -16,6 +16,7 @@ mod stability;
 mod table;
 mod target;
 mod trade;
+mod variance;
 mod verify;
 
 use std::process::ExitCode;
@@ -30,7 +31,7 @@ use crate::render::uninterrupted;
 const GROUPS: &str = "\
 Pictures and files:  demo, render, export
 Checks:              verify, stability, inspect, info
-Measurements:        compare, trade, bench";
+Measurements:        compare, trade, variance, bench";
 
 /// A two-level light BVH on the CPU and on Vulkan devices, compared bit for bit.
 #[derive(Debug, Parser)]
@@ -62,6 +63,8 @@ enum Command {
     Compare(OnDevices<compare::Args>),
     /// Measure speed against accuracy for importances, builders, levels and candidates
     Trade(Json<trade::Args>),
+    /// Measure the exact variance of one sample, also by peers' importances, on families of scenes
+    Variance(Json<variance::Args>),
     /// Time build, refit, sample and pmf, or frames of moving lights, or the worst scenes
     Bench(OnDevices<bench::Args>),
 }
@@ -148,6 +151,7 @@ impl Command {
             Self::Info(args) => args.run(|context, Nothing {}| info::run(context)),
             Self::Compare(args) => args.run(compare::run),
             Self::Trade(args) => args.run(trade::run),
+            Self::Variance(args) => args.run(variance::run),
             Self::Bench(args) => args.run(bench::run),
         }
     }

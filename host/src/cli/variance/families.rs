@@ -3,7 +3,7 @@
 use std::f32::consts::TAU;
 
 use glam::Vec3;
-use lightbvh::{EmissiveTriangle, ShadingPoint};
+use lightbvh::{EmissiveTriangle, Lights, ShadingPoint};
 
 use crate::stability::random::Random;
 
@@ -31,7 +31,7 @@ pub(super) const FAMILIES: [Family; 12] = [
 
 /// Lights and points of a scene, y upward, metres.
 pub(super) struct Scene {
-    pub lights: Vec<EmissiveTriangle>,
+    pub lights: Lights,
     pub points: Vec<ShadingPoint>,
 }
 
@@ -52,7 +52,7 @@ impl Scene {
         };
         Self {
             points: points.map(point).collect(),
-            lights: stage.lights,
+            lights: Lights::new(stage.lights).expect("the lights are made within the domain"),
         }
     }
 }
@@ -111,7 +111,11 @@ impl Stage {
         for side in 0..8 {
             let sign = |bit: u32| if side >> bit & 1 == 0 { radius } else { -radius };
             let [x, y, z] = [Vec3::X * sign(0), Vec3::Y * sign(1), Vec3::Z * sign(2)];
-            let corners = if (side as u32).count_ones() % 2 == 0 { [x, y, z] } else { [x, z, y] };
+            let corners = if (side as u32).count_ones().is_multiple_of(2) {
+                [x, y, z]
+            } else {
+                [x, z, y]
+            };
             self.triangle(corners.map(|corner| middle + corner), radiance);
         }
     }
@@ -171,7 +175,14 @@ fn road(stage: &mut Stage) -> Place {
         let across = random.below(25) as f32 * 60.0 + random.between(-6.0, 6.0);
         let at = Vec3::new(random.between(0.0, 99.0 * apart), 0.0, across);
         let normal = floor_or_wall(random);
-        (if random.below(2) == 0 { at } else { Vec3::new(at.z, at.y, at.x) }, normal)
+        (
+            if random.below(2) == 0 {
+                at
+            } else {
+                Vec3::new(at.z, at.y, at.x)
+            },
+            normal,
+        )
     })
 }
 
@@ -233,7 +244,12 @@ fn tubes(stage: &mut Stage) -> Place {
         for side in 0..6 {
             let angle = TAU / 6.0 * side as f32;
             let out = across * angle.cos() + Vec3::Y * angle.sin();
-            stage.quad(middle + out * 0.04, along * length, out.cross(along) * 0.045, 30.0);
+            stage.quad(
+                middle + out * 0.04,
+                along * length,
+                out.cross(along) * 0.045,
+                30.0,
+            );
         }
     }
     points_in(Vec3::ZERO, Vec3::new(60.0, 3.0, 60.0), floor_or_wall)
@@ -267,7 +283,11 @@ fn cars(stage: &mut Stage) -> Place {
             stage.quad(lamp - Vec3::X * 4.2, Vec3::Z * 0.25, Vec3::Y * 0.1, 8.0);
         }
     }
-    points_in(Vec3::new(-10.0, 0.0, -5.0), Vec3::new(190.0, 2.0, 65.0), floor_or_wall)
+    points_in(
+        Vec3::new(-10.0, 0.0, -5.0),
+        Vec3::new(190.0, 2.0, 65.0),
+        floor_or_wall,
+    )
 }
 
 /// Bright bodies that send light to all sides.
