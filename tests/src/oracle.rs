@@ -114,9 +114,14 @@ pub fn leaves<N: LightNode<W>, I, const W: usize>(tree: &LightTree<'_, N, I, W>)
                 kind::MESH => {
                     let (instance, part) = leaf_parts(link);
                     let root = tree.instances[instance as usize].root;
+                    let child = |slot| {
+                        let root = &tree.nodes[root as usize];
+                        let of_light = if root.kind(slot) == kind::LIGHT { LEAF } else { 0 };
+                        root.link(slot) | of_light
+                    };
                     let below = match part {
                         0 => root,
-                        _ => tree.nodes[root as usize].link(part as usize - 1),
+                        _ => child(part as usize - 1),
                     };
                     stack.push((below, Some(instance)));
                 }

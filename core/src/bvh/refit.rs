@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Bvh;
-use super::top::{Batch, Cluster, Part, are_mixed, may_open};
+use super::top::{Batch, Part, are_mixed};
 use crate::node::{Node, kind};
 use crate::refit::{self, Child, has_limits, leaf_child};
 use crate::summary::Summary;
@@ -75,26 +75,20 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             leaves: Vec::with_capacity(instances.len()),
             ..Batch::default()
         };
-        let mut whole = Cluster::default().and(&self.top.merged());
         for &index in &instances {
             self.placed[index as usize].is_stale = false;
             let is_live = self.placed[index as usize].live;
             let child = self.leaf_of(leaf(index, 0));
-            whole = whole.and(&child.summary);
             batch.leaves.push(is_live.then(|| child.summary.to_words()));
             if has_limits::<M::Node, W>() {
                 batch.limits.push(child.limits);
             }
         }
         if self.params.opens {
-            // `whole` counts moved leaves twice: a bound is enough.
-            let cost = whole.cost();
             for (&index, words) in instances.iter().zip(&batch.leaves) {
                 if let Some(words) = words {
-                    let known = self.top.opened.get(&index);
-                    let is_open = known.is_some_and(|own| own.first != INVALID);
                     let summary = <SummaryOf<M, W>>::from_words(words);
-                    if is_open || may_open(&summary, cost) || self.is_mixed(index) {
+                    if self.top.may_open(index, &summary) || self.is_mixed(index) {
                         let parts = self.parts_of(index);
                         batch.parts.extend((parts.len() > 1).then_some((index, parts)));
                     }

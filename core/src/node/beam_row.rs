@@ -153,7 +153,7 @@ impl Near {
     /// Factor of the end on the child's weight. `h`: half extents of its box, in breadths. `unit`: of the frame, in units of the scale.
     ///
     /// The squared mean of the window 1 − (d / end)⁴ at the box's nearest point, its farthest point and its centre. The square accounts for
-    /// lights whose own end is less than the stored maximum (`docs/walk.md`).
+    /// lights whose own end is less than the stored maximum (`docs/beams.md`).
     #[inline(always)]
     pub fn within(&self, end: u32, lobe: &Lobe, h: Vec3, unit: f32) -> f32 {
         let (x, h) = (abs3(lobe.x), h * lobe.breadth + widened(lobe.breadth, unit));

@@ -30,7 +30,7 @@ pub use crate::summary::Summary;
 pub type DefaultNode = MomentNode<8>;
 
 /// Version of the node layouts' words; raised whenever a layout changes.
-pub const NODE_FORMAT: u32 = 3;
+pub const NODE_FORMAT: u32 = 4;
 
 /// Target of a child's link.
 pub mod kind {

@@ -63,7 +63,7 @@ enum Command {
     Compare(OnDevices<compare::Args>),
     /// Measure speed against accuracy for importances, builders, levels and candidates
     Trade(Json<trade::Args>),
-    /// Measure the exact variance of one sample, also by peers' importances, on families of scenes
+    /// Measure the exact variance of one sample on families of scenes, by peers' importances too
     Variance(Json<variance::Args>),
     /// Time build, refit, sample and pmf, or frames of moving lights, or the worst scenes
     Bench(OnDevices<bench::Args>),

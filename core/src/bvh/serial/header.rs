@@ -12,7 +12,7 @@ use crate::node::Node;
 use crate::trail::max_levels;
 
 /// Version of the words of [`Bvh::to_words`](crate::Bvh::to_words).
-pub const FORMAT: u32 = 12;
+pub const FORMAT: u32 = 13;
 
 /// "LBVH" as bytes in little-endian order.
 pub(super) const MAGIC: u32 = u32::from_le_bytes(*b"LBVH");

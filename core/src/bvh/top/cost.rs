@@ -26,9 +26,8 @@ impl Cluster {
     }
 
     /// The set and another one, which adds nothing without flux.
-    pub fn and<S: Summary>(self, other: &S) -> Self {
-        let other = Self::new(other);
-        if other.phi > 0.0 { self.with(&other) } else { self }
+    pub fn and(self, other: &Self) -> Self {
+        if other.phi > 0.0 { self.with(other) } else { self }
     }
 
     /// Cost of the set by itself.

@@ -19,7 +19,7 @@ use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
 use crate::trail::{leaf, leaf_parts, place, place_parts};
 use crate::tree::{INVALID, Links, OPENED};
 
-pub(crate) use self::build::{are_mixed, may_open};
+pub(crate) use self::build::are_mixed;
 pub(crate) use self::cost::Cluster;
 
 /// The words of a leaf's [`Summary`], in the world.
@@ -211,14 +211,6 @@ impl<N> Top<N> {
             + size_of_val(&*self.limits)
             + size_of_val(&*self.parts)
             + opened
-    }
-
-    /// The merged summary of all its lights.
-    pub fn merged<const W: usize>(&self) -> N::Summary
-    where
-        N: Node<W>,
-    {
-        N::Summary::from_words(&self.shapes[self.root as usize].words)
     }
 
     /// Summary and limits of a leaf; empty if there is no such leaf.

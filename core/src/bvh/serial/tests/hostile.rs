@@ -21,7 +21,7 @@ fn small<M: Model<W, Light = EmissiveTriangle>, const W: usize>() -> Bvh<M, W> {
     for count in [64, 1, 5] {
         let mesh = bvh.add_mesh(lamps(random, count)).expect("lights");
         for _ in 0..2 {
-            ids.push(bvh.add_instance(mesh, placed(random, 50.0)).expect("a mesh"));
+            ids.push(bvh.add_instance(mesh, placed(random, 20.0)).expect("a mesh"));
         }
     }
     bvh.refit();
