@@ -39,9 +39,8 @@ pub struct BuildParams {
     /// Buckets per axis, 2 to 32; others are brought into that range. More find better splits and take longer.
     /// [`Heuristic::Ward`] takes half as many for ranges of fewer than 256 lights.
     pub buckets: u32,
-    /// Whether the top level may hold the subtrees of a mesh in place of the whole, for a record more of each: less variance where large
-    /// meshes lie within each other, and where spots share a mesh with other lights. Meshes of one kind that are small against the whole
-    /// stay as they are.
+    /// Whether the top level may hold up to `W` parts of a mesh in place of the whole, each of which takes a leaf and its edits: less variance
+    /// where meshes lie among each other, and where spots share a mesh with other lights. Other meshes stay as they are.
     pub opens: bool,
 }
 

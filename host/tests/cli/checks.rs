@@ -103,6 +103,30 @@ fn trade_measures_each_choice() {
     }
 }
 
+/// On no family has the default more variance than a peer, or much more in two levels than in one; where a mesh's lights lie anywhere, two
+/// levels have (docs/figures.md).
+#[test]
+fn variance_of_the_default_is_least() {
+    let rows = json("variance --json --points 24");
+    let rows = rows.as_array().expect("families");
+    assert_eq!(rows.len(), 12);
+    for row in rows {
+        let mean = |way: usize, levels: &str| row["ways"][way][levels]["mean"].as_f64().expect("lit points");
+        for levels in ["one", "two"] {
+            let peers = [2, 3, 4].map(|way| mean(way, levels));
+            let least = peers.into_iter().fold(f64::MAX, f64::min);
+            let is_known = row["family"] == "scattered" && levels == "two";
+            assert!(is_known || mean(0, levels).max(mean(1, levels)) <= least, "{row}");
+            assert!(is_known || mean(0, levels) <= 2.0 * mean(0, "one"), "{row}");
+        }
+    }
+    let one = json("variance --json --points 3 --family hall --seed 2");
+    assert_eq!(
+        (one.as_array().map(Vec::len), &one[0]["family"]),
+        (Some(1), &"hall".into())
+    );
+}
+
 #[test]
 fn bench_reports_every_case() {
     let report = json_on_cpu("bench --json --lights 2000 --queries 5000");
