@@ -3,14 +3,13 @@
 use crate::exact::{self, mask_of, masked_u32};
 use crate::unroll::each;
 
-/// Ranges of numbers are at most this long, 2^22: their sums are exact in `f32`.
+/// Ranges of numbers are at most this long, 2^22: a share plus [`COUNTS`] stays below 2^24.
 pub(crate) const FULL: u32 = 1 << 22;
 /// Bits of [`FULL`].
 pub(crate) const FULL_BITS: u32 = 22;
 
-/// Share of a range that is given out by weight, 1 − 2^-15. The sum of up to 16 weights, its reciprocal, the rounding of
-/// shares and the numbers that the least weights are raised to are together too large by less than the rest, which goes to
-/// the last child.
+/// Share of a range that is given out by weight, 1 − 2^-15. The rest exceeds the rounding of up to 16 weights, of their sum, its reciprocal
+/// and the shares, and all raised shares; the last child gets it.
 const GIVEN: f32 = 1.0 - exact::pow2(-15);
 
 /// From 2^23 on `f32` numbers are integers: adding it rounds to the nearest one.
@@ -45,7 +44,7 @@ pub(crate) fn choose<const W: usize>(
     let sum = (sums[0] + sums[2]) + (sums[1] + sums[3]);
     let alive = sum > 0.0;
     let scale = (range as i32 as f32 * GIVEN) * exact::recip(if alive { sum } else { 1.0 });
-    // Shares that end at or before this, of children before that, are passed. Integers that are signed compare faster.
+    // Skip children before `most` whose shares end at or before `at`. Signed integers compare faster.
     let (at, most) = if follow {
         (i32::MAX, wanted)
     } else {
@@ -62,7 +61,7 @@ pub(crate) fn choose<const W: usize>(
         first = masked_u32(passes, end as u32, first);
         slot += passes & 1;
     });
-    // The node below is known at once where the path is.
+    // A followed path knows its slot before the shares.
     let slot = if follow { wanted } else { slot };
     let all = if slot == last { range } else { upto };
     let some = alive & (upto > first) & (slot < W as u32);

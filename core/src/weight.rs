@@ -11,7 +11,7 @@ pub(crate) const SOFT: f32 = 0.031_622_78;
 const FLOOR: f32 = 1.0e-4;
 /// Variance of all three axes in squared breadths: 1 for a flat set, 1.5 for a round one.
 const FAR: f32 = 1.25;
-/// The variance in the denominator's second distance: less than in the first, which did better than equal ones.
+/// Squared breadths added to the squared distance in the denominator; less than [`FAR`] had less variance.
 const NEAR: f32 = 0.5;
 /// Squared distance of a flat set's farthest part from its centre, in squared breadths: 2 for a disc, 3 for a row.
 const NEAREST: f32 = 2.5;

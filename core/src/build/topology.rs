@@ -104,7 +104,7 @@ fn build_binary<N: Node<W>, const W: usize>(
     out
 }
 
-/// Primitives from which the children of the root are built in parallel.
+/// Least primitives for building the root's children in parallel.
 #[cfg(feature = "rayon")]
 const PARALLEL: usize = 4096;
 

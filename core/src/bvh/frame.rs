@@ -275,8 +275,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         }
         self.refit();
         if !self.single {
-            self.top.build(&self.params);
-            self.log_top();
+            self.build_top();
         }
     }
 

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Bvh;
-use super::top::{Batch, Part, are_mixed};
+use super::top::{Batch, Opened, Part, are_mixed};
 use crate::node::{Node, kind};
 use crate::refit::{self, Child, has_limits, leaf_child};
 use crate::summary::Summary;
@@ -24,26 +24,67 @@ const BEHIND: usize = 16;
 impl<M: Model<W>, const W: usize> Bvh<M, W> {
     /// Updates the top level by the edits and by the roots of meshes.
     pub(super) fn refit_top(&mut self) {
-        if !self.stale.is_empty() {
-            let batch = Arc::new(self.take_batch());
-            if self.outbox.rebuilder > 0 {
-                self.outbox.len += batch.instances.len();
-                self.outbox.batches.push(batch.clone());
-                // If the rebuilder takes no more batches, drop them all.
-                if self.outbox.len > BEHIND * self.instances.len() + (1 << 14) {
-                    self.outbox.first += self.outbox.batches.len() as u64;
-                    self.outbox.batches.clear();
-                    (self.outbox.len, self.outbox.rebuilder) = (0, 0);
-                }
-            }
-            self.unapplied.push(batch);
-        }
+        self.send_changes();
         if self.single {
             self.unapplied.clear();
         } else if !self.unapplied.is_empty() || !self.top.lost.is_empty() {
             self.top.edit(&core::mem::take(&mut self.unapplied), &self.params);
+            self.build_wanted();
         }
         self.log_top();
+    }
+
+    /// Builds the top level within the call.
+    pub(super) fn build_top(&mut self) {
+        self.top.build(&self.params);
+        self.build_wanted();
+        self.log_top();
+    }
+
+    /// Builds the top level again if the last build lacked parts of instances.
+    fn build_wanted(&mut self) {
+        if self.mark_wanted() {
+            self.send_changes();
+            let batches = core::mem::take(&mut self.unapplied);
+            batches.iter().for_each(|batch| self.top.set(batch));
+            self.top.build(&self.params);
+        }
+    }
+
+    /// Marks the instances whose parts the last build lacked, to have them in the next batch. Returns whether there are any.
+    pub(super) fn mark_wanted(&mut self) -> bool {
+        let mut found = false;
+        for index in core::mem::take(&mut self.top.wanted) {
+            if self.placed[index as usize].live && self.part_count(index) > 1 {
+                let pending = Opened {
+                    first: INVALID,
+                    parts: Vec::new(),
+                };
+                self.top.opened.insert(index, pending);
+                self.mark_stale(index);
+                found = true;
+            }
+        }
+        found
+    }
+
+    /// Makes a batch of the marked instances, for this top level and for that of a rebuilder.
+    fn send_changes(&mut self) {
+        if self.stale.is_empty() {
+            return;
+        }
+        let batch = Arc::new(self.take_batch());
+        if self.outbox.rebuilder > 0 {
+            self.outbox.len += batch.instances.len();
+            self.outbox.batches.push(batch.clone());
+            // If the rebuilder takes no more batches, drop them all.
+            if self.outbox.len > BEHIND * self.instances.len() + (1 << 14) {
+                self.outbox.first += self.outbox.batches.len() as u64;
+                self.outbox.batches.clear();
+                (self.outbox.len, self.outbox.rebuilder) = (0, 0);
+            }
+        }
+        self.unapplied.push(batch);
     }
 
     pub(super) fn refit_paths(&mut self, mesh: u32, lights: &Range<u32>) {
@@ -86,12 +127,9 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         }
         if self.params.opens {
             for (&index, words) in instances.iter().zip(&batch.leaves) {
-                if let Some(words) = words {
-                    let summary = <SummaryOf<M, W>>::from_words(words);
-                    if self.top.may_open(index, &summary) || self.is_mixed(index) {
-                        let parts = self.parts_of(index);
-                        batch.parts.extend((parts.len() > 1).then_some((index, parts)));
-                    }
+                if words.is_some() && (self.top.opened.contains_key(&index) || self.is_mixed(index)) {
+                    let parts = self.parts_of(index);
+                    batch.parts.extend((parts.len() > 1).then_some((index, parts)));
                 }
             }
         }
@@ -99,7 +137,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         batch
     }
 
-    /// The number of subtrees into which an instance may be opened: the children of its mesh's root if they are in slots without
+    /// The number of parts that an instance may be opened into: the children of its mesh's root if they are in slots without
     /// gaps; else 0.
     fn part_count(&self, index: u32) -> usize {
         let Some(root) = self.nodes.get(self.instances[index as usize].root as usize) else {
@@ -112,7 +150,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         }
     }
 
-    /// Whether a beam holds the light of some of these subtrees, and none that of others.
+    /// Whether a beam holds the light of some parts, and none that of others.
     fn is_mixed(&self, index: u32) -> bool {
         if !<M::Node as Node<W>>::HAS_BEAMS || self.part_count(index) < 2 {
             return false;
@@ -122,7 +160,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         are_mixed(beams[..self.part_count(index)].iter())
     }
 
-    /// The subtrees into which an instance may be opened.
+    /// The parts that an instance may be opened into.
     pub(super) fn parts_of(&self, index: u32) -> Vec<Part> {
         let links = (1..=self.part_count(index) as u32).map(|part| self.leaf_of(leaf(index, part)));
         links
@@ -130,7 +168,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             .collect()
     }
 
-    /// Removes opened instances from the top level if their meshes now have another number of subtrees, which their links do not
+    /// Removes opened instances from the top level if their meshes now have another number of parts, which their links do not
     /// fit. The next edit inserts them again.
     #[cfg(feature = "std")]
     pub(crate) fn take_out_changed(&mut self) {

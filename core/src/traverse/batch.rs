@@ -1,6 +1,6 @@
 //! Several walks at once: for a point each, or for one point.
 
-use super::sample::{SampledLight, Started, begin};
+use super::sample::{SampledLight, Started, begin, sample};
 use super::walk::leading;
 use crate::choose::{Share, choose};
 use crate::importance::ImportanceModel;
@@ -9,7 +9,7 @@ use crate::point::Receiver;
 use crate::random::Random64;
 use crate::tree::LightTree;
 
-/// Walks that go down together: registers hold as many numbers, and all their states lie in the first cache.
+/// Walks in a batch: one for each lane of a register; their states fit the first-level cache.
 const TOGETHER: usize = 8;
 /// The same of one point: the more, the more nodes are shared.
 const OF_POINT: usize = 32;
@@ -44,6 +44,7 @@ pub(super) fn sample_spaced<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver
     for out in sampled.chunks_mut(OF_POINT) {
         let query = |k: usize| (point, random.spaced(first.wrapping_add(k as u32), count));
         match out {
+            [one] => *one = sample(tree, point, query(0).1),
             few if few.len() <= TOGETHER => together::<N, I, P, _, W, TOGETHER, true>(tree, query, few),
             _ => together::<N, I, P, _, W, OF_POINT, true>(tree, query, out),
         }
@@ -55,7 +56,7 @@ pub(super) fn sample_spaced<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver
 /// phase: a processor overlaps the walks within each, chooses for all at once, and fetches their next nodes meanwhile. With
 /// `SHARES` all points are one, and neighbours at one node evaluate it once.
 #[inline(always)]
-pub(super) fn together<
+fn together<
     'q,
     N: Node<W>,
     I: ImportanceModel<N, W, P>,
@@ -73,7 +74,7 @@ pub(super) fn together<
     if count == 0 {
         return;
     }
-    // In ascending order, from the first number on that has passed 1: those that share nodes are neighbours then.
+    // Start at the first number that wrapped past 1: in ascending order, walks at one node are neighbours.
     let passed = |k: &usize| SHARES && query(*k).1.high < query(0).1.high;
     let least = (1..count).find(passed).unwrap_or(0);
     let query = |k: usize| {

@@ -21,25 +21,7 @@ use crate::node::Node;
 use crate::point::Receiver;
 use crate::random::Random64;
 use crate::tree::LightTree;
-
-/// A walk with the machine's widest registers.
-#[cfg(feature = "std")]
-macro_rules! dispatched {
-    ($walk:expr) => {
-        crate::widest::widest(
-            #[inline(always)]
-            || $walk,
-        )
-    };
-}
-
-/// A walk as it is.
-#[cfg(not(feature = "std"))]
-macro_rules! dispatched {
-    ($walk:expr) => {
-        $walk
-    };
-}
+use crate::widest::widest;
 
 impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
     /// Chooses one light for `point` by `random` (paper section 3.6), after at most as many steps as the tree is deep. `point` is
@@ -55,7 +37,10 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
         I: ImportanceModel<N, W, P>,
     {
         let random = random.into();
-        dispatched!(sample::sample(self, point, random))
+        widest(
+            #[inline(always)]
+            || sample::sample(self, point, random),
+        )
     }
 
     /// Chooses a light for each point by its random number, to the same words as [`sample`](Self::sample) one at a time, but
@@ -66,12 +51,14 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
     where
         I: ImportanceModel<N, W, P>,
     {
-        dispatched!(batch::sample_batch(self, points, randoms, sampled));
+        widest(
+            #[inline(always)]
+            || batch::sample_batch(self, points, randoms, sampled),
+        );
     }
 
-    /// Chooses `COUNT` lights for `point`, 1 to 256, by numbers at equal distances: light `k` is that of
-    /// [`sample`](Self::sample) by [`random.spaced(k, COUNT)`](Random64::spaced), with that pmf. Nodes that they share are
-    /// evaluated once.
+    /// Chooses `COUNT` lights for `point` by numbers at equal distances: light `k` is that of [`sample`](Self::sample) by
+    /// [`random.spaced(k, COUNT)`](Random64::spaced), with that pmf. Each 32 evaluate nodes that they share once.
     ///
     /// The expectation of the mean of f / pmf over them is the sum of f over all lights, as of independent samples; its variance
     /// is smaller as a rule, for the numbers are in the order of lights. At most `COUNT` nodes are evaluated on each level.
@@ -85,22 +72,14 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
     where
         I: ImportanceModel<N, W, P>,
     {
-        // All walks are on the stack.
-        const { assert!(COUNT > 0 && COUNT <= 256, "1 to 256") };
-        let random = random.into();
         let mut sampled = [SampledLight::NONE; COUNT];
-        let query = |k: usize| (point, random.spaced(k as u32, COUNT as u32));
-        dispatched!(batch::together::<N, I, P, _, W, COUNT, true>(
-            self,
-            query,
-            &mut sampled
-        ));
+        self.sample_spaced(point, random, 0, COUNT as u32, &mut sampled);
         sampled
     }
 
     /// Chooses a light for each place of `sampled`: place `k` is that of [`sample`](Self::sample) by
-    /// [`random.spaced(first + k, count)`](Random64::spaced), with that pmf. As [`sample_many`](Self::sample_many), where the number of
-    /// lights is known at run time alone; each 32 share their nodes.
+    /// [`random.spaced(first + k, count)`](Random64::spaced), with that pmf. [`sample_many`](Self::sample_many) for a
+    /// count known at run time.
     #[inline(always)]
     pub fn sample_spaced<P: Receiver>(
         &self,
@@ -113,7 +92,10 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
         I: ImportanceModel<N, W, P>,
     {
         let random = random.into();
-        dispatched!(batch::sample_spaced(self, point, random, first, count, sampled));
+        widest(
+            #[inline(always)]
+            || batch::sample_spaced(self, point, random, first, count, sampled),
+        );
     }
 
     /// The probability with which [`sample`](Self::sample) returns light `light` of instance `instance`
@@ -124,6 +106,9 @@ impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
     where
         I: ImportanceModel<N, W, P>,
     {
-        dispatched!(sample::pmf(self, point, light, instance))
+        widest(
+            #[inline(always)]
+            || sample::pmf(self, point, light, instance),
+        )
     }
 }

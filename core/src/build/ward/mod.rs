@@ -43,7 +43,7 @@ pub(crate) fn build_ward<N: Node<W>, const W: usize>(
     let mut room: Vec<WardPrimitive> = primitives.to_vec();
     let extent = Extent::of(primitives);
     let growth = Growth::new::<W>(count, params);
-    let range = Range::new(primitives, &mut room, extent, growth.most_whole, params);
+    let range = Range::new(primitives, &mut room, &extent, growth.most_whole, params);
     // Nodes are seldom filled by less than five eighths.
     let mut topology = Topology {
         nodes: Vec::with_capacity(2 * count / W + 1),

@@ -2,8 +2,6 @@
 
 use core::cmp::Ordering;
 
-#[cfg(feature = "rayon")]
-use super::CHUNK;
 use super::bins::{Measure, Plane};
 use super::frame::Extent;
 use super::primitive::WardPrimitive;
@@ -27,12 +25,12 @@ impl<'a> Range<'a> {
     pub fn new(
         here: &'a mut [WardPrimitive],
         there: &'a mut [WardPrimitive],
-        extent: Extent,
+        extent: &Extent,
         most_whole: usize,
         params: &BuildParams,
     ) -> Self {
         let measure = if here.len() > most_whole {
-            Measure::of(here, &extent, params)
+            Measure::of(here, extent, params)
         } else {
             Measure::default()
         };
@@ -74,18 +72,13 @@ impl<'a> Range<'a> {
                 }
             }
         }
-        #[cfg(feature = "rayon")]
-        let is_large = here.len() > CHUNK;
         let (left, right) = here.split_at_mut(at);
         let (left_room, right_room) = there.split_at_mut(at);
         let [l, r] = extents.unwrap_or_else(|| [Extent::of(left), Extent::of(right)]);
-        let new = |(own, room, extent)| Self::new(own, room, extent, most_whole, params);
-        let (left, right) = ((left, left_room, l), (right, right_room, r));
-        #[cfg(feature = "rayon")]
-        if is_large {
-            return rayon::join(move || new(left), move || new(right)).into();
-        }
-        [new(left), new(right)]
+        [
+            Self::new(left, left_room, &l, most_whole, params),
+            Self::new(right, right_room, &r, most_whole, params),
+        ]
     }
 
     /// The range as one per primitive.

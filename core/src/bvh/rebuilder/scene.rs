@@ -59,5 +59,6 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         }
         self.unapplied = batches;
         self.take_out_changed();
+        self.mark_wanted();
     }
 }

@@ -117,6 +117,12 @@ impl<N: Holds> Worker<N> {
         let thread = thread::Builder::new()
             .name(String::from("lightbvh-rebuild"))
             .spawn(move || {
+                // Frames keep the other threads: what is parallel in a build runs in a pool of this one.
+                #[cfg(feature = "rayon")]
+                let _pool = rayon::ThreadPoolBuilder::new()
+                    .num_threads(1)
+                    .use_current_thread()
+                    .build();
                 while let Some(task) = own.next() {
                     task.run(build::<N, W>);
                 }

@@ -1,8 +1,7 @@
 //! The whole top level, built from its leaves.
 //!
-//! Only whole builds open instances (partial re-braiding, Benthin et al. 2017), edits never do. An instance is opened if its parts
-//! lie among other leaves: by the variance of their positions ([`OPENS`]). So is one of which a beam holds
-//! the light of some parts and not of others: no beam holds that of the whole.
+//! Only whole builds open instances (partial re-braiding, Benthin et al. 2017), edits never do. They open those whose parts lie among
+//! other leaves ([`OPENS`]), and those of which a beam holds the light of some parts and not of others: no beam holds that of the whole.
 
 use alloc::vec::Vec;
 
@@ -14,12 +13,12 @@ use crate::summary::Summary;
 use crate::trail::{leaf, place_parts};
 use crate::tree::{INVALID, OPENED};
 
-/// An instance is opened if the variance of position between its parts, times this and the width of nodes, is more than that in the node
-/// that it would be in. Families of scenes by `lightbvh variance`: at 4 parked cars of 16-wide nodes have 13 times the variance of one level, at
-/// 8 no more than it; panels in ceilings, which gain nothing, stay closed.
+/// An instance is opened if this · `W` · variance of position between its parts is more than the variance in its node of the tree in
+/// which all are closed. Less leaves parked cars closed, which have 13 times the variance then (`lightbvh variance`).
 const OPENS: f64 = 8.0;
-/// The same for an instance that the next build may open.
-const MAY_OPEN: f64 = 4.0 * OPENS;
+
+/// At most as many are opened for that, those of most overlap: each takes up to `W` leaves.
+const MOST: usize = 8192;
 
 /// In a build every leaf counts for at least this part of the mean flux, so a lamp of zero flux stays among its neighbours.
 const FLOOR: f64 = 1.0 / 1024.0;
@@ -35,9 +34,8 @@ impl Opened {
     /// The variance of position between the parts, m².
     fn between<S: Summary>(&self) -> f64 {
         let parts = || {
-            self.parts
-                .iter()
-                .map(|(words, _)| Cluster::new(&S::from_words(words)))
+            let summaries = self.parts.iter().map(|(words, _)| S::from_words(words));
+            summaries.map(|part| Cluster::new(&part))
         };
         let all = parts().fold(Cluster::default(), |all, part| all.and(&part));
         let within: f64 = parts().map(|part| part.cost()).sum();
@@ -50,22 +48,6 @@ impl Opened {
 }
 
 impl<N> Top<N> {
-    /// Whether the next build may open an instance: one that is new, or whose summary `own` nearly varies enough in its node.
-    pub fn may_open<const W: usize>(&self, instance: u32, own: &N::Summary) -> bool
-    where
-        N: Node<W>,
-    {
-        match self.places.get(instance as usize) {
-            None | Some(&INVALID) => true,
-            Some(at) if at & OPENED != 0 => true,
-            Some(&at) => {
-                let shape = &self.shapes[place_parts::<W>(at).0 as usize];
-                f64::from(own.spread()) * MAY_OPEN * W as f64
-                    > f64::from(N::Summary::from_words(&shape.words).spread())
-            }
-        }
-    }
-
     /// Builds the whole top level: links, then every node.
     pub fn build<const W: usize>(&mut self, params: &BuildParams)
     where
@@ -75,30 +57,20 @@ impl<N> Top<N> {
             .zip(&self.leaves)
             .filter_map(|(instance, words)| words.as_ref().map(|_| instance));
         let there: Vec<u32> = there.collect();
-        let leaf = |&own: &u32| self.leaf(own).summary;
-        let flux: f64 = there.iter().map(|own| f64::from(leaf(own).phi())).sum();
-        let floor = match flux > 0.0 {
-            true => (flux / there.len() as f64 * FLOOR) as f32,
-            false => 1.0,
-        };
         self.parts.clear();
         self.opened.values_mut().for_each(|own| own.first = INVALID);
-        let mut nodes = self.topology::<W>(&there, floor, params);
-        if params.opens && !self.opened.is_empty() && self.open(&nodes) {
-            nodes = self.topology::<W>(&there, floor, params);
+        self.build_over(&there, params);
+        if params.opens && there.len() > 1 && self.open(&there) {
+            self.build_over(&there, params);
         }
-        self.replace::<W>(nodes);
-        (0..self.nodes.len() as u32)
-            .rev()
-            .for_each(|node| self.refit_node(node));
         self.written = Written {
             is_whole: true,
             ..Written::default()
         };
     }
 
-    /// The nodes over the links of instances, still to be computed.
-    fn topology<const W: usize>(&self, instances: &[u32], floor: f32, params: &BuildParams) -> Vec<N>
+    /// Builds over instances, opened as they are.
+    fn build_over<const W: usize>(&mut self, instances: &[u32], params: &BuildParams)
     where
         N: Node<W>,
     {
@@ -106,50 +78,65 @@ impl<N> Top<N> {
             .iter()
             .flat_map(|&own| self.links_of(own).map(move |part| leaf(own, part)));
         let leaves: Vec<_> = links.map(|link| (link, self.leaf(link).summary)).collect();
-        if leaves.is_empty() {
-            return alloc::vec![N::EMPTY];
-        }
+        let flux: f64 = leaves.iter().map(|(_, own)| f64::from(own.phi())).sum();
+        let floor = match flux > 0.0 {
+            true => (flux / instances.len() as f64 * FLOOR) as f32,
+            false => 1.0,
+        };
         // If meshes may be opened, leaves are few and large: a split plane a little off costs more than in bottom levels.
         let buckets = if params.opens { 2 } else { 1 };
         let params = BuildParams {
             buckets: params.buckets.saturating_mul(buckets),
             ..*params
         };
-        build_top::<N, W>(leaves.into_iter(), floor, &params).nodes
+        let nodes = match leaves[..] {
+            [] => alloc::vec![N::EMPTY],
+            _ => build_top::<N, W>(leaves.into_iter(), floor, &params).nodes,
+        };
+        self.replace::<W>(nodes);
+        (0..self.nodes.len() as u32)
+            .rev()
+            .for_each(|node| self.refit_node(node));
     }
 
-    /// Opens instances by the nodes, in depth-first order, of a tree in which all are closed; forgets the parts of those that are far
-    /// from that. Returns whether any is open.
-    fn open<const W: usize>(&mut self, nodes: &[N]) -> bool
+    /// Opens instances by the tree in which all are closed, and lists those whose parts it would have to know. Returns whether any is
+    /// open.
+    fn open<const W: usize>(&mut self, instances: &[u32]) -> bool
     where
         N: Node<W>,
     {
-        let mut opened = core::mem::take(&mut self.opened);
-        let mut clusters = alloc::vec![Cluster::default(); nodes.len()];
-        for (index, node) in nodes.iter().enumerate().rev() {
-            let of_child = |all: Cluster, slot: usize| match node.kind(slot) {
-                kind::INNER => all.and(&clusters[node.link(slot) as usize]),
-                kind::MESH => all.and(&Cluster::new(&self.leaf(node.link(slot)).summary)),
-                _ => all,
-            };
-            let all = (0..W).fold(Cluster::default(), of_child);
-            clusters[index] = all;
-            for slot in (0..W).filter(|&slot| node.kind(slot) == kind::MESH) {
-                let Some(own) = opened.get_mut(&node.link(slot)) else {
-                    continue;
-                };
-                let between = own.between::<N::Summary>();
-                let are_mixed = are_mixed(own.parts.iter().map(|(_, limits)| &limits.beam));
-                if are_mixed || between * OPENS * W as f64 > all.spread {
-                    own.first = self.parts.len() as u32;
-                    self.parts.resize(self.parts.len() + W, INVALID);
-                } else if between * MAY_OPEN * (W as f64) < all.spread {
-                    own.parts.clear();
+        let (mut chosen, mut mixed) = (Vec::new(), Vec::new());
+        self.wanted.clear();
+        for &instance in instances {
+            let (node, _) = place_parts::<W>(self.places[instance as usize]);
+            let around = self.shapes[node as usize].cluster.spread / (OPENS * W as f64);
+            let overlaps = f64::from(self.leaf(leaf(instance, 0)).summary.spread()) > around;
+            match self.opened.get(&instance) {
+                None if overlaps => self.wanted.push(instance),
+                None => {}
+                Some(own) if are_mixed(own.parts.iter().map(|(_, limits)| &limits.beam)) => {
+                    mixed.push(instance)
                 }
+                Some(own) if overlaps => {
+                    let between = own.between::<N::Summary>();
+                    if between > around {
+                        chosen.push((around / between, instance));
+                    }
+                }
+                Some(_) => _ = self.opened.remove(&instance),
             }
         }
-        opened.retain(|_, own| !own.parts.is_empty());
-        self.opened = opened;
+        chosen.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        chosen.truncate(MOST);
+        for instance in mixed
+            .into_iter()
+            .chain(chosen.into_iter().map(|(_, instance)| instance))
+        {
+            if let Some(own) = self.opened.get_mut(&instance) {
+                own.first = self.parts.len() as u32;
+                self.parts.resize(self.parts.len() + W, INVALID);
+            }
+        }
         !self.parts.is_empty()
     }
 

@@ -49,7 +49,8 @@ impl<N> Top<N> {
                 }
             }
         }
-        if (entering.len() + leaving.len() + self.lost.len()) * WHOLE > self.count as usize {
+        let all = self.count as usize + self.parts.len();
+        if (entering.len() + leaving.len() + self.lost.len()) * WHOLE > all {
             return self.build(params);
         }
         leaving.iter().for_each(|&link| self.detach(link));
@@ -62,7 +63,7 @@ impl<N> Top<N> {
         }
         let mut drifted = self.refit_above(nodes);
         drifted.retain(|&node| self.has_drifted(node));
-        if drifted.len() * WHOLE > self.count as usize {
+        if drifted.len() * WHOLE > all {
             return self.build(params);
         }
         // The highest first: a subtree moves with those below it.

@@ -34,14 +34,14 @@ pub(crate) struct Batch {
     pub leaves: Vec<Option<Words>>,
     /// Empty if the layout stores none.
     pub limits: Vec<Limits>,
-    /// The subtrees of instances that may be opened, in the order of `instances`.
+    /// The parts of instances that may be opened, in the order of `instances`.
     pub parts: Vec<(u32, Vec<Part>)>,
 }
 
-/// A subtree below the root of an instance's mesh.
+/// A child of the root of an instance's mesh.
 pub(crate) type Part = (Words, Limits);
 
-/// An instance that may be opened: the subtrees of its mesh's root are leaves then, in its place.
+/// An instance that may be opened: the children of its mesh's root, subtrees or lights, are leaves then in its place.
 #[derive(Clone, Debug)]
 pub(crate) struct Opened {
     /// Start of their places in `parts`; [`INVALID`] while it is closed.
@@ -99,6 +99,8 @@ pub(crate) struct Top<N> {
     pub opened: BTreeMap<u32, Opened>,
     /// See [`Links::parts`].
     pub parts: Vec<u32>,
+    /// Instances that the last build would have looked into, had it known their parts.
+    pub wanted: Vec<u32>,
     /// Nodes that lost a child since the last edit.
     pub lost: Vec<u32>,
     pub written: Written,
@@ -118,6 +120,7 @@ impl<N> Default for Top<N> {
             count: 0,
             opened: BTreeMap::new(),
             parts: Vec::new(),
+            wanted: Vec::new(),
             lost: Vec::new(),
             written: Written::default(),
         }
@@ -292,10 +295,9 @@ impl<N> Top<N> {
                 }
                 summary
             } else {
-                if has_limits::<N, W>() {
-                    limits[slot] = self.leaf(link).limits;
-                }
-                self.leaf(link).summary
+                let leaf = self.leaf(link);
+                limits[slot] = leaf.limits;
+                leaf.summary
             };
             lanes.set(slot, &child);
             let center = self.center_of(to, link);
