@@ -166,20 +166,20 @@ fn compact_nodes() {
     bvh::<CompactNode<16>, Defensive<Eq4, 5>, 16>([
         0xa950_a6d5_65e4_b812,
         0x1984_eb8e_b84a_4eec,
-        0x03ff_c6f9_7f8e_4208,
+        0xb89a_4164_7e8f_77b3,
     ]);
 }
 
 #[test]
 fn moment_nodes() {
     bvh::<MomentNode<4>, Moments, 4>([
-        0xbd17_afcf_9d3b_ea08,
-        0x76f4_a011_687f_89d7,
-        0x5388_bf28_61c7_8623,
+        0x431d_cacd_3174_20c0,
+        0xcd49_acaa_873f_9cdd,
+        0x1448_b4d7_c7ee_b224,
     ]);
     bvh::<MomentNode<8>, Defensive<Moments, 6>, 8>([
-        0xb431_557f_274a_a622,
-        0xdb6a_51a9_7a06_cee2,
-        0xb2ef_8f26_74a6_eaab,
+        0x4e63_5197_28c9_54ec,
+        0x960a_0c68_f616_d477,
+        0xa462_a9aa_3687_6688,
     ]);
 }
