@@ -6,6 +6,7 @@ use core::cell::Cell;
 use core::marker::PhantomData;
 
 use super::*;
+use crate::choose::{FULL, choose};
 use crate::importance::{Defensive, ImportanceModel, Space};
 use crate::instance::Instance;
 use crate::node::{MomentNode, kind};
@@ -188,6 +189,17 @@ fn candidates_are_samples_of_their_numbers() {
             [tree.sample(&POINT, random)]
         );
     }
+    let random = Random64::from(7u32);
+    let mut spaced = [SampledLight::NONE; 70];
+    tree.sample_spaced(&POINT, random, 5, 90, &mut spaced);
+    for (k, found) in (5..).zip(spaced) {
+        assert_eq!(found, tree.sample(&POINT, random.spaced(k, 90)), "{k}");
+    }
+    // As many as the shortest of the lists.
+    let mut sampled = [SampledLight::NONE; 20];
+    tree.sample_batch(&[POINT; 9], &[random; 3], &mut sampled);
+    assert_eq!(sampled[..3], [tree.sample(&POINT, random); 3]);
+    assert_eq!(sampled[3..], [SampledLight::NONE; 17]);
     // Hostile words: weights of any sign, a ring.
     let nodes = [node(&[
         light(1.0, 0),
@@ -211,6 +223,28 @@ fn candidates_are_samples_of_their_numbers() {
                 (expected.light, expected.pmf.to_bits())
             );
         }
+    }
+}
+
+/// Shares are in proportion to weights, but for 2^-15 of the range, and end with it.
+#[test]
+fn shares_are_in_proportion() {
+    let random = &mut crate::kit::Random(11);
+    for round in 0..2000u32 {
+        // Equal ones round up together.
+        let weights: [f32; 16] =
+            core::array::from_fn(|_| if round % 2 == 0 { 3.0 } else { random.unit() + 1e-3 });
+        let range = FULL / 2 + 1 + random.below(FULL / 2);
+        let sum: f32 = weights.iter().sum();
+        let mut first = 0;
+        for slot in 0..16 {
+            let share = choose::<16>(|k| weights[k], range, 0, true, slot as u32);
+            let wanted = weights[slot] / sum * range as f32;
+            assert!((share.count as f32 - wanted).abs() < 160.0, "{slot} of {round}");
+            assert_eq!(share.first, first, "{slot} of {round}");
+            first += share.count;
+        }
+        assert_eq!(first, range, "{round}");
     }
 }
 

@@ -17,8 +17,8 @@ use crate::tree::{INVALID, OPENED};
 /// which all are closed. Less leaves parked cars closed, which have 13 times the variance then (`lightbvh variance`).
 const OPENS: f64 = 8.0;
 
-/// At most as many are opened for that, those of most overlap: each takes up to `W` leaves.
-const MOST: usize = 8192;
+/// At most as many are opened for that, those of most overlap: each takes up to `W` leaves, and as many edits when it moves.
+const MOST: usize = 1024;
 
 /// In a build every leaf counts for at least this part of the mean flux, so a lamp of zero flux stays among its neighbours.
 const FLOOR: f64 = 1.0 / 1024.0;

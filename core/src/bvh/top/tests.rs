@@ -14,7 +14,7 @@ use crate::kit::scenes::{lamps, moved, scattered, sound, with_one_far};
 use crate::kit::{Random, triangle};
 use crate::node::{CompactNode, MomentNode};
 use crate::trail::max_levels;
-use crate::{InstanceId, LightBvh, ShadingPoint, Transform};
+use crate::{InstanceId, LightBvh, Random64, ShadingPoint, Transform};
 
 /// Small lamps at places.
 fn small<M: Model<W, Light = EmissiveTriangle>, const W: usize>(
@@ -241,4 +241,36 @@ fn whole_builds_alone_open_instances() {
         let sampled = tree.sample(&point, number << 26);
         assert_eq!(sampled.pmf, tree.pmf(&point, sampled.light, sampled.instance));
     }
+
+    // Walks for one point are in one node of one mesh, by several instances.
+    let (mut bvh, _): (LightBvh, _) = scattered(lamps(random, 200), 20, |k| [0.1 * k as f32, 0.0, 0.0]);
+    bvh.rebuild();
+    for seed in 0..50u32 {
+        let number = Random64::from(seed << 26);
+        for (k, found) in (0..).zip(bvh.tree().sample_many::<_, 32>(&point, number)) {
+            assert_eq!(
+                found,
+                bvh.tree().sample(&point, number.spaced(k, 32)),
+                "{k} of {seed}"
+            );
+        }
+    }
+}
+
+/// Two meshes of lights at both ends: opened where they are as near to each other as long, closed where they are far apart.
+#[test]
+fn instances_are_opened_for_overlap() {
+    let lamp = |x: f32| triangle([[x, 0.0, 0.0], [x + 0.1, 0.0, 0.0], [x, 0.1, 0.0]]);
+    for (away, parts) in [(1.0, 2), (6.0, 2), (20.0, 1), (1e4, 1)] {
+        let place = |k: u32| [0.0, away * k as f32, 0.0];
+        let (mut bvh, ids): (LightBvh, _) = scattered(std::vec![lamp(-1.0), lamp(1.0)], 2, place);
+        // 1 between the parts, away² / 4 between the two, and 64 times the former.
+        assert_eq!(bvh.top.links_of(ids[0].index()).len(), parts, "{away}");
+        bvh.rebuild();
+        assert_eq!(bvh.top.links_of(ids[0].index()).len(), parts, "{away}");
+    }
+    // Large lamps at one place: as wide, with nothing between.
+    let wide = triangle([[-2.0, -1.0, 0.0], [2.0, -1.0, 0.0], [0.0, 2.0, 0.0]]);
+    let (bvh, ids): (LightBvh, _) = scattered(std::vec![wide; 3], 2, |k| [0.0, k as f32, 0.0]);
+    assert_eq!(bvh.top.links_of(ids[0].index()), 0..1);
 }
