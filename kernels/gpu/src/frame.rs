@@ -231,7 +231,7 @@ impl Mirror {
         // A part is a child of the mesh's root.
         let parts = opened.map(|(own, place)| {
             let (root, first) = (&view.nodes()[own.root as usize], place - OPENED);
-            first..first + (0..W).filter(|&slot| root.kind(slot) == kind::INNER).count() as u32
+            first..first + (0..W).filter(|&slot| root.kind(slot) != kind::EMPTY).count() as u32
         });
         let used: [Vec<Range<u32>>; LIST] = [
             ones(all.bottom.nodes()),

@@ -17,7 +17,7 @@ use crate::tree::{INVALID, OPENED};
 /// which all are closed. Less leaves parked cars closed, which have 13 times the variance then (`lightbvh variance`).
 const OPENS: f64 = 8.0;
 
-/// At most as many are opened for that, those of most overlap: each takes up to `W` leaves, and as many edits when it moves.
+/// At most as many are opened for that, among those of most overlap: each takes up to `W` leaves, and as many edits when it moves.
 const MOST: usize = 1024;
 
 /// In a build every leaf counts for at least this part of the mean flux, so a lamp of zero flux stays among its neighbours.
@@ -105,39 +105,43 @@ impl<N> Top<N> {
     where
         N: Node<W>,
     {
-        let (mut chosen, mut mixed) = (Vec::new(), Vec::new());
-        self.wanted.clear();
-        for &instance in instances {
+        // By overlap, the most first: the ratio, the instance, and what its parts must exceed.
+        let overlap = |&instance: &u32| {
             let (node, _) = place_parts::<W>(self.places[instance as usize]);
             let around = self.shapes[node as usize].cluster.spread / (OPENS * W as f64);
-            let overlaps = f64::from(self.leaf(leaf(instance, 0)).summary.spread()) > around;
-            match self.opened.get(&instance) {
-                None if overlaps => self.wanted.push(instance),
-                None => {}
-                Some(own) if are_mixed(own.parts.iter().map(|(_, limits)| &limits.beam)) => {
-                    mixed.push(instance)
-                }
-                Some(own) if overlaps => {
-                    let between = own.between::<N::Summary>();
-                    if between > around {
-                        chosen.push((around / between, instance));
-                    }
-                }
-                Some(_) => _ = self.opened.remove(&instance),
-            }
-        }
+            let own = f64::from(self.leaf(leaf(instance, 0)).summary.spread());
+            (own > around).then(|| (around / own, instance, around))
+        };
+        let mut chosen: Vec<_> = instances.iter().filter_map(overlap).collect();
         chosen.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         chosen.truncate(MOST);
-        for instance in mixed
-            .into_iter()
-            .chain(chosen.into_iter().map(|(_, instance)| instance))
-        {
-            if let Some(own) = self.opened.get_mut(&instance) {
-                own.first = self.parts.len() as u32;
-                self.parts.resize(self.parts.len() + W, INVALID);
+        let mut opened = core::mem::take(&mut self.opened);
+        self.wanted.clear();
+        for (_, instance, around) in chosen {
+            match opened.remove(&instance) {
+                None => self.wanted.push(instance),
+                Some(own) => {
+                    let opens = own.between::<N::Summary>() > around;
+                    self.put_parts::<W>(instance, own, opens);
+                }
+            }
+        }
+        for (instance, own) in opened {
+            if are_mixed(own.parts.iter().map(|(_, limits)| &limits.beam)) {
+                self.put_parts::<W>(instance, own, true);
             }
         }
         !self.parts.is_empty()
+    }
+
+    /// Keeps the parts of an instance, which is opened if it `opens` or is mixed.
+    fn put_parts<const W: usize>(&mut self, instance: u32, own: Opened, opens: bool) {
+        let mut own = own;
+        if opens || are_mixed(own.parts.iter().map(|(_, limits)| &limits.beam)) {
+            own.first = self.parts.len() as u32;
+            self.parts.resize(self.parts.len() + W, INVALID);
+        }
+        self.opened.insert(instance, own);
     }
 
     /// Replaces the nodes, by nodes in depth-first order, the root first. They are still to be computed.

@@ -38,7 +38,9 @@ pub(super) struct Scene {
 impl Scene {
     /// The scene of a family, with this many points.
     pub fn new((name, add): Family, seed: u32, points: u32) -> Self {
-        let of_name = name.bytes().fold(seed, |sum, byte| sum * 31 + u32::from(byte));
+        let of_name = name.bytes().fold(seed, |sum, byte| {
+            sum.wrapping_mul(31).wrapping_add(u32::from(byte))
+        });
         let mut stage = Stage {
             random: Random::new(of_name),
             lights: Vec::new(),
