@@ -134,5 +134,5 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
 #[test]
 fn scenes() {
     scene::<CompactNode<4>, Eq4, 4>(0x691b_a981_933f_7586);
-    scene::<MomentNode<8>, Moments, 8>(0xbe5d_1d22_058c_d79d);
+    scene::<MomentNode<8>, Moments, 8>(0xca93_fa1d_1ba7_9cc3);
 }
