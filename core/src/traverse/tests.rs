@@ -240,7 +240,10 @@ fn shares_are_in_proportion() {
         for slot in 0..16 {
             let share = choose::<16>(|k| weights[k], range, 0, true, slot as u32);
             let wanted = weights[slot] / sum * range as f32;
-            assert!((share.count as f32 - wanted).abs() < 160.0, "{slot} of {round}");
+            assert!(
+                crate::exact::abs(share.count as f32 - wanted) < 160.0,
+                "{slot} of {round}"
+            );
             assert_eq!(share.first, first, "{slot} of {round}");
             first += share.count;
         }
