@@ -141,7 +141,7 @@ fn removed_lights_are_nobodys() {
     }
 }
 
-/// Lamps that go to one place, as a pool of those that are off does, are put in one by one: the top level is not built again.
+/// Lamps at one place, such as a pool of unused ones, are inserted one by one: the top level is not built again.
 #[test]
 fn lights_at_one_place_are_inserted() {
     let random = &mut Random(5);

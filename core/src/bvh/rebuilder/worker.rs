@@ -117,7 +117,7 @@ impl<N: Holds> Worker<N> {
         let thread = thread::Builder::new()
             .name(String::from("lightbvh-rebuild"))
             .spawn(move || {
-                // Frames keep the other threads: what is parallel in a build runs in a pool of this one.
+                // A build uses this thread alone: the other threads belong to the frame.
                 #[cfg(feature = "rayon")]
                 let _pool = rayon::ThreadPoolBuilder::new()
                     .num_threads(1)

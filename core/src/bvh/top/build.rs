@@ -14,7 +14,8 @@ use crate::trail::{leaf, place_parts};
 use crate::tree::{INVALID, OPENED};
 
 /// An instance is opened if this · `W` · variance of position between its parts is more than the variance in its node of the tree in
-/// which all are closed. Less leaves parked cars closed, which have 13 times the variance then (`lightbvh variance`).
+/// which all are closed. At 4, parked cars in a 16-wide tree have 15 times the variance of one level, at 8 no more than 1.3 times
+/// (`lightbvh variance --seed 2`).
 const OPENS: f64 = 8.0;
 
 /// At most as many are opened for that, among those of most overlap: each takes up to `W` leaves, and as many edits when it moves.
