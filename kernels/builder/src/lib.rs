@@ -17,6 +17,7 @@ pub mod files;
 pub mod manifest;
 pub mod model;
 pub mod names;
+pub mod shader;
 pub mod sources;
 pub mod table;
 pub mod verify;

@@ -128,11 +128,7 @@ fn another_model(types: [&str; 3], out: &Path) -> Result<(), Error> {
 /// The directory above the current one that holds the kernels.
 fn repository() -> Result<PathBuf, Error> {
     let here = std::env::current_dir().map_err(|error| Error(format!("no current directory: {error}")))?;
-    let root = here
-        .ancestors()
-        .find(|dir| dir.join("kernels/builder/Cargo.toml").is_file());
-    root.map(Path::to_owned)
-        .ok_or_else(|| Error(format!("{} is not inside the repository", here.display())))
+    manifest::root_above(&here)
 }
 
 fn write(root: &Path, built: &Built) -> Result<(), Error> {

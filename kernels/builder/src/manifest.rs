@@ -1,13 +1,17 @@
 //! `kernels/gpu/spirv/manifest.json`: where the committed modules come from, and what they are.
 
 use crate::files::{self, cannot};
+use crate::shader::{Language, Library, Naming, RECEIVERS};
 use crate::{Error, sources, table};
 use lightbvh_gpu::spirv::{Interface, words};
 use serde::{Deserialize, Serialize};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Directory of the manifest and of the tree's modules, below the repository's root.
 pub const DIRECTORY: &str = "kernels/gpu/spirv";
+
+/// Directory of the functions for shaders, below the root.
+const SHADERS: &str = "kernels/gpu/shaders";
 
 /// A folder of modules, the table of them, both below the root, and how the table's crate knows `lightbvh-gpu`.
 const FOLDERS: [(&str, &str, &str); 2] = [
@@ -89,6 +93,17 @@ impl ModuleRecord {
     }
 }
 
+/// The repository that a directory is in.
+///
+/// # Errors
+/// When it is in none.
+pub fn root_above(directory: &Path) -> Result<PathBuf, Error> {
+    let mut above = directory.ancestors();
+    let root = above.find(|own| own.join("kernels/builder/Cargo.toml").is_file());
+    root.map(Path::to_owned)
+        .ok_or_else(|| Error(format!("{} is not inside the repository", directory.display())))
+}
+
 /// Reads the manifest of the repository at `root`.
 ///
 /// # Errors
@@ -111,7 +126,29 @@ pub fn read_module(root: &Path, record: &ModuleRecord) -> Result<Vec<u32>, Error
     }
 }
 
-/// Checks, without a compiler, that the committed modules are those of the sources beside them, and the table that of the modules.
+/// The words of a committed module, and the names of its buffers by binding.
+///
+/// # Errors
+/// When the manifest has no such file, or it cannot be read.
+pub fn module(root: &Path, committed: &Manifest, file: &str) -> Result<(Vec<u32>, Vec<String>), Error> {
+    let record = committed.modules.iter().find(|own| own.file == file);
+    let record = record.ok_or_else(|| Error(format!("{file} is not in {DIRECTORY}/{FILE}")))?;
+    Ok((read_module(root, record)?, record.buffers.clone()))
+}
+
+/// The files of functions for shaders, below the root, and their texts.
+fn functions(
+    read: impl FnMut(&str) -> Result<(Vec<u32>, Vec<String>), Error>,
+) -> Result<Vec<(String, String)>, Error> {
+    let library = Library::new(Naming::default(), RECEIVERS[0].1, read)?;
+    let file = |own: Language| format!("{SHADERS}/lightbvh.{}", own.extension());
+    let texts = Language::ALL
+        .into_iter()
+        .map(|own| Ok((file(own), library.print(own)?)));
+    texts.collect()
+}
+
+/// Checks, without a compiler, that the committed modules are those of the sources beside them, and tables and functions those of the modules.
 ///
 /// # Errors
 /// The first disagreement between sources, manifest, modules and table.
@@ -137,6 +174,11 @@ pub fn check(root: &Path) -> Result<Manifest, Error> {
             return Err(Error(format!(
                 "{file} is not the table of its modules; {REBUILD}"
             )));
+        }
+    }
+    for (file, text) in functions(|kernel| module(root, &manifest, &format!("{kernel}.spv")))? {
+        if files::read(&root.join(&file))? != text.as_bytes() {
+            return Err(Error(format!("{file} is not what its modules give; {REBUILD}")));
         }
     }
     let listed: Vec<String> = manifest
@@ -198,6 +240,16 @@ pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -
         }
     }
     for (file, text) in tables {
+        files::write(&root.join(file), text.as_bytes())?;
+    }
+    let built = manifest.modules.iter().zip(modules);
+    let find = |kernel: &str| {
+        let mut built = built.clone();
+        let own = built.find(|(record, _)| record.file.strip_suffix(".spv") == Some(kernel));
+        let own = own.map(|(record, (_, words))| (words.clone(), record.buffers.clone()));
+        own.ok_or_else(|| Error(format!("no kernel is named {kernel}")))
+    };
+    for (file, text) in functions(find)? {
         files::write(&root.join(file), text.as_bytes())?;
     }
     let path = root.join(DIRECTORY).join(FILE);

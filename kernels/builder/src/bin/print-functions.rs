@@ -1,0 +1,86 @@
+//! `print-functions`: the functions of a set of kernels for shaders in another language, with the names, the bind group and the bindings
+//! that an engine wants. Needs no compiler of kernels.
+
+use lightbvh_kernels_builder::shader::{Language, Library, Naming, RECEIVERS};
+use lightbvh_kernels_builder::{Error, manifest};
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+Prints functions for shaders, from the committed kernels.
+
+Usage: print-functions LANGUAGE [--set SET] [--prefix PREFIX] [--group GROUP] [--bindings N,I,T,L,W]
+
+  LANGUAGE            wgsl, glsl, hlsl or metal
+  --set SET           any (AnyLights) or linked (MaskedLights); LightBvh otherwise
+  --prefix PREFIX     what each name begins with, lower-case words joined by _; lightbvh otherwise
+  --group GROUP       bind group, descriptor set or register space of the buffers; 0 otherwise
+  --bindings N,I,T,L,W
+                      bindings of nodes, instances, trails, lights, and the tree's words; 0,1,2,3,4 otherwise
+
+The current directory must be inside the repository.";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if matches!(
+        arguments.first().map(String::as_str),
+        None | Some("--help" | "-h")
+    ) {
+        println!("{USAGE}");
+        return ExitCode::SUCCESS;
+    }
+    match print(&arguments) {
+        Ok(text) => {
+            print!("{text}");
+            ExitCode::SUCCESS
+        }
+        Err(message) => {
+            eprintln!("print-functions: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn print(arguments: &[String]) -> Result<String, Error> {
+    let unknown = |what: &str, value: &str| Error(format!("no {what} is {value:?}\n\n{USAGE}"));
+    let mut naming = Naming::default();
+    let mut set = "";
+    let mut languages = Language::ALL.into_iter();
+    let language = languages.find(|own| own.extension() == arguments[0]);
+    let language = language.ok_or_else(|| unknown("language", &arguments[0]))?;
+    for pair in arguments[1..].chunks(2) {
+        let [option, value] = pair else {
+            return Err(Error(format!("{} wants a value\n\n{USAGE}", pair[0])));
+        };
+        match &**option {
+            "--set" => set = value,
+            "--prefix" if is_prefix(value) => naming.prefix.clone_from(value),
+            "--group" => naming.group = value.parse().map_err(|_| unknown("group", value))?,
+            "--bindings" => {
+                let numbers: Result<Vec<u8>, _> = value.split(',').map(str::parse).collect();
+                let numbers = numbers.ok().and_then(|own| <[u8; 5]>::try_from(own).ok());
+                naming.bindings = numbers
+                    .ok_or_else(|| unknown("five bindings", value))?
+                    .map(u32::from);
+            }
+            "--prefix" => return Err(unknown("prefix", value)),
+            _ => return Err(unknown("option", option)),
+        }
+    }
+    let mut sets = RECEIVERS.iter();
+    let found = sets.find(|(suffix, _)| suffix.trim_start_matches('_') == set);
+    let (suffix, receiver) = found.ok_or_else(|| unknown("set", set))?;
+    let here = std::env::current_dir().map_err(|error| Error(format!("no current directory: {error}")))?;
+    let root = manifest::root_above(&here)?;
+    let committed = manifest::read(&root)?;
+    let library = Library::new(naming, receiver, |kernel| {
+        manifest::module(&root, &committed, &format!("{kernel}{suffix}.spv"))
+    })?;
+    library.print(language)
+}
+
+fn is_prefix(value: &str) -> bool {
+    let mut letters = value.chars();
+    letters.next().is_some_and(|first| first.is_ascii_lowercase())
+        && letters.all(|letter| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_')
+        && !value.contains("__")
+}

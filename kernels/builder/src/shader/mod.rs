@@ -1,0 +1,378 @@
+//! Libraries of functions for shaders in other languages, out of the tree's compiled kernels.
+//!
+//! A kernel answers a query for each invocation. As a function it takes the query as arguments, and returns the answer; what all
+//! invocations share stays a buffer. Nothing of a walk is written twice.
+
+mod function;
+mod print;
+mod types;
+
+use naga::{
+    AddressSpace, Block, Expression, Function, GlobalVariable, Handle, Module, ResourceBinding, Span,
+    Statement, StorageAccess, Type, TypeInner,
+};
+use std::collections::HashMap;
+
+pub use print::Language;
+
+use crate::Error;
+use function::{Copy, Role, constant_value};
+use types::{Names, Types};
+
+/// A function: its kernel, its name, what a query's words after the receiver are, and its answer.
+struct Signature {
+    kernel: &'static str,
+    name: &'static str,
+    /// As of [`Copy::arguments`].
+    words: &'static [&'static str],
+    answer: Names,
+}
+
+const FUNCTIONS: [Signature; 3] = [
+    Signature {
+        kernel: "sample",
+        name: "sample",
+        words: &["number.xy"],
+        answer: ("LightSample", &["light", "instance", "pmf"]),
+    },
+    Signature {
+        kernel: "pmf",
+        name: "pmf",
+        words: &["light", "instance"],
+        answer: ("", &[]),
+    },
+    Signature {
+        kernel: "light_points",
+        name: "light_point",
+        words: &["_", "_"],
+        answer: ("LightPoint", &["p", "density", "normal", "flags", "radiance"]),
+    },
+];
+
+/// The names of the words of a receiver, by the suffix of the names of its kernels.
+pub const RECEIVERS: [(&str, &[&str]); 3] = [
+    ("", &["p.xyz", "n.xyz"]),
+    ("_any", &["p.xyz", "n.xyz"]),
+    ("_linked", &["p.xyz", "n.xyz", "mask"]),
+];
+
+/// A sample as an argument: its probability is not needed. And two numbers in [0, 1).
+const SAMPLES: [&str; 3] = ["light", "instance", "_"];
+const NUMBERS: [&str; 1] = ["numbers.xy"];
+
+/// The library's buffers in the order of their bindings, and the names of their elements; the tree's words last.
+const BUFFERS: [(&str, Names); 5] = [
+    ("nodes", ("Node", &[])),
+    (
+        "instances",
+        (
+            "Instance",
+            &[
+                "root",
+                "blas",
+                "first",
+                "first_light",
+                "count",
+                "listed",
+                "columns",
+                "translation",
+                "inverse",
+                "per_inverse",
+                "flux",
+                "radiance",
+                "mask",
+                "mirrored",
+            ],
+        ),
+    ),
+    ("trails", ("Trails", &[])),
+    ("lights", ("Light", &["p", "radiance", "mesh", "flags"])),
+    (
+        "tree",
+        (
+            "Tree",
+            &[
+                "root",
+                "trail_words",
+                "live",
+                "lights",
+                "depth",
+                "top",
+                "above",
+                "places",
+                "parts",
+            ],
+        ),
+    ),
+];
+
+/// Place of the tree's words in [`BUFFERS`].
+const TREE: usize = 4;
+
+/// What an engine chooses of a library.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Naming {
+    /// What all names of the library begin with: lower-case words joined by `_`; in types each word has a capital.
+    pub prefix: String,
+    /// Bind group (descriptor set, register space) of its buffers.
+    pub group: u32,
+    /// Bindings of nodes, instances, trails, lights, and the tree's words.
+    pub bindings: [u32; 5],
+}
+
+impl Default for Naming {
+    fn default() -> Self {
+        Self {
+            prefix: "lightbvh".to_owned(),
+            group: 0,
+            bindings: [0, 1, 2, 3, 4],
+        }
+    }
+}
+
+/// A library of functions.
+#[derive(Debug)]
+pub struct Library {
+    module: Module,
+    naming: Naming,
+}
+
+impl Library {
+    /// The functions of a set of kernels, for a receiver whose words have these names ([`RECEIVERS`]): by the name of a kernel without the set's suffix, `read` gives the words of its module and
+    /// the names of its buffers by binding.
+    ///
+    /// # Errors
+    /// When a module has something that no function can have.
+    pub fn new(
+        naming: Naming,
+        receiver: &[&str],
+        mut read: impl FnMut(&str) -> Result<(Vec<u32>, Vec<String>), Error>,
+    ) -> Result<Self, Error> {
+        let mut library = Self {
+            module: Module::default(),
+            naming,
+        };
+        for own in &FUNCTIONS {
+            let (words, buffers) = read(own.kernel)?;
+            let added = library.add(own, receiver, &words, &buffers);
+            added.map_err(|error| Error(format!("{}: {error}", own.kernel)))?;
+        }
+        library.name_types();
+        Ok(library)
+    }
+
+    /// The library as text.
+    ///
+    /// # Errors
+    /// When the language cannot express it.
+    pub fn print(&self, language: Language) -> Result<String, Error> {
+        language.print(&self.module, &self.naming)
+    }
+
+    fn add(
+        &mut self,
+        own: &Signature,
+        receiver: &[&str],
+        words: &[u32],
+        buffers: &[String],
+    ) -> Result<(), Error> {
+        let words = words.iter().copied();
+        let options = naga::front::spv::Options {
+            adjust_coordinate_space: false,
+            ..Default::default()
+        };
+        let from = naga::front::spv::Frontend::new(words, &options)
+            .parse()
+            .map_err(|error| Error(error.to_string()))?;
+        let root = called_by(&from.entry_points[0].function.body);
+        let root = root.ok_or_else(|| Error("the entry point calls nothing".to_owned()))?;
+        let mut types = Types::new(&from);
+        let mut called = HashMap::new();
+        let shared = self.shared(&mut types, buffers)?;
+        for (old, function) in from.functions.iter().filter(|(old, _)| *old != root) {
+            let mut copy = Copy::new(&mut self.module, &mut types, function, &called);
+            copy.roles.clone_from(&shared);
+            let mut function = copy.copy()?;
+            function.name = Some(format!("{}_{}_{}", self.naming.prefix, own.name, old.index()));
+            called.insert(old, self.module.functions.append(function, Span::UNDEFINED));
+        }
+        let mut copy = Copy::new(&mut self.module, &mut types, &from.functions[root], &called);
+        copy.roles = shared;
+        for (global, name) in bound(&from, buffers) {
+            if BUFFERS.iter().any(|(shared, _)| *shared == name) {
+                continue;
+            }
+            let array = copy.types.held(from.global_variables[global].ty)?;
+            let TypeInner::Array { base, .. } = from.types[array].inner else {
+                return Err(Error(format!("{name} is no array")));
+            };
+            let (role, ty) = copy.own(name, base)?;
+            copy.roles.insert(global, role);
+            match name {
+                "results" => copy.returns(role, ty, own.answer)?,
+                "queries" => copy.arguments(role, ty, receiver.iter().chain(own.words))?,
+                "samples" => copy.arguments(role, ty, &SAMPLES)?,
+                "numbers" => copy.arguments(role, ty, &NUMBERS)?,
+                _ => return Err(Error(format!("no function knows a buffer {name}"))),
+            }
+        }
+        let mut function = copy.copy()?;
+        function.name = Some(format!("{}_{}", self.naming.prefix, own.name));
+        self.module.functions.append(function, Span::UNDEFINED);
+        Ok(())
+    }
+
+    /// What the globals are that no query has: buffers that all share, push constants, the number of the invocation.
+    fn shared(
+        &mut self,
+        types: &mut Types<'_>,
+        buffers: &[String],
+    ) -> Result<HashMap<Handle<GlobalVariable>, Role>, Error> {
+        let mut roles = HashMap::new();
+        for (global, own) in types.from.global_variables.iter() {
+            match own.space {
+                AddressSpace::Immediate => {
+                    // A struct within a struct: the number of queries, then the tree's words if there are any.
+                    let push = types.held(own.ty)?;
+                    let tree = match &types.from.types[push].inner {
+                        TypeInner::Struct { members, .. } => members.get(1).map(|member| member.ty),
+                        _ => None,
+                    };
+                    let tree = tree.map(|tree| self.buffer(types, TREE, tree)).transpose()?;
+                    roles.insert(global, Role::Push(tree));
+                }
+                AddressSpace::Private => {
+                    // What has a value is a constant.
+                    let role = match own.init {
+                        Some(init) => Role::Shared(self.constant(types, init)?),
+                        None => Role::Invocation,
+                    };
+                    roles.insert(global, role);
+                }
+                _ => {}
+            }
+        }
+        for (global, name) in bound(types.from, buffers) {
+            if let Some(place) = BUFFERS.iter().position(|(shared, _)| *shared == name) {
+                let own = self.buffer(types, place, types.from.global_variables[global].ty)?;
+                roles.insert(global, Role::Shared(own));
+            }
+        }
+        Ok(roles)
+    }
+
+    /// A buffer of the library, of a type of `types.from`.
+    fn buffer(
+        &mut self,
+        types: &mut Types<'_>,
+        place: usize,
+        ty: Handle<Type>,
+    ) -> Result<Handle<GlobalVariable>, Error> {
+        let (name, names) = BUFFERS[place];
+        let ty = if place == TREE {
+            types.copy(&mut self.module, ty, Some(names))?
+        } else {
+            // The struct around the array.
+            let held = types.held(ty)?;
+            types.copy(&mut self.module, held, Some(names))?;
+            types.copy(&mut self.module, ty, Some((LISTS[place], &["list"])))?
+        };
+        let own = GlobalVariable {
+            name: Some(format!("{}_{name}", self.naming.prefix)),
+            space: if place == TREE {
+                AddressSpace::Uniform
+            } else {
+                AddressSpace::Storage {
+                    access: StorageAccess::LOAD,
+                }
+            },
+            binding: Some(ResourceBinding {
+                group: self.naming.group,
+                binding: self.naming.bindings[place],
+            }),
+            ty,
+            init: None,
+            memory_decorations: naga::MemoryDecorations::empty(),
+        };
+        let is_same = |have: &GlobalVariable, own: &GlobalVariable| have.name == own.name;
+        Ok(self
+            .module
+            .global_variables
+            .fetch_if_or_append(own, Span::UNDEFINED, is_same))
+    }
+
+    /// A constant that is read by address.
+    fn constant(
+        &mut self,
+        types: &mut Types<'_>,
+        init: Handle<Expression>,
+    ) -> Result<Handle<GlobalVariable>, Error> {
+        let (init, ty) = constant_value(&mut self.module, types, init)?;
+        let own = GlobalVariable {
+            name: Some(format!(
+                "{}_constant_{}",
+                self.naming.prefix,
+                self.module.global_variables.len()
+            )),
+            space: AddressSpace::Private,
+            binding: None,
+            ty,
+            init: Some(init),
+            memory_decorations: naga::MemoryDecorations::empty(),
+        };
+        Ok(self.module.global_variables.append(own, Span::UNDEFINED))
+    }
+
+    /// Begins the names of structs with the prefix.
+    fn name_types(&mut self) {
+        let words = self.naming.prefix.split('_');
+        let prefix: String = words.map(capital).collect();
+        let all: Vec<_> = self
+            .module
+            .types
+            .iter()
+            .map(|(own, ty)| (own, ty.clone()))
+            .collect();
+        for (own, ty) in all {
+            if let TypeInner::Struct { .. } = ty.inner {
+                let name = ty.name.unwrap_or_else(|| format!("Type{}", own.index()));
+                let named = Type {
+                    name: Some(format!("{prefix}{name}")),
+                    inner: ty.inner,
+                };
+                self.module.types.replace(own, named);
+            }
+        }
+    }
+}
+
+/// Types of the structs around arrays, in the order of [`BUFFERS`].
+const LISTS: [&str; 4] = ["Nodes", "Instances", "Trails", "Lights"];
+
+fn capital(word: &str) -> String {
+    let mut letters = word.chars();
+    letters
+        .next()
+        .map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// The globals that are bound, with their names, by binding.
+fn bound<'a>(from: &Module, buffers: &'a [String]) -> Vec<(Handle<GlobalVariable>, &'a str)> {
+    let globals = from.global_variables.iter();
+    let mut bound: Vec<_> = globals
+        .filter_map(|(own, global)| Some((own, global.binding?.binding)))
+        .collect();
+    bound.sort_by_key(|(_, binding)| *binding);
+    let named = bound.into_iter();
+    named
+        .filter_map(|(own, binding)| Some((own, &**buffers.get(binding as usize)?)))
+        .collect()
+}
+
+/// The function that an entry point calls.
+fn called_by(body: &Block) -> Option<Handle<Function>> {
+    body.iter().find_map(|statement| match statement {
+        Statement::Call { function, .. } => Some(*function),
+        _ => None,
+    })
+}

@@ -1,0 +1,2731 @@
+// Functions of lightbvh (docs/shaders.md). Written by `print-functions` from compiled kernels; edits are lost.
+
+struct LightbvhTree {
+    uint root;
+    uint trail_words;
+    uint live;
+    uint lights;
+    uint depth;
+    uint top;
+    uint above;
+    uint places;
+    uint parts;
+};
+
+struct LightbvhInstance {
+    uint root;
+    uint blas;
+    uint first;
+    uint first_light;
+    uint count;
+    uint listed;
+    float columns[3][3];
+    float translation[3];
+    float inverse[3][3];
+    float per_inverse;
+    float flux;
+    float radiance[3];
+    uint mask;
+    uint mirrored;
+};
+
+struct LightbvhType14_ {
+    float member[3];
+    float member_1[3];
+};
+
+struct LightbvhType16_ {
+    LightbvhType14_ member;
+    uint member_1[2];
+};
+
+struct LightbvhType19_ {
+    uint member;
+    uint member_1;
+    float member_2;
+};
+
+struct LightbvhLightSample {
+    uint light;
+    uint instance;
+    float pmf;
+};
+
+struct LightbvhType23_ {
+    uint member;
+    uint member_1;
+};
+
+struct LightbvhType24_ {
+    LightbvhType23_ member;
+    LightbvhType23_ member_1;
+};
+
+struct LightbvhType25_ {
+    float member;
+    float member_1;
+};
+
+struct LightbvhType26_ {
+    LightbvhType24_ member;
+    LightbvhType23_ member_1;
+    LightbvhType14_ member_2;
+    LightbvhType25_ member_3;
+    uint member_4;
+    uint member_5;
+    uint member_6;
+    uint member_7;
+    uint member_8;
+    uint member_9;
+    uint member_10;
+    uint member_11;
+    bool member_12;
+    bool member_13;
+};
+
+struct LightbvhType27_ {
+    uint member;
+    uint member_1;
+    LightbvhType26_ member_2;
+};
+
+struct LightbvhLight {
+    float p[3][3];
+    float radiance[3];
+    uint mesh;
+    uint flags;
+};
+
+struct LightbvhType34_ {
+    float member[3];
+    float member_1;
+    float member_2[3];
+    uint member_3;
+    float member_4[3];
+};
+
+struct LightbvhLightPoint {
+    float3 p;
+    float density;
+    float3 normal;
+    uint flags;
+    float3 radiance;
+    int _end_pad_0;
+};
+
+LightbvhType23_ ConstructLightbvhType23_(uint arg0, uint arg1) {
+    LightbvhType23_ ret = (LightbvhType23_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    return ret;
+}
+
+LightbvhType24_ ConstructLightbvhType24_(LightbvhType23_ arg0, LightbvhType23_ arg1) {
+    LightbvhType24_ ret = (LightbvhType24_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    return ret;
+}
+
+LightbvhType25_ ConstructLightbvhType25_(float arg0, float arg1) {
+    LightbvhType25_ ret = (LightbvhType25_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    return ret;
+}
+
+LightbvhType19_ ConstructLightbvhType19_(uint arg0, uint arg1, float arg2) {
+    LightbvhType19_ ret = (LightbvhType19_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    ret.member_2 = arg2;
+    return ret;
+}
+
+typedef float ret_Constructarray8_float_[8];
+ret_Constructarray8_float_ Constructarray8_float_(float arg0, float arg1, float arg2, float arg3, float arg4, float arg5, float arg6, float arg7) {
+    float ret[8] = { arg0, arg1, arg2, arg3, arg4, arg5, arg6, arg7 };
+    return ret;
+}
+
+typedef float ret_Constructarray3_float_[3];
+ret_Constructarray3_float_ Constructarray3_float_(float arg0, float arg1, float arg2) {
+    float ret[3] = { arg0, arg1, arg2 };
+    return ret;
+}
+
+typedef float ret_Constructarray3_array3_float__[3][3];
+ret_Constructarray3_array3_float__ Constructarray3_array3_float__(float arg0[3], float arg1[3], float arg2[3]) {
+    float ret[3][3] = { arg0, arg1, arg2 };
+    return ret;
+}
+
+LightbvhLight ConstructLightbvhLight(float arg0[3][3], float arg1[3], uint arg2, uint arg3) {
+    LightbvhLight ret = (LightbvhLight)0;
+    ret.p = arg0;
+    ret.radiance = arg1;
+    ret.mesh = arg2;
+    ret.flags = arg3;
+    return ret;
+}
+
+LightbvhType27_ ZeroValueLightbvhType27_() {
+    return (LightbvhType27_)0;
+}
+
+uint ZeroValueuint() {
+    return (uint)0;
+}
+
+LightbvhType23_ ZeroValueLightbvhType23_() {
+    return (LightbvhType23_)0;
+}
+
+bool ZeroValuebool() {
+    return (bool)0;
+}
+
+LightbvhType24_ ZeroValueLightbvhType24_() {
+    return (LightbvhType24_)0;
+}
+
+LightbvhType26_ ZeroValueLightbvhType26_() {
+    return (LightbvhType26_)0;
+}
+
+cbuffer lightbvh_tree : register(b4) { LightbvhTree lightbvh_tree; }
+ByteAddressBuffer lightbvh_nodes : register(t0);
+ByteAddressBuffer lightbvh_instances : register(t1);
+ByteAddressBuffer lightbvh_trails : register(t2);
+ByteAddressBuffer lightbvh_lights : register(t3);
+
+int naga_neg(int val) {
+    return asint(-asuint(val));
+}
+
+uint naga_mod(uint lhs, uint rhs) {
+    return lhs % (rhs == 0u ? 1u : rhs);
+}
+
+LightbvhType14_ ConstructLightbvhType14_(float arg0[3], float arg1[3]) {
+    LightbvhType14_ ret = (LightbvhType14_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    return ret;
+}
+
+typedef uint ret_Constructarray2_uint_[2];
+ret_Constructarray2_uint_ Constructarray2_uint_(uint arg0, uint arg1) {
+    uint ret[2] = { arg0, arg1 };
+    return ret;
+}
+
+LightbvhType16_ ConstructLightbvhType16_(LightbvhType14_ arg0, uint arg1[2]) {
+    LightbvhType16_ ret = (LightbvhType16_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    return ret;
+}
+
+LightbvhType26_ ConstructLightbvhType26_(LightbvhType24_ arg0, LightbvhType23_ arg1, LightbvhType14_ arg2, LightbvhType25_ arg3, uint arg4, uint arg5, uint arg6, uint arg7, uint arg8, uint arg9, uint arg10, uint arg11, bool arg12, bool arg13) {
+    LightbvhType26_ ret = (LightbvhType26_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    ret.member_2 = arg2;
+    ret.member_3 = arg3;
+    ret.member_4 = arg4;
+    ret.member_5 = arg5;
+    ret.member_6 = arg6;
+    ret.member_7 = arg7;
+    ret.member_8 = arg8;
+    ret.member_9 = arg9;
+    ret.member_10 = arg10;
+    ret.member_11 = arg11;
+    ret.member_12 = arg12;
+    ret.member_13 = arg13;
+    return ret;
+}
+
+LightbvhType27_ ConstructLightbvhType27_(uint arg0, uint arg1, LightbvhType26_ arg2) {
+    LightbvhType27_ ret = (LightbvhType27_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    ret.member_2 = arg2;
+    return ret;
+}
+
+LightbvhLightSample ConstructLightbvhLightSample(uint arg0, uint arg1, float arg2) {
+    LightbvhLightSample ret = (LightbvhLightSample)0;
+    ret.light = arg0;
+    ret.instance = arg1;
+    ret.pmf = arg2;
+    return ret;
+}
+
+uint naga_f2u32(float value) {
+    return uint(clamp(value, 0.0, 4294967000.0));
+}
+
+int naga_f2i32(float value) {
+    return int(clamp(value, -2147483600.0, 2147483500.0));
+}
+
+uint NagaBufferLength(ByteAddressBuffer buffer)
+{
+    uint ret;
+    buffer.GetDimensions(ret);
+    return ret;
+}
+
+LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
+{
+    LightbvhType16_ queries = (LightbvhType16_)0;
+    LightbvhType19_ results = (LightbvhType19_)0;
+    float v0_[8] = (float[8])0;
+    uint v1_ = (uint)0;
+    uint v2_ = (uint)0;
+    uint v3_ = (uint)0;
+    uint v4_ = (uint)0;
+    uint v5_ = (uint)0;
+    uint v6_ = (uint)0;
+    uint v7_ = (uint)0;
+    uint v8_ = (uint)0;
+    uint v9_ = (uint)0;
+    uint v10_ = (uint)0;
+    uint v11_ = (uint)0;
+    uint v12_ = (uint)0;
+    bool v13_ = (bool)0;
+    uint v14_ = (uint)0;
+    uint v15_ = (uint)0;
+    uint v16_ = (uint)0;
+    bool v17_ = (bool)0;
+    bool v18_ = (bool)0;
+    LightbvhType24_ v19_ = (LightbvhType24_)0;
+    uint v20_ = (uint)0;
+    uint v21_ = (uint)0;
+    uint v22_ = (uint)0;
+    uint v23_ = (uint)0;
+    bool v24_ = (bool)0;
+    uint v25_ = (uint)0;
+    LightbvhType23_ v26_ = (LightbvhType23_)0;
+    uint v27_ = (uint)0;
+    uint v28_ = (uint)0;
+    uint v29_ = (uint)0;
+    LightbvhType23_ v30_ = (LightbvhType23_)0;
+    uint v31_ = (uint)0;
+    uint v32_ = (uint)0;
+    LightbvhType23_ v33_ = (LightbvhType23_)0;
+    uint v34_ = (uint)0;
+    bool v35_ = (bool)0;
+    bool v36_ = (bool)0;
+    LightbvhType23_ v37_ = (LightbvhType23_)0;
+    bool v38_ = (bool)0;
+    LightbvhType24_ v39_ = (LightbvhType24_)0;
+    bool v40_ = (bool)0;
+    LightbvhType24_ v41_ = (LightbvhType24_)0;
+    uint v42_ = (uint)0;
+    uint v43_ = (uint)0;
+    bool v44_ = (bool)0;
+    LightbvhType27_ v45_ = (LightbvhType27_)0;
+    bool v46_ = (bool)0;
+    LightbvhType23_ v47_ = (LightbvhType23_)0;
+    LightbvhType23_ v48_ = (LightbvhType23_)0;
+    LightbvhType23_ v49_ = (LightbvhType23_)0;
+    LightbvhType23_ v50_ = (LightbvhType23_)0;
+    LightbvhType23_ v51_ = (LightbvhType23_)0;
+    bool v52_ = (bool)0;
+    uint v53_ = (uint)0;
+    uint v54_ = (uint)0;
+    uint v55_ = (uint)0;
+    uint v56_ = (uint)0;
+    int v57_ = (int)0;
+    uint v58_ = (uint)0;
+    bool v59_ = (bool)0;
+    LightbvhType27_ v60_ = (LightbvhType27_)0;
+    uint v61_ = (uint)0;
+    uint v62_ = (uint)0;
+    LightbvhType27_ v63_ = (LightbvhType27_)0;
+    float v64_ = (float)0;
+    float v65_ = (float)0;
+    float v66_ = (float)0;
+    float v67_ = (float)0;
+    LightbvhType27_ v68_ = (LightbvhType27_)0;
+    bool v69_ = (bool)0;
+    LightbvhType27_ v70_ = (LightbvhType27_)0;
+    bool v71_ = (bool)0;
+    bool v72_ = (bool)0;
+    LightbvhType27_ v73_ = (LightbvhType27_)0;
+    LightbvhType27_ v74_ = (LightbvhType27_)0;
+    LightbvhType27_ v75_ = (LightbvhType27_)0;
+    LightbvhType27_ v76_ = (LightbvhType27_)0;
+    uint v77_ = (uint)0;
+    uint v78_ = (uint)0;
+    LightbvhType27_ v79_ = (LightbvhType27_)0;
+    LightbvhType27_ v80_ = (LightbvhType27_)0;
+    float v81_ = (float)0;
+    uint v82_ = (uint)0;
+    uint v83_ = (uint)0;
+    bool v84_ = (bool)0;
+    uint v85_ = (uint)0;
+    int v86_ = (int)0;
+    uint v87_ = (uint)0;
+    int v88_ = (int)0;
+    uint v89_ = (uint)0;
+    uint v90_ = (uint)0;
+    uint v91_ = (uint)0;
+    uint v92_ = (uint)0;
+    bool v93_ = (bool)0;
+    uint v94_ = (uint)0;
+    int v95_ = (int)0;
+    uint v96_ = (uint)0;
+    int v97_ = (int)0;
+    uint v98_ = (uint)0;
+    uint v99_ = (uint)0;
+    uint v100_ = (uint)0;
+    uint v101_ = (uint)0;
+    bool v102_ = (bool)0;
+    LightbvhType19_ v103_ = (LightbvhType19_)0;
+
+    queries = ConstructLightbvhType16_(ConstructLightbvhType14_(Constructarray3_float_(p.x, p.y, p.z), Constructarray3_float_(n.x, n.y, n.z)), Constructarray2_uint_(number.x, number.y));
+    do {
+        uint _e141 = ((NagaBufferLength(lightbvh_nodes) - 0) / 192);
+        uint _e144 = ((NagaBufferLength(lightbvh_instances) - 0) / 136);
+        uint _e147 = ((NagaBufferLength(lightbvh_trails) - 0) / 4);
+        uint _e150 = lightbvh_tree.top;
+        uint _e153 = lightbvh_tree.root;
+        uint _e156 = lightbvh_tree.above;
+        uint _e159 = lightbvh_tree.places;
+        uint _e162 = lightbvh_tree.parts;
+        uint _e165 = lightbvh_tree.trail_words;
+        uint _e168 = lightbvh_tree.live;
+        uint _e171 = lightbvh_tree.lights;
+        uint _e174 = lightbvh_tree.depth;
+        LightbvhType16_ _e176 = queries;
+        v40_ = false;
+        v41_ = ConstructLightbvhType24_(ConstructLightbvhType23_(0u, 0u), ConstructLightbvhType23_(0u, 0u));
+        v42_ = 4294967295u;
+        v43_ = 4294967295u;
+        if (((_e176.member_1[0] >> asuint(10u)) < 65536u)) {
+            uint _e191 = ((_e176.member_1[0] << asuint(6u)) | ((_e176.member_1[1] >> asuint(int(1))) >> asuint(25u)));
+            uint _e193 = (_e176.member_1[1] << asuint(6u));
+            bool _e194 = (_e168 > 0u);
+            v1_ = ZeroValueuint();
+            v2_ = ZeroValueuint();
+            if (_e194) {
+                uint _e247 = (_e193 >> asuint(int(16)));
+                uint _e248 = (_e193 & 65535u);
+                uint _e250 = (_e168 >> asuint(int(16)));
+                uint _e251 = (_e168 & 65535u);
+                uint _e256 = ((_e247 * _e251) + ((_e248 * _e251) >> asuint(int(16))));
+                uint _e267 = (_e193 * _e168);
+                uint _e269 = (_e191 >> asuint(int(16)));
+                uint _e270 = (_e191 & 65535u);
+                uint _e275 = ((_e269 * _e251) + ((_e270 * _e251) >> asuint(int(16))));
+                uint _e286 = (_e191 * _e168);
+                uint _e287 = (_e286 + (((_e247 * _e250) + (_e256 >> asuint(int(16)))) + (((_e248 * _e250) + (_e256 & 65535u)) >> asuint(int(16)))));
+                uint _e290 = ((((_e269 * _e250) + (_e275 >> asuint(int(16)))) + (((_e270 * _e250) + (_e275 & 65535u)) >> asuint(int(16)))) + ((_e287 < _e286) ? 1u : 0u));
+                v7_ = 4294967295u;
+                v8_ = 4294967295u;
+                if ((_e290 < _e144)) {
+                    uint _e294 = asuint(lightbvh_instances.Load(20+_e290*136+0));
+                    v5_ = 4294967295u;
+                    v6_ = 4294967295u;
+                    if ((_e294 < _e144)) {
+                        uint _e298 = asuint(lightbvh_instances.Load(16+_e294*136+0));
+                        bool _e299 = (_e298 > 0u);
+                        v4_ = 4294967295u;
+                        if (_e299) {
+                            uint _e302 = asuint(lightbvh_instances.Load(8+_e294*136+0));
+                            uint _e304 = (_e267 >> asuint(int(16)));
+                            uint _e305 = (_e267 & 65535u);
+                            uint _e307 = (_e298 >> asuint(int(16)));
+                            uint _e308 = (_e298 & 65535u);
+                            uint _e313 = ((_e304 * _e308) + ((_e305 * _e308) >> asuint(int(16))));
+                            uint _e325 = (_e287 >> asuint(int(16)));
+                            uint _e326 = (_e287 & 65535u);
+                            uint _e331 = ((_e325 * _e308) + ((_e326 * _e308) >> asuint(int(16))));
+                            uint _e342 = (_e287 * _e298);
+                            v4_ = (_e302 + ((((_e325 * _e307) + (_e331 >> asuint(int(16)))) + (((_e326 * _e307) + (_e331 & 65535u)) >> asuint(int(16)))) + (((_e342 + (((_e304 * _e307) + (_e313 >> asuint(int(16)))) + (((_e305 * _e307) + (_e313 & 65535u)) >> asuint(int(16))))) < _e342) ? 1u : 0u)));
+                        }
+                        uint _e349 = v4_;
+                        v5_ = _e349;
+                        v6_ = (_e299 ? _e294 : 4294967295u);
+                    }
+                    uint _e352 = v5_;
+                    uint _e354 = v6_;
+                    v7_ = _e352;
+                    v8_ = _e354;
+                }
+                uint _e356 = v7_;
+                uint _e358 = v8_;
+                v1_ = _e356;
+                v2_ = _e358;
+            }
+            uint _e196 = v1_;
+            uint _e198 = v2_;
+            v9_ = _e196;
+            v10_ = _e198;
+            if (_e194) {
+            } else {
+                v3_ = 4294967295u;
+                if ((_e171 > 0u)) {
+                    uint _e201 = (_e193 >> asuint(int(16)));
+                    uint _e202 = (_e193 & 65535u);
+                    uint _e204 = (_e171 >> asuint(int(16)));
+                    uint _e205 = (_e171 & 65535u);
+                    uint _e210 = ((_e201 * _e205) + ((_e202 * _e205) >> asuint(int(16))));
+                    uint _e222 = (_e191 >> asuint(int(16)));
+                    uint _e223 = (_e191 & 65535u);
+                    uint _e228 = ((_e222 * _e205) + ((_e223 * _e205) >> asuint(int(16))));
+                    uint _e239 = (_e191 * _e171);
+                    v3_ = ((((_e222 * _e204) + (_e228 >> asuint(int(16)))) + (((_e223 * _e204) + (_e228 & 65535u)) >> asuint(int(16)))) + (((_e239 + (((_e201 * _e204) + (_e210 >> asuint(int(16)))) + (((_e202 * _e204) + (_e210 & 65535u)) >> asuint(int(16))))) < _e239) ? 1u : 0u));
+                }
+                uint _e245 = v3_;
+                v9_ = _e245;
+                v10_ = 4294967295u;
+            }
+            uint _e360 = v9_;
+            uint _e362 = v10_;
+            bool _e363 = (_e362 < _e144);
+            v12_ = ZeroValueuint();
+            v13_ = true;
+            if (_e363) {
+                v11_ = ZeroValueuint();
+                if (_e194) {
+                    uint _e366 = asuint(lightbvh_instances.Load(8+_e362*136+0));
+                    uint _e370 = asuint(lightbvh_instances.Load(12+_e362*136+0));
+                    v11_ = ((_e360 - _e366) + _e370);
+                }
+                uint _e373 = v11_;
+                v12_ = _e373;
+                v13_ = (_e194 ? false : true);
+            }
+            uint _e376 = v12_;
+            bool _e378 = v13_;
+            uint _e380 = ((_e378 ? _e360 : _e376) * _e165);
+            v14_ = 0u;
+            if ((_e380 < _e147)) {
+                uint _e383 = asuint(lightbvh_trails.Load(_e380*4+0));
+                v14_ = _e383;
+            }
+            uint _e385 = v14_;
+            v16_ = ZeroValueuint();
+            v17_ = true;
+            if ((_e165 == 2u)) {
+                uint _e387 = (_e380 + 1u);
+                bool _e388 = (_e387 < _e147);
+                v15_ = ZeroValueuint();
+                if (_e388) {
+                    uint _e390 = asuint(lightbvh_trails.Load(_e387*4+0));
+                    v15_ = _e390;
+                }
+                uint _e392 = v15_;
+                v16_ = _e392;
+                v17_ = (_e388 ? false : true);
+            }
+            uint _e395 = v16_;
+            bool _e397 = v17_;
+            uint _e398 = (_e397 ? 0u : _e395);
+            v18_ = ZeroValuebool();
+            v19_ = ZeroValueLightbvhType24_();
+            if (_e363) {
+                uint _e405 = (_e159 + _e362);
+                v20_ = 4294967295u;
+                if ((_e405 < _e147)) {
+                    uint _e408 = asuint(lightbvh_trails.Load(_e405*4+0));
+                    v20_ = _e408;
+                }
+                uint _e410 = v20_;
+                v23_ = ZeroValueuint();
+                v24_ = true;
+                if ((_e410 != 4294967295u)) {
+                    bool _e412 = (_e410 >= 2147483648u);
+                    v22_ = ZeroValueuint();
+                    if (_e412) {
+                        uint _e416 = (_e162 + ((_e410 - 2147483648u) + (_e385 & 7u)));
+                        v21_ = 4294967295u;
+                        if ((_e416 < _e147)) {
+                            uint _e419 = asuint(lightbvh_trails.Load(_e416*4+0));
+                            v21_ = _e419;
+                        }
+                        uint _e421 = v21_;
+                        v22_ = _e421;
+                    }
+                    uint _e423 = v22_;
+                    v23_ = _e423;
+                    v24_ = (_e412 ? false : true);
+                }
+                uint _e426 = v23_;
+                bool _e428 = v24_;
+                v25_ = 0u;
+                v26_ = ConstructLightbvhType23_(0u, 0u);
+                v27_ = (_e428 ? _e410 : _e426);
+                uint2 loop_bound = uint2(4294967295u, 4294967295u);
+                bool loop_init = true;
+                while(true) {
+                    if (all(loop_bound == uint2(0u, 0u))) { break; }
+                    loop_bound -= uint2(loop_bound.y == 0u, 1u);
+                    if (!loop_init) {
+                        v25_ = v32_;
+                        v26_ = v33_;
+                        v27_ = v34_;
+                        v36_ = false;
+                        if (!(v35_)) {
+                            break;
+                        }
+                    }
+                    loop_init = false;
+                    uint _e431 = v25_;
+                    LightbvhType23_ _e433 = v26_;
+                    uint _e435 = v27_;
+                    v37_ = _e433;
+                    v32_ = ZeroValueuint();
+                    v33_ = ZeroValueLightbvhType23_();
+                    v34_ = ZeroValueuint();
+                    v35_ = false;
+                    if ((_e435 < 2147483648u)) {
+                        bool _e437 = (_e431 < 20u);
+                        v29_ = ZeroValueuint();
+                        v30_ = ZeroValueLightbvhType23_();
+                        v31_ = ZeroValueuint();
+                        if (_e437) {
+                            uint _e456 = (_e156 + (_e435 >> asuint(3u)));
+                            v28_ = 4294967295u;
+                            if ((_e456 < _e147)) {
+                                uint _e459 = asuint(lightbvh_trails.Load(_e456*4+0));
+                                v28_ = _e459;
+                            }
+                            uint _e461 = v28_;
+                            v29_ = (_e431 + 1u);
+                            v30_ = ConstructLightbvhType23_((((_e433.member << asuint(3u)) | ((_e435 & 7u) & 7u)) & 1073741823u), (((_e433.member_1 << asuint(3u)) | ((_e433.member >> asuint(27u)) & 7u)) & 1073741823u));
+                            v31_ = _e461;
+                        }
+                        uint _e464 = v29_;
+                        LightbvhType23_ _e466 = v30_;
+                        uint _e468 = v31_;
+                        v32_ = _e464;
+                        v33_ = _e466;
+                        v34_ = _e468;
+                        v35_ = _e437;
+                    }
+                    uint _e470 = v32_;
+                    LightbvhType23_ _e472 = v33_;
+                    uint _e474 = v34_;
+                    bool _e476 = v35_;
+                    continue;
+                }
+                bool _e479 = v36_;
+                if (_e479) {
+                    break;
+                }
+                LightbvhType23_ _e482 = v37_;
+                v18_ = _e479;
+                v19_ = ConstructLightbvhType24_(_e482, ConstructLightbvhType23_(_e385, _e398));
+            }
+            bool _e400 = v18_;
+            LightbvhType24_ _e402 = v19_;
+            v38_ = _e400;
+            v39_ = _e402;
+            if (_e363) {
+            } else {
+                v38_ = false;
+                v39_ = ConstructLightbvhType24_(ConstructLightbvhType23_(_e385, _e398), ConstructLightbvhType23_(0u, 0u));
+            }
+            bool _e485 = v38_;
+            LightbvhType24_ _e487 = v39_;
+            v40_ = _e485;
+            v41_ = _e487;
+            v42_ = _e362;
+            v43_ = _e360;
+        }
+        bool _e489 = v40_;
+        LightbvhType24_ _e491 = v41_;
+        uint _e493 = v42_;
+        uint _e495 = v43_;
+        bool _e498 = (_e174 == 0u);
+        LightbvhType26_ _e500 = ConstructLightbvhType26_(_e491, ConstructLightbvhType23_(_e176.member_1[0], _e176.member_1[1]), _e176.member, ConstructLightbvhType25_(0.0, 1.0), 0u, (_e153 + _e150), 4294967295u, 4294967295u, 0u, 4194304u, 0u, _e174, _e498, (_e495 != 4294967295u));
+        uint _e503 = (asuint(int(21)) - firstbithigh(4128767u));
+        uint _e505 = ((_e503 < 22u) ? _e503 : 22u);
+        uint _e513 = (_e505 & 31u);
+        LightbvhType26_ _e534 = ConstructLightbvhType26_(_e500.member, ConstructLightbvhType23_((((_e176.member_1[0] - 67108864u) << asuint(_e513)) | ((_e176.member_1[1] >> asuint(int(1))) >> asuint(((31u - _e505) & 31u)))), (_e176.member_1[1] << asuint(_e513))), _e500.member_2, _e500.member_3, _e500.member_4, _e500.member_5, _e500.member_6, _e500.member_7, _e500.member_8, _e500.member_9, _e500.member_10, _e500.member_11, _e500.member_12, _e500.member_13);
+        LightbvhType26_ _e551 = ConstructLightbvhType26_(_e534.member, _e534.member_1, _e534.member_2, _e534.member_3, _e534.member_4, _e534.member_5, _e534.member_6, _e534.member_7, _e534.member_8, (4128768u << asuint(_e513)), _e534.member_10, _e534.member_11, _e534.member_12, _e534.member_13);
+        v44_ = _e489;
+        v45_ = ConstructLightbvhType27_(_e495, _e493, ConstructLightbvhType26_(_e551.member, _e551.member_1, _e551.member_2, _e551.member_3, _e551.member_4, _e551.member_5, _e551.member_6, _e551.member_7, _e551.member_8, _e551.member_9, _e505, _e551.member_11, _e551.member_12, _e551.member_13));
+        v46_ = _e498;
+        uint2 loop_bound_1 = uint2(4294967295u, 4294967295u);
+        bool loop_init_1 = true;
+        while(true) {
+            if (all(loop_bound_1 == uint2(0u, 0u))) { break; }
+            loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
+            if (!loop_init_1) {
+                v44_ = v69_;
+                v45_ = v70_;
+                v46_ = v71_;
+                v72_ = v69_;
+                if (!((v46_ ? false : true))) {
+                    break;
+                }
+            }
+            loop_init_1 = false;
+            bool _e569 = v44_;
+            LightbvhType27_ _e571 = v45_;
+            bool _e573 = v46_;
+            v73_ = _e571;
+            v74_ = _e571;
+            v75_ = _e571;
+            v76_ = _e571;
+            v79_ = _e571;
+            v80_ = _e571;
+            v69_ = _e569;
+            v70_ = ZeroValueLightbvhType27_();
+            v71_ = ZeroValuebool();
+            if (_e573) {
+            } else {
+                bool _e576 = (_e571.member_2.member_5 < _e141);
+                uint _e577 = (_e576 ? _e571.member_2.member_5 : 0u);
+                if ((_e577 < _e141)) {
+                } else {
+                    v72_ = true;
+                    break;
+                }
+                uint _e606 = asuint(lightbvh_nodes.Load(0u*4+0u*32+_e577*192+0));
+                uint _e611 = asuint(lightbvh_nodes.Load(1u*4+0u*32+_e577*192+0));
+                uint _e616 = asuint(lightbvh_nodes.Load(2u*4+0u*32+_e577*192+0));
+                uint _e621 = asuint(lightbvh_nodes.Load(3u*4+0u*32+_e577*192+0));
+                int _e624 = asint(asuint(asint((_e621 & 255u))) - asuint(int(127)));
+                float _e625 = (asfloat(_e606) - _e571.member_2.member_2.member[0]);
+                float _e626 = (asfloat(_e611) - _e571.member_2.member_2.member[1]);
+                float _e627 = (asfloat(_e616) - _e571.member_2.member_2.member[2]);
+                float _e630 = asfloat((asuint(_e625) & 2147483647u));
+                float _e633 = asfloat((asuint(_e626) & 2147483647u));
+                float _e636 = asfloat((asuint(_e627) & 2147483647u));
+                float _e638 = ((_e630 > _e633) ? _e630 : _e633);
+                int _e646 = asint(asuint(asint(((asuint(((_e638 > _e636) ? _e638 : _e636)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
+                int _e648 = ((_e646 > _e624) ? _e646 : _e624);
+                int _e649 = asint(asuint(_e624) - asuint(_e648));
+                int _e651 = ((_e649 < int(-40)) ? int(-40) : _e649);
+                int _e652 = naga_neg(_e648);
+                int _e654 = ((_e652 < int(-126)) ? int(-126) : _e652);
+                float _e661 = asfloat((asuint(asint(asuint(((_e654 > int(127)) ? int(127) : _e654)) + asuint(int(127)))) << asuint(int(23))));
+                int _e666 = ((_e651 < int(-126)) ? int(-126) : _e651);
+                float _e673 = asfloat((asuint(asint(asuint(((_e666 > int(127)) ? int(127) : _e666)) + asuint(int(127)))) << asuint(int(23))));
+                float _e681 = (_e673 * 4.656613e-10);
+                float _e693 = (2.0 * 8.0);
+                float _e694 = (asfloat((asuint(_e571.member_2.member_2.member_1[0]) & 2147483647u)) * _e693);
+                float _e695 = (asfloat((asuint(_e571.member_2.member_2.member_1[1]) & 2147483647u)) * _e693);
+                float _e696 = (asfloat((asuint(_e571.member_2.member_2.member_1[2]) & 2147483647u)) * _e693);
+                v0_ = Constructarray8_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+                v47_ = ConstructLightbvhType23_(0u, 8u);
+                uint2 loop_bound_2 = uint2(4294967295u, 4294967295u);
+                bool loop_init_2 = true;
+                while(true) {
+                    if (all(loop_bound_2 == uint2(0u, 0u))) { break; }
+                    loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
+                    if (!loop_init_2) {
+                        v47_ = v50_;
+                        v52_ = _e569;
+                        if (!((asint(v51_.member) != int(0)))) {
+                            break;
+                        }
+                    }
+                    loop_init_2 = false;
+                    LightbvhType23_ _e703 = v47_;
+                    bool _e706 = (_e703.member < _e703.member_1);
+                    v48_ = ZeroValueLightbvhType23_();
+                    v49_ = ZeroValueLightbvhType23_();
+                    if (_e706) {
+                        v48_ = ConstructLightbvhType23_((_e703.member + 1u), _e703.member_1);
+                        v49_ = ConstructLightbvhType23_(1u, _e703.member);
+                    }
+                    LightbvhType23_ _e708 = v48_;
+                    LightbvhType23_ _e710 = v49_;
+                    v50_ = _e708;
+                    v51_ = _e710;
+                    if (_e706) {
+                    } else {
+                        v50_ = _e703;
+                        v51_ = ConstructLightbvhType23_(0u, ZeroValueLightbvhType23_().member_1);
+                    }
+                    LightbvhType23_ _e720 = v50_;
+                    LightbvhType23_ _e722 = v51_;
+                    bool _e726 = (asint(_e722.member) != int(0));
+                    if (_e726) {
+                        bool _e727 = (_e722.member_1 < 8u);
+                        if (_e727) {
+                        } else {
+                            v52_ = true;
+                            break;
+                        }
+                        uint _e731 = asuint(lightbvh_nodes.Load(_e722.member_1*4+1u*32+_e577*192+0));
+                        if (_e727) {
+                        } else {
+                            v52_ = true;
+                            break;
+                        }
+                        uint _e735 = asuint(lightbvh_nodes.Load(_e722.member_1*4+2u*32+_e577*192+0));
+                        if (_e727) {
+                        } else {
+                            v52_ = true;
+                            break;
+                        }
+                        uint _e739 = asuint(lightbvh_nodes.Load(_e722.member_1*4+3u*32+_e577*192+0));
+                        if (_e727) {
+                        } else {
+                            v52_ = true;
+                            break;
+                        }
+                        uint _e743 = asuint(lightbvh_nodes.Load(_e722.member_1*4+4u*32+_e577*192+0));
+                        float _e759 = ((_e625 * _e661) + (float(asint(_e731)) * _e681));
+                        float _e760 = ((_e626 * _e661) + (float(asint((_e731 << asuint(15u)))) * _e681));
+                        float _e761 = ((_e627 * _e661) + (float(asint(_e735)) * _e681));
+                        float _e766 = asfloat((((_e743 << asuint(20u)) & 267386880u) + (asuint(_e673) + 4043309056u)));
+                        float _e771 = (float(asint((_e735 << asuint(15u)))) * 4.656613e-10);
+                        float _e773 = float(asint(_e739));
+                        float _e777 = float(asint((_e739 << asuint(8u))));
+                        float _e781 = float(asint((_e739 << asuint(16u))));
+                        float _e785 = (float(asint((_e739 & 255u))) * 0.003921569);
+                        float _e802 = (_e766 * _e766);
+                        float _e808 = ((((_e759 * _e759) + (_e760 * _e760)) + (_e761 * _e761)) + 8.881784e-16);
+                        float _e812 = (_e808 + (1.25 * _e802));
+                        float _e817 = asfloat((1595932665u - (asuint(_e812) >> asuint(int(1)))));
+                        float _e822 = (_e817 * (0.70395225 * (2.3892446 - (_e812 * (_e817 * _e817)))));
+                        float _e823 = (_e766 * _e822);
+                        float _e828 = ((((_e571.member_2.member_2.member_1[0] * 4.656613e-10) * _e773) + ((_e571.member_2.member_2.member_1[1] * 4.656613e-10) * _e777)) + ((_e571.member_2.member_2.member_1[2] * 4.656613e-10) * _e781));
+                        float _e833 = (0.03162278 + (_e823 * (1.0 + (_e771 * (_e828 * _e828)))));
+                        float _e839 = (((((_e571.member_2.member_2.member_1[0] + _e571.member_2.member_2.member_1[0]) * _e759) + ((_e571.member_2.member_2.member_1[1] + _e571.member_2.member_2.member_1[1]) * _e760)) + ((_e571.member_2.member_2.member_1[2] + _e571.member_2.member_2.member_1[2]) * _e761)) * _e822);
+                        float _e841 = (_e839 + ((((_e694 + _e695) + _e696) + ((((_e694 * 4.656613e-10) * float(asint(_e743))) + ((_e695 * 4.656613e-10) * float(asint((_e743 << asuint(8u)))))) + ((_e696 * 4.656613e-10) * float(asint((_e743 << asuint(16u))))))) * _e823));
+                        float _e843 = ((_e841 > 0.0001) ? _e841 : 0.0001);
+                        float _e849 = (asfloat((asuint(_e839) & 2147483647u)) + _e833);
+                        float _e855 = (1.0 + _e771);
+                        float _e861 = ((((_e773 * _e759) + (_e777 * _e760)) + (_e781 * _e761)) * (-2.0 * 4.656613e-10));
+                        float _e864 = (_e766 * ((_e855 > _e785) ? _e855 : _e785));
+                        float _e866 = (_e808 - (2.5 * _e802));
+                        float _e868 = (0.25 * (_e861 * _e861));
+                        float _e874 = ((((_e866 > _e868) ? _e866 : _e868) + 8.881784e-16) + (1.25 * (_e864 * _e864)));
+                        float _e879 = asfloat((1595932665u - (asuint(_e874) >> asuint(int(1)))));
+                        float _e884 = (_e879 * (0.70395225 * (2.3892446 - (_e874 * (_e879 * _e879)))));
+                        float _e886 = ((_e766 * _e884) * _e855);
+                        float _e890 = ((0.03162278 + _e886) + (_e785 * (0.5 - _e886)));
+                        float _e891 = (_e861 * _e884);
+                        float _e895 = (asfloat((asuint(_e891) & 2147483647u)) + _e890);
+                        float _e904 = ((_e849 * _e895) * (_e808 + (0.5 * _e802)));
+                        float _e907 = asfloat((2129859015u - asuint(_e904)));
+                        if (_e727) {
+                        } else {
+                            v52_ = true;
+                            break;
+                        }
+                        v0_[min(uint(_e722.member_1), 7u)] = ((asfloat(((_e735 & 2047u) << asuint(19u))) * (((((_e839 > 0.0) ? _e839 : 0.0) * _e849) + (_e833 * ((_e843 < _e833) ? _e843 : _e833))) * ((((_e891 > 0.0) ? _e891 : 0.0) * _e895) + (_e890 * _e890)))) * (_e907 * (2.0 - (_e904 * _e907))));
+                    }
+                    continue;
+                }
+                bool _e915 = v52_;
+                v72_ = _e915;
+                if (_e915) {
+                    break;
+                }
+                float _e916[8] = v0_;
+                bool _e938 = (_e571.member_2.member_8 < 20u);
+                v53_ = ZeroValueuint();
+                if (_e938) {
+                    bool _e961 = (_e571.member_2.member_8 < 10u);
+                    v55_ = _e571.member_2.member_8;
+                    if (_e961) {
+                    } else {
+                        v55_ = (_e571.member_2.member_8 - 10u);
+                    }
+                    uint _e964 = v55_;
+                    v53_ = (((_e961 ? _e571.member_2.member.member.member : _e571.member_2.member.member.member_1) >> asuint((((_e964 * 3u) & 31u) & 31u))) & 7u);
+                }
+                uint _e940 = v53_;
+                v56_ = _e940;
+                if (_e938) {
+                } else {
+                    uint _e945 = (_e571.member_2.member_8 - 20u);
+                    bool _e946 = (_e945 < 10u);
+                    v54_ = _e945;
+                    if (_e946) {
+                    } else {
+                        v54_ = (_e571.member_2.member_8 - 30u);
+                    }
+                    uint _e949 = v54_;
+                    v56_ = (((_e946 ? _e571.member_2.member.member_1.member : _e571.member_2.member.member_1.member_1) >> asuint((((_e949 * 3u) & 31u) & 31u))) & 7u);
+                }
+                uint _e973 = v56_;
+                uint _e978 = (0u - ((_e916[1] > 0.0) ? 1u : 0u));
+                uint _e979 = (1u & _e978);
+                uint _e983 = (0u - ((_e916[2] > 0.0) ? 1u : 0u));
+                uint _e986 = (_e979 ^ ((2u ^ _e979) & _e983));
+                uint _e990 = (0u - ((_e916[3] > 0.0) ? 1u : 0u));
+                uint _e993 = (_e986 ^ ((3u ^ _e986) & _e990));
+                uint _e997 = (0u - ((_e916[4] > 0.0) ? 1u : 0u));
+                uint _e1000 = (_e993 ^ ((4u ^ _e993) & _e997));
+                uint _e1004 = (0u - ((_e916[5] > 0.0) ? 1u : 0u));
+                uint _e1007 = (_e1000 ^ ((5u ^ _e1000) & _e1004));
+                uint _e1011 = (0u - ((_e916[6] > 0.0) ? 1u : 0u));
+                uint _e1014 = (_e1007 ^ ((6u ^ _e1007) & _e1011));
+                uint _e1018 = (0u - ((_e916[7] > 0.0) ? 1u : 0u));
+                uint _e1021 = (_e1014 ^ ((7u ^ _e1014) & _e1018));
+                float _e1024 = ((((0.0 + _e916[0]) + _e916[4]) + ((0.0 + _e916[2]) + _e916[6])) + (((0.0 + _e916[1]) + _e916[5]) + ((0.0 + _e916[3]) + _e916[7])));
+                bool _e1025 = (_e1024 > 0.0);
+                float _e1029 = (_e1025 ? _e1024 : 1.0);
+                uint _e1030 = asuint(_e1029);
+                float _e1035 = asfloat(((_e1030 & 2147483648u) | (2129859015u - (_e1030 & 2147483647u))));
+                float _e1038 = (_e1035 * (2.0 - (_e1029 * _e1035)));
+                float _e1042 = ((float(asint(_e571.member_2.member_9)) * 0.9999695) * (_e1038 * (2.0 - (_e1029 * _e1038))));
+                v57_ = int(2147483647);
+                if (_e571.member_2.member_13) {
+                } else {
+                    v57_ = asint((_e571.member_2.member_1.member >> asuint(10u)));
+                }
+                int _e1045 = v57_;
+                int _e1051 = asint((asuint(((_e916[0] * _e1042) + 8388608.0)) & 8388607u));
+                int _e1058 = (((_e1051 > int(1)) ? _e1051 : int(1)) & asint((0u - ((_e916[0] > 0.0) ? 1u : 0u))));
+                uint _e1059 = asuint(_e1058);
+                uint _e1060 = (_e1059 & 4294967295u);
+                int _e1062 = asint((_e571.member_2.member_13 ? _e973 : _e1021));
+                uint _e1066 = (0u - (((_e1058 <= _e1045) && (int(0) < _e1062)) ? 1u : 0u));
+                uint _e1067 = (_e1059 & _e1066);
+                int _e1073 = asint((asuint(((_e916[1] * _e1042) + 8388608.0)) & 8388607u));
+                int _e1078 = asint(asuint(_e1058) + asuint((((_e1073 > int(1)) ? _e1073 : int(1)) & asint(_e978))));
+                uint _e1079 = asuint(_e1078);
+                uint _e1082 = (_e1060 ^ ((_e1079 ^ _e1060) & _e1066));
+                uint _e1087 = (0u - (((_e1078 <= _e1045) && (int(1) < _e1062)) ? 1u : 0u));
+                uint _e1090 = (_e1067 ^ ((_e1079 ^ _e1067) & _e1087));
+                int _e1097 = asint((asuint(((_e916[2] * _e1042) + 8388608.0)) & 8388607u));
+                int _e1102 = asint(asuint(_e1078) + asuint((((_e1097 > int(1)) ? _e1097 : int(1)) & asint(_e983))));
+                uint _e1103 = asuint(_e1102);
+                uint _e1106 = (_e1082 ^ ((_e1103 ^ _e1082) & _e1087));
+                uint _e1111 = (0u - (((_e1102 <= _e1045) && (int(2) < _e1062)) ? 1u : 0u));
+                uint _e1114 = (_e1090 ^ ((_e1103 ^ _e1090) & _e1111));
+                int _e1121 = asint((asuint(((_e916[3] * _e1042) + 8388608.0)) & 8388607u));
+                int _e1126 = asint(asuint(_e1102) + asuint((((_e1121 > int(1)) ? _e1121 : int(1)) & asint(_e990))));
+                uint _e1127 = asuint(_e1126);
+                uint _e1130 = (_e1106 ^ ((_e1127 ^ _e1106) & _e1111));
+                uint _e1135 = (0u - (((_e1126 <= _e1045) && (int(3) < _e1062)) ? 1u : 0u));
+                uint _e1138 = (_e1114 ^ ((_e1127 ^ _e1114) & _e1135));
+                int _e1145 = asint((asuint(((_e916[4] * _e1042) + 8388608.0)) & 8388607u));
+                int _e1150 = asint(asuint(_e1126) + asuint((((_e1145 > int(1)) ? _e1145 : int(1)) & asint(_e997))));
+                uint _e1151 = asuint(_e1150);
+                uint _e1154 = (_e1130 ^ ((_e1151 ^ _e1130) & _e1135));
+                uint _e1159 = (0u - (((_e1150 <= _e1045) && (int(4) < _e1062)) ? 1u : 0u));
+                uint _e1162 = (_e1138 ^ ((_e1151 ^ _e1138) & _e1159));
+                int _e1169 = asint((asuint(((_e916[5] * _e1042) + 8388608.0)) & 8388607u));
+                int _e1174 = asint(asuint(_e1150) + asuint((((_e1169 > int(1)) ? _e1169 : int(1)) & asint(_e1004))));
+                uint _e1175 = asuint(_e1174);
+                uint _e1178 = (_e1154 ^ ((_e1175 ^ _e1154) & _e1159));
+                uint _e1183 = (0u - (((_e1174 <= _e1045) && (int(5) < _e1062)) ? 1u : 0u));
+                uint _e1186 = (_e1162 ^ ((_e1175 ^ _e1162) & _e1183));
+                int _e1193 = asint((asuint(((_e916[6] * _e1042) + 8388608.0)) & 8388607u));
+                int _e1198 = asint(asuint(_e1174) + asuint((((_e1193 > int(1)) ? _e1193 : int(1)) & asint(_e1011))));
+                uint _e1199 = asuint(_e1198);
+                uint _e1202 = (_e1178 ^ ((_e1199 ^ _e1178) & _e1183));
+                uint _e1207 = (0u - (((_e1198 <= _e1045) && (int(6) < _e1062)) ? 1u : 0u));
+                uint _e1210 = (_e1186 ^ ((_e1199 ^ _e1186) & _e1207));
+                int _e1217 = asint((asuint(((_e916[7] * _e1042) + 8388608.0)) & 8388607u));
+                int _e1222 = asint(asuint(_e1198) + asuint((((_e1217 > int(1)) ? _e1217 : int(1)) & asint(_e1018))));
+                uint _e1223 = asuint(_e1222);
+                uint _e1226 = (_e1202 ^ ((_e1223 ^ _e1202) & _e1207));
+                uint _e1231 = (0u - (((_e1222 <= _e1045) && (int(7) < _e1062)) ? 1u : 0u));
+                uint _e1234 = (_e1210 ^ ((_e1223 ^ _e1210) & _e1231));
+                uint _e1237 = (_e571.member_2.member_13 ? _e973 : ((((((((_e1066 & 1u) + (_e1087 & 1u)) + (_e1111 & 1u)) + (_e1135 & 1u)) + (_e1159 & 1u)) + (_e1183 & 1u)) + (_e1207 & 1u)) + (_e1231 & 1u)));
+                bool _e1242 = (_e1237 < 8u);
+                bool _e1243 = ((_e1025 && (_e1226 > _e1234)) && _e1242);
+                uint _e1244 = (_e1242 ? _e1237 : 0u);
+                v58_ = 0u;
+                if (_e1243) {
+                    v58_ = (((_e1237 == _e1021) ? _e571.member_2.member_9 : _e1226) - _e1234);
+                }
+                uint _e1248 = v58_;
+                bool _e1249 = (_e1244 < 8u);
+                if (_e1249) {
+                } else {
+                    v72_ = true;
+                    break;
+                }
+                uint _e1253 = asuint(lightbvh_nodes.Load(_e1244*4+1u*32+_e577*192+0));
+                uint _e1254 = (_e1253 & 3u);
+                if (_e1249) {
+                } else {
+                    v72_ = true;
+                    break;
+                }
+                uint _e1258 = asuint(lightbvh_nodes.Load(_e1244*4+5u*32+_e577*192+0));
+                bool _e1262 = ((_e576 && (_e1248 > 0u)) && (_e1248 <= _e571.member_2.member_9));
+                uint _e1263 = (_e1262 ? _e1248 : 1u);
+                uint _e1265 = ((_e1263 - 1u) & 4194303u);
+                uint _e1271 = (((_e1265 == 0u) ? 32u : (asuint(int(31)) - firstbithigh(_e1265))) - 10u);
+                uint _e1273 = ((_e1271 < 22u) ? _e1271 : 22u);
+                uint _e1286 = (_e1273 & 31u);
+                LightbvhType27_ _e1311 = ConstructLightbvhType27_(_e571.member, _e571.member_1, ConstructLightbvhType26_(_e571.member_2.member, ConstructLightbvhType23_((((_e571.member_2.member_1.member - ((_e1243 ? _e1234 : 0u) << asuint(10u))) << asuint(_e1286)) | ((_e571.member_2.member_1.member_1 >> asuint(int(1))) >> asuint(((31u - _e1273) & 31u)))), (_e571.member_2.member_1.member_1 << asuint(_e1286))), _e571.member_2.member_2, _e571.member_2.member_3, _e571.member_2.member_4, _e571.member_2.member_5, _e571.member_2.member_6, _e571.member_2.member_7, _e571.member_2.member_8, _e571.member_2.member_9, _e571.member_2.member_10, _e571.member_2.member_11, _e571.member_2.member_12, _e571.member_2.member_13));
+                LightbvhType27_ _e1332 = ConstructLightbvhType27_(_e1311.member, _e1311.member_1, ConstructLightbvhType26_(_e1311.member_2.member, _e1311.member_2.member_1, _e1311.member_2.member_2, _e1311.member_2.member_3, _e1311.member_2.member_4, _e1311.member_2.member_5, _e1311.member_2.member_6, _e1311.member_2.member_7, _e1311.member_2.member_8, (_e1263 << asuint(_e1286)), _e1311.member_2.member_10, _e1311.member_2.member_11, _e1311.member_2.member_12, _e1311.member_2.member_13));
+                LightbvhType27_ _e1354 = ConstructLightbvhType27_(_e1332.member, _e1332.member_1, ConstructLightbvhType26_(_e1332.member_2.member, _e1332.member_2.member_1, _e1332.member_2.member_2, _e1332.member_2.member_3, _e1332.member_2.member_4, _e1332.member_2.member_5, _e1332.member_2.member_6, _e1332.member_2.member_7, _e1332.member_2.member_8, _e1332.member_2.member_9, (_e571.member_2.member_10 + _e1273), _e1332.member_2.member_11, _e1332.member_2.member_12, _e1332.member_2.member_13));
+                uint _e1355 = (_e571.member_2.member_8 + 1u);
+                v59_ = true;
+                if ((_e1355 == 20u)) {
+                } else {
+                    v59_ = (_e1355 == 40u);
+                }
+                bool _e1359 = v59_;
+                uint _e1360 = (_e1258 & 134217727u);
+                uint _e1364 = (_e1258 >> asuint((firstbitlow(134217728u) & 31u)));
+                bool _e1368 = (_e1360 < _e144);
+                bool _e1369 = (((_e1262 && (_e1254 == 3u)) && _e938) && _e1368);
+                bool _e1373 = ((_e1262 && (_e1254 == 1u)) && !(_e1359));
+                LightbvhType27_ _e1395 = ConstructLightbvhType27_(_e1354.member, _e1354.member_1, ConstructLightbvhType26_(_e1354.member_2.member, _e1354.member_2.member_1, _e1354.member_2.member_2, _e1354.member_2.member_3, _e1354.member_2.member_4, _e1354.member_2.member_5, ((_e1262 && (_e1254 == 2u)) ? _e1258 : 4294967295u), _e1354.member_2.member_7, _e1354.member_2.member_8, _e1354.member_2.member_9, _e1354.member_2.member_10, _e1354.member_2.member_11, _e1354.member_2.member_12, _e1354.member_2.member_13));
+                uint _e1398 = (_e571.member_2.member_11 - 1u);
+                LightbvhType27_ _e1417 = ConstructLightbvhType27_(_e1395.member, _e1395.member_1, ConstructLightbvhType26_(_e1395.member_2.member, _e1395.member_2.member_1, _e1395.member_2.member_2, _e1395.member_2.member_3, _e1395.member_2.member_4, _e1395.member_2.member_5, _e1395.member_2.member_6, _e1395.member_2.member_7, _e1395.member_2.member_8, _e1395.member_2.member_9, _e1395.member_2.member_10, _e1398, _e1395.member_2.member_12, _e1395.member_2.member_13));
+                bool _e1421 = (!((_e1369 || _e1373)) || (_e1398 == 0u));
+                LightbvhType27_ _e1440 = ConstructLightbvhType27_(_e1417.member, _e1417.member_1, ConstructLightbvhType26_(_e1417.member_2.member, _e1417.member_2.member_1, _e1417.member_2.member_2, _e1417.member_2.member_3, _e1417.member_2.member_4, _e1417.member_2.member_5, _e1417.member_2.member_6, _e1417.member_2.member_7, _e1417.member_2.member_8, _e1417.member_2.member_9, _e1417.member_2.member_10, _e1417.member_2.member_11, _e1421, _e1417.member_2.member_13));
+                v60_ = ZeroValueLightbvhType27_();
+                if (_e1369) {
+                    if (_e1368) {
+                    } else {
+                        v72_ = true;
+                        break;
+                    }
+                    LightbvhType27_ _e1505 = ConstructLightbvhType27_(_e1440.member, _e1440.member_1, ConstructLightbvhType26_(_e1440.member_2.member, _e1440.member_2.member_1, _e1440.member_2.member_2, _e1440.member_2.member_3, _e1440.member_2.member_4, _e1440.member_2.member_5, _e1440.member_2.member_6, _e1360, _e1440.member_2.member_8, _e1440.member_2.member_9, _e1440.member_2.member_10, _e1440.member_2.member_11, _e1440.member_2.member_12, _e1440.member_2.member_13));
+                    uint _e1508 = asuint(lightbvh_instances.Load(0+_e1360*136+0));
+                    LightbvhType27_ _e1527 = ConstructLightbvhType27_(_e1505.member, _e1505.member_1, ConstructLightbvhType26_(_e1505.member_2.member, _e1505.member_2.member_1, _e1505.member_2.member_2, _e1505.member_2.member_3, _e1505.member_2.member_4, _e1508, _e1505.member_2.member_6, _e1505.member_2.member_7, _e1505.member_2.member_8, _e1505.member_2.member_9, _e1505.member_2.member_10, _e1505.member_2.member_11, _e1505.member_2.member_12, _e1505.member_2.member_13));
+                    bool _e1528 = (_e1508 == 4294967295u);
+                    v62_ = 4294967295u;
+                    if (_e1528) {
+                        uint _e1531 = asuint(lightbvh_instances.Load(12+_e1360*136+0));
+                        v62_ = _e1531;
+                    }
+                    uint _e1533 = v62_;
+                    LightbvhType27_ _e1552 = ConstructLightbvhType27_(_e1527.member, _e1527.member_1, ConstructLightbvhType26_(_e1527.member_2.member, _e1527.member_2.member_1, _e1527.member_2.member_2, _e1527.member_2.member_3, _e1527.member_2.member_4, _e1527.member_2.member_5, _e1533, _e1527.member_2.member_7, _e1527.member_2.member_8, _e1527.member_2.member_9, _e1527.member_2.member_10, _e1527.member_2.member_11, _e1527.member_2.member_12, _e1527.member_2.member_13));
+                    bool _e1553 = (_e1421 || _e1528);
+                    LightbvhType27_ _e1572 = ConstructLightbvhType27_(_e1552.member, _e1552.member_1, ConstructLightbvhType26_(_e1552.member_2.member, _e1552.member_2.member_1, _e1552.member_2.member_2, _e1552.member_2.member_3, _e1552.member_2.member_4, _e1552.member_2.member_5, _e1552.member_2.member_6, _e1552.member_2.member_7, _e1552.member_2.member_8, _e1552.member_2.member_9, _e1552.member_2.member_10, _e1552.member_2.member_11, _e1553, _e1552.member_2.member_13));
+                    LightbvhType27_ _e1591 = ConstructLightbvhType27_(_e1572.member, _e1572.member_1, ConstructLightbvhType26_(_e1572.member_2.member, _e1572.member_2.member_1, _e1572.member_2.member_2, _e1572.member_2.member_3, _e1572.member_2.member_4, _e1572.member_2.member_5, _e1572.member_2.member_6, _e1572.member_2.member_7, 20u, _e1572.member_2.member_9, _e1572.member_2.member_10, _e1572.member_2.member_11, _e1572.member_2.member_12, _e1572.member_2.member_13));
+                    v63_ = _e1591;
+                    if ((_e1364 > 0u)) {
+                        uint _e1594 = ((_e1508 < _e141) ? _e1508 : 0u);
+                        if ((_e1594 < _e141)) {
+                        } else {
+                            v72_ = true;
+                            break;
+                        }
+                        uint _e1597 = naga_mod((_e1364 - 1u), 8u);
+                        bool _e1598 = (_e1597 < 8u);
+                        if (_e1598) {
+                        } else {
+                            v72_ = true;
+                            break;
+                        }
+                        uint _e1602 = asuint(lightbvh_nodes.Load(_e1597*4+1u*32+_e1594*192+0));
+                        uint _e1603 = (_e1602 & 3u);
+                        if (_e1598) {
+                        } else {
+                            v72_ = true;
+                            break;
+                        }
+                        uint _e1607 = asuint(lightbvh_nodes.Load(_e1597*4+5u*32+_e1594*192+0));
+                        LightbvhType27_ _e1626 = ConstructLightbvhType27_(_e1591.member, _e1591.member_1, ConstructLightbvhType26_(_e1591.member_2.member, _e1591.member_2.member_1, _e1591.member_2.member_2, _e1591.member_2.member_3, _e1591.member_2.member_4, _e1607, _e1591.member_2.member_6, _e1591.member_2.member_7, _e1591.member_2.member_8, _e1591.member_2.member_9, _e1591.member_2.member_10, _e1591.member_2.member_11, _e1591.member_2.member_12, _e1591.member_2.member_13));
+                        LightbvhType27_ _e1647 = ConstructLightbvhType27_(_e1626.member, _e1626.member_1, ConstructLightbvhType26_(_e1626.member_2.member, _e1626.member_2.member_1, _e1626.member_2.member_2, _e1626.member_2.member_3, _e1626.member_2.member_4, _e1626.member_2.member_5, ((_e1603 == 2u) ? _e1607 : 4294967295u), _e1626.member_2.member_7, _e1626.member_2.member_8, _e1626.member_2.member_9, _e1626.member_2.member_10, _e1626.member_2.member_11, _e1626.member_2.member_12, _e1626.member_2.member_13));
+                        LightbvhType27_ _e1668 = ConstructLightbvhType27_(_e1647.member, _e1647.member_1, ConstructLightbvhType26_(_e1647.member_2.member, _e1647.member_2.member_1, _e1647.member_2.member_2, _e1647.member_2.member_3, _e1647.member_2.member_4, _e1647.member_2.member_5, _e1647.member_2.member_6, _e1647.member_2.member_7, _e1647.member_2.member_8, _e1647.member_2.member_9, _e1647.member_2.member_10, _e1647.member_2.member_11, (_e1553 || (_e1603 != 1u)), _e1647.member_2.member_13));
+                        v63_ = ConstructLightbvhType27_(_e1668.member, _e1668.member_1, ConstructLightbvhType26_(_e1668.member_2.member, _e1668.member_2.member_1, _e1668.member_2.member_2, _e1668.member_2.member_3, _e1668.member_2.member_4, _e1668.member_2.member_5, _e1668.member_2.member_6, _e1668.member_2.member_7, 21u, _e1668.member_2.member_9, _e1668.member_2.member_10, _e1668.member_2.member_11, _e1668.member_2.member_12, _e1668.member_2.member_13));
+                    }
+                    LightbvhType27_ _e1689 = v63_;
+                    float _e1699 = asfloat(lightbvh_instances.Load(0u*4+60+_e1360*136+0));
+                    float _e1703 = asfloat(lightbvh_instances.Load(1u*4+60+_e1360*136+0));
+                    float _e1707 = asfloat(lightbvh_instances.Load(2u*4+60+_e1360*136+0));
+                    float _e1708 = (_e176.member.member[0] - _e1699);
+                    float _e1709 = (_e176.member.member[1] - _e1703);
+                    float _e1710 = (_e176.member.member[2] - _e1707);
+                    float _e1715 = ((asfloat((asuint(_e1708) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1708);
+                    float _e1720 = ((asfloat((asuint(_e1709) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1709);
+                    float _e1725 = ((asfloat((asuint(_e1710) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1710);
+                    float _e1730 = asfloat(lightbvh_instances.Load(0u*4+0u*12+72+_e1360*136+0));
+                    float _e1735 = asfloat(lightbvh_instances.Load(1u*4+0u*12+72+_e1360*136+0));
+                    float _e1740 = asfloat(lightbvh_instances.Load(2u*4+0u*12+72+_e1360*136+0));
+                    float _e1748 = asfloat(lightbvh_instances.Load(0u*4+1u*12+72+_e1360*136+0));
+                    float _e1753 = asfloat(lightbvh_instances.Load(1u*4+1u*12+72+_e1360*136+0));
+                    float _e1758 = asfloat(lightbvh_instances.Load(2u*4+1u*12+72+_e1360*136+0));
+                    float _e1769 = asfloat(lightbvh_instances.Load(0u*4+2u*12+72+_e1360*136+0));
+                    float _e1774 = asfloat(lightbvh_instances.Load(1u*4+2u*12+72+_e1360*136+0));
+                    float _e1779 = asfloat(lightbvh_instances.Load(2u*4+2u*12+72+_e1360*136+0));
+                    float _e1783 = (((_e1730 * _e1715) + (_e1748 * _e1720)) + (_e1769 * _e1725));
+                    float _e1784 = (((_e1735 * _e1715) + (_e1753 * _e1720)) + (_e1774 * _e1725));
+                    float _e1785 = (((_e1740 * _e1715) + (_e1758 * _e1720)) + (_e1779 * _e1725));
+                    float _e1796 = asfloat(lightbvh_instances.Load(0u*4+0u*12+24+_e1360*136+0));
+                    float _e1801 = asfloat(lightbvh_instances.Load(1u*4+0u*12+24+_e1360*136+0));
+                    float _e1806 = asfloat(lightbvh_instances.Load(2u*4+0u*12+24+_e1360*136+0));
+                    float _e1811 = (((_e1796 * _e176.member.member_1[0]) + (_e1801 * _e176.member.member_1[1])) + (_e1806 * _e176.member.member_1[2]));
+                    float _e1816 = asfloat(lightbvh_instances.Load(0u*4+1u*12+24+_e1360*136+0));
+                    float _e1821 = asfloat(lightbvh_instances.Load(1u*4+1u*12+24+_e1360*136+0));
+                    float _e1826 = asfloat(lightbvh_instances.Load(2u*4+1u*12+24+_e1360*136+0));
+                    float _e1831 = (((_e1816 * _e176.member.member_1[0]) + (_e1821 * _e176.member.member_1[1])) + (_e1826 * _e176.member.member_1[2]));
+                    float _e1836 = asfloat(lightbvh_instances.Load(0u*4+2u*12+24+_e1360*136+0));
+                    float _e1841 = asfloat(lightbvh_instances.Load(1u*4+2u*12+24+_e1360*136+0));
+                    float _e1846 = asfloat(lightbvh_instances.Load(2u*4+2u*12+24+_e1360*136+0));
+                    float _e1851 = (((_e1836 * _e176.member.member_1[0]) + (_e1841 * _e176.member.member_1[1])) + (_e1846 * _e176.member.member_1[2]));
+                    float _e1856 = ((asfloat((asuint(_e1811) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1811);
+                    float _e1861 = ((asfloat((asuint(_e1831) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1831);
+                    float _e1866 = ((asfloat((asuint(_e1851) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1851);
+                    float _e1871 = (((_e1856 * _e1856) + (_e1861 * _e1861)) + (_e1866 * _e1866));
+                    v64_ = 0.0;
+                    if ((_e1871 >= asfloat(67108864u))) {
+                        float _e1878 = asfloat((1597463007u - (asuint(_e1871) >> asuint(int(1)))));
+                        float _e1879 = (0.5 * _e1871);
+                        float _e1883 = (_e1878 * (1.5 - ((_e1879 * _e1878) * _e1878)));
+                        v64_ = (_e1883 * (1.5 - ((_e1879 * _e1883) * _e1883)));
+                    }
+                    float _e1889 = v64_;
+                    float _e1890 = -(1.1529215e18);
+                    v65_ = _e1890;
+                    if ((_e1783 < _e1890)) {
+                    } else {
+                        v65_ = ((_e1783 > 1.1529215e18) ? 1.1529215e18 : _e1783);
+                    }
+                    float _e1895 = v65_;
+                    v66_ = _e1890;
+                    if ((_e1784 < _e1890)) {
+                    } else {
+                        v66_ = ((_e1784 > 1.1529215e18) ? 1.1529215e18 : _e1784);
+                    }
+                    float _e1905 = v66_;
+                    v67_ = _e1890;
+                    if ((_e1785 < _e1890)) {
+                    } else {
+                        v67_ = ((_e1785 > 1.1529215e18) ? 1.1529215e18 : _e1785);
+                    }
+                    float _e1915 = v67_;
+                    float _e1922 = (_e1856 * _e1889);
+                    float _e1928 = (_e1861 * _e1889);
+                    float _e1934 = (_e1866 * _e1889);
+                    v60_ = ConstructLightbvhType27_(_e1689.member, _e1689.member_1, ConstructLightbvhType26_(_e1689.member_2.member, _e1689.member_2.member_1, ConstructLightbvhType14_(Constructarray3_float_(((asfloat((asuint(_e1895) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1895), ((asfloat((asuint(_e1905) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1905), ((asfloat((asuint(_e1915) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1915)), Constructarray3_float_(((asfloat((asuint(_e1922) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1922), ((asfloat((asuint(_e1928) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1928), ((asfloat((asuint(_e1934) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1934))), _e1689.member_2.member_3, _e1689.member_2.member_4, _e1689.member_2.member_5, _e1689.member_2.member_6, _e1689.member_2.member_7, _e1689.member_2.member_8, _e1689.member_2.member_9, _e1689.member_2.member_10, _e1689.member_2.member_11, _e1689.member_2.member_12, _e1689.member_2.member_13));
+                }
+                LightbvhType27_ _e1442 = v60_;
+                v68_ = _e1442;
+                if (_e1369) {
+                } else {
+                    v61_ = _e571.member_2.member_5;
+                    if (_e1373) {
+                        v61_ = (_e1258 + (_e938 ? _e150 : 0u));
+                    }
+                    uint _e1446 = v61_;
+                    LightbvhType27_ _e1465 = ConstructLightbvhType27_(_e1440.member, _e1440.member_1, ConstructLightbvhType26_(_e1440.member_2.member, _e1440.member_2.member_1, _e1440.member_2.member_2, _e1440.member_2.member_3, _e1440.member_2.member_4, _e1446, _e1440.member_2.member_6, _e1440.member_2.member_7, _e1440.member_2.member_8, _e1440.member_2.member_9, _e1440.member_2.member_10, _e1440.member_2.member_11, _e1440.member_2.member_12, _e1440.member_2.member_13));
+                    v68_ = ConstructLightbvhType27_(_e1465.member, _e1465.member_1, ConstructLightbvhType26_(_e1465.member_2.member, _e1465.member_2.member_1, _e1465.member_2.member_2, _e1465.member_2.member_3, _e1465.member_2.member_4, _e1465.member_2.member_5, _e1465.member_2.member_6, _e1465.member_2.member_7, (_e571.member_2.member_8 + (_e1373 ? 1u : 0u)), _e1465.member_2.member_9, _e1465.member_2.member_10, _e1465.member_2.member_11, _e1465.member_2.member_12, _e1465.member_2.member_13));
+                }
+                LightbvhType27_ _e1962 = v68_;
+                v69_ = _e915;
+                v70_ = _e1962;
+                v71_ = _e1962.member_2.member_12;
+            }
+            bool _e1966 = v69_;
+            LightbvhType27_ _e1968 = v70_;
+            bool _e1970 = v71_;
+            continue;
+        }
+        bool _e1974 = v72_;
+        if (_e1974) {
+            break;
+        }
+        LightbvhType27_ _e1976 = v73_;
+        bool _e1978 = (_e1976.member != 4294967295u);
+        LightbvhType27_ _e1980 = v74_;
+        LightbvhType27_ _e1986 = v75_;
+        LightbvhType27_ _e1990 = v76_;
+        bool _e1994 = ((_e1980.member_2.member_6 != 4294967295u) && (!(_e1978) || (_e1986.member_2.member_7 == _e1990.member_1)));
+        uint _e1995 = (_e1978 ? _e1990.member_1 : _e1986.member_2.member_7);
+        v78_ = _e1976.member;
+        if (_e1978) {
+        } else {
+            v77_ = _e1980.member_2.member_6;
+            if ((_e1986.member_2.member_7 < _e144)) {
+                uint _e1999 = asuint(lightbvh_instances.Load(12+_e1986.member_2.member_7*136+0));
+                uint _e2003 = asuint(lightbvh_instances.Load(8+_e1986.member_2.member_7*136+0));
+                v77_ = ((_e1980.member_2.member_6 - _e1999) + _e2003);
+            }
+            uint _e2006 = v77_;
+            v78_ = _e2006;
+        }
+        uint _e2008 = v78_;
+        v81_ = 0.0;
+        if (_e1994) {
+            LightbvhType27_ _e2010 = v79_;
+            LightbvhType27_ _e2016 = v80_;
+            int _e2023 = naga_neg(asint((22u + ((_e2010.member_2.member_10 < 98u) ? _e2010.member_2.member_10 : 98u))));
+            int _e2025 = ((_e2023 < int(-126)) ? int(-126) : _e2023);
+            v81_ = (float(asint(_e2016.member_2.member_9)) * asfloat((asuint(asint(asuint(((_e2025 > int(127)) ? int(127) : _e2025)) + asuint(int(127)))) << asuint(int(23)))));
+        }
+        float _e2035 = v81_;
+        v83_ = ZeroValueuint();
+        v84_ = true;
+        if ((_e168 > 0u)) {
+            bool _e2037 = (_e1995 < _e144);
+            v82_ = ZeroValueuint();
+            if (_e2037) {
+                uint _e2040 = asuint(lightbvh_instances.Load(16+_e1995*136+0));
+                v82_ = _e2040;
+            }
+            uint _e2042 = v82_;
+            v83_ = _e2042;
+            v84_ = (_e2037 ? false : true);
+        }
+        uint _e2045 = v83_;
+        bool _e2047 = v84_;
+        uint _e2052 = ((_e2047 ? _e171 : _e2045) & 2147483647u);
+        uint _e2057 = asuint((float(int(65536)) * asfloat(880803840u)));
+        uint _e2058 = asuint(float(asint(((_e2052 > 0u) ? _e2052 : 1u))));
+        uint _e2063 = ((_e2057 >> asuint(int(23))) & 255u);
+        uint _e2067 = (_e2057 & 8388607u);
+        uint _e2068 = (_e2067 | 8388608u);
+        uint _e2069 = (_e2058 & 8388607u);
+        uint _e2070 = (_e2069 | 8388608u);
+        bool _e2071 = (_e2068 < _e2070);
+        float _e2075 = asfloat((_e2069 | 1065353216u));
+        uint _e2076 = asuint(_e2075);
+        float _e2081 = asfloat(((_e2076 & 2147483648u) | (2129859015u - (_e2076 & 2147483647u))));
+        float _e2084 = (_e2081 * (2.0 - (_e2075 * _e2081)));
+        float _e2087 = (_e2084 * (2.0 - (_e2075 * _e2084)));
+        float _e2091 = ((asfloat((_e2067 | 1065353216u)) * _e2087) * (_e2071 ? 16777216.0 : 8388608.0));
+        float _e2092 = asfloat(0u);
+        float _e2093 = asfloat(1333788671u);
+        uint _e2098 = ((_e2091 > _e2093) ? 4294967295u : ((_e2091 < _e2092) ? 0u : naga_f2u32(_e2091)));
+        int _e2104 = asint(((_e2068 << asuint(((_e2071 ? int(24) : int(23)) & int(31)))) - (_e2098 * _e2070)));
+        float _e2109 = ((float((_e2104 >> asuint(int(8)))) * _e2087) * 3.0517578e-5);
+        float _e2110 = asfloat(3472883712u);
+        float _e2111 = asfloat(1325400063u);
+        int _e2118 = ((_e2109 == _e2109) ? ((_e2109 > _e2111) ? int(2147483647) : ((_e2109 < _e2110) ? int(-2147483647 - 1) : naga_f2i32(_e2109))) : int(0));
+        uint _e2120 = (_e2098 + asuint(_e2118));
+        int _e2121 = asint(_e2070);
+        int _e2123 = asint(asuint(_e2104) - asuint(asint(asuint(_e2118) * asuint(_e2121))));
+        bool _e2124 = (_e2123 < int(0));
+        v85_ = _e2120;
+        if (_e2124) {
+            v85_ = (_e2120 - 1u);
+        }
+        uint _e2127 = v85_;
+        v86_ = _e2123;
+        if (_e2124) {
+            v86_ = asint(asuint(_e2123) + asuint(_e2121));
+        }
+        int _e2130 = v86_;
+        bool _e2131 = (_e2130 >= _e2121);
+        v87_ = _e2127;
+        if (_e2131) {
+            v87_ = (_e2127 + 1u);
+        }
+        uint _e2134 = v87_;
+        v88_ = _e2130;
+        if (_e2131) {
+            v88_ = asint(asuint(_e2130) - asuint(_e2121));
+        }
+        int _e2137 = v88_;
+        v89_ = _e2134;
+        if ((asint(asuint(_e2137) * asuint(int(2))) > _e2121)) {
+            v89_ = (_e2134 + 1u);
+        }
+        uint _e2142 = v89_;
+        int _e2147 = asint(asuint(asint(asuint(asint(_e2063)) - asuint(asint(((_e2058 >> asuint(int(23))) & 255u))))) + asuint((_e2071 ? int(126) : int(127))));
+        v92_ = ZeroValueuint();
+        v93_ = true;
+        if ((_e2063 == 0u)) {
+        } else {
+            bool _e2149 = (_e2147 <= int(0));
+            v91_ = ZeroValueuint();
+            if (_e2149) {
+            } else {
+                v90_ = 2139095040u;
+                if ((_e2147 >= int(255))) {
+                } else {
+                    v90_ = ((asuint(_e2147) << asuint(int(23))) + (_e2142 & 8388607u));
+                }
+                uint _e2157 = v90_;
+                v91_ = _e2157;
+            }
+            uint _e2159 = v91_;
+            v92_ = _e2159;
+            v93_ = _e2149;
+        }
+        uint _e2161 = v92_;
+        bool _e2163 = v93_;
+        uint _e2167 = (_e168 & 2147483647u);
+        uint _e2172 = asuint(asfloat((((_e2057 ^ _e2058) & 2147483648u) | (_e2163 ? 0u : _e2161))));
+        uint _e2173 = asuint(float(asint(((_e2167 > 0u) ? _e2167 : 1u))));
+        uint _e2178 = ((_e2172 >> asuint(int(23))) & 255u);
+        uint _e2182 = (_e2172 & 8388607u);
+        uint _e2183 = (_e2182 | 8388608u);
+        uint _e2184 = (_e2173 & 8388607u);
+        uint _e2185 = (_e2184 | 8388608u);
+        bool _e2186 = (_e2183 < _e2185);
+        float _e2190 = asfloat((_e2184 | 1065353216u));
+        uint _e2191 = asuint(_e2190);
+        float _e2196 = asfloat(((_e2191 & 2147483648u) | (2129859015u - (_e2191 & 2147483647u))));
+        float _e2199 = (_e2196 * (2.0 - (_e2190 * _e2196)));
+        float _e2202 = (_e2199 * (2.0 - (_e2190 * _e2199)));
+        float _e2206 = ((asfloat((_e2182 | 1065353216u)) * _e2202) * (_e2186 ? 16777216.0 : 8388608.0));
+        uint _e2211 = ((_e2206 > _e2093) ? 4294967295u : ((_e2206 < _e2092) ? 0u : naga_f2u32(_e2206)));
+        int _e2217 = asint(((_e2183 << asuint(((_e2186 ? int(24) : int(23)) & int(31)))) - (_e2211 * _e2185)));
+        float _e2222 = ((float((_e2217 >> asuint(int(8)))) * _e2202) * 3.0517578e-5);
+        int _e2229 = ((_e2222 == _e2222) ? ((_e2222 > _e2111) ? int(2147483647) : ((_e2222 < _e2110) ? int(-2147483647 - 1) : naga_f2i32(_e2222))) : int(0));
+        uint _e2231 = (_e2211 + asuint(_e2229));
+        int _e2232 = asint(_e2185);
+        int _e2234 = asint(asuint(_e2217) - asuint(asint(asuint(_e2229) * asuint(_e2232))));
+        bool _e2235 = (_e2234 < int(0));
+        v94_ = _e2231;
+        if (_e2235) {
+            v94_ = (_e2231 - 1u);
+        }
+        uint _e2238 = v94_;
+        v95_ = _e2234;
+        if (_e2235) {
+            v95_ = asint(asuint(_e2234) + asuint(_e2232));
+        }
+        int _e2241 = v95_;
+        bool _e2242 = (_e2241 >= _e2232);
+        v96_ = _e2238;
+        if (_e2242) {
+            v96_ = (_e2238 + 1u);
+        }
+        uint _e2245 = v96_;
+        v97_ = _e2241;
+        if (_e2242) {
+            v97_ = asint(asuint(_e2241) - asuint(_e2232));
+        }
+        int _e2248 = v97_;
+        v98_ = _e2245;
+        if ((asint(asuint(_e2248) * asuint(int(2))) > _e2232)) {
+            v98_ = (_e2245 + 1u);
+        }
+        uint _e2253 = v98_;
+        int _e2258 = asint(asuint(asint(asuint(asint(_e2178)) - asuint(asint(((_e2173 >> asuint(int(23))) & 255u))))) + asuint((_e2186 ? int(126) : int(127))));
+        v101_ = ZeroValueuint();
+        v102_ = true;
+        if ((_e2178 == 0u)) {
+        } else {
+            bool _e2260 = (_e2258 <= int(0));
+            v100_ = ZeroValueuint();
+            if (_e2260) {
+            } else {
+                v99_ = 2139095040u;
+                if ((_e2258 >= int(255))) {
+                } else {
+                    v99_ = ((asuint(_e2258) << asuint(int(23))) + (_e2253 & 8388607u));
+                }
+                uint _e2268 = v99_;
+                v100_ = _e2268;
+            }
+            uint _e2270 = v100_;
+            v101_ = _e2270;
+            v102_ = _e2260;
+        }
+        uint _e2272 = v101_;
+        bool _e2274 = v102_;
+        v103_ = ConstructLightbvhType19_(4294967295u, 4294967295u, 0.0);
+        if ((_e1978 || _e1994)) {
+            v103_ = ConstructLightbvhType19_(_e2008, _e1995, (_e2035 + asfloat((((_e2172 ^ _e2173) & 2147483648u) | (_e2274 ? 0u : _e2272)))));
+        }
+        LightbvhType19_ _e2282 = v103_;
+        results = _e2282;
+        break;
+    } while(false);
+    LightbvhType19_ _e2388 = results;
+    const LightbvhLightSample lightbvhlightsample = ConstructLightbvhLightSample(_e2388.member, _e2388.member_1, _e2388.member_2);
+    return lightbvhlightsample;
+}
+
+float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
+{
+    LightbvhType16_ queries_1 = (LightbvhType16_)0;
+    float results_1 = (float)0;
+    float v0_1[8] = (float[8])0;
+    uint v1_1 = (uint)0;
+    uint v2_1 = (uint)0;
+    bool v3_1 = (bool)0;
+    uint v4_1 = (uint)0;
+    uint v5_1 = (uint)0;
+    uint v6_1 = (uint)0;
+    bool v7_1 = (bool)0;
+    bool v8_1 = (bool)0;
+    LightbvhType24_ v9_1 = (LightbvhType24_)0;
+    uint v10_1 = (uint)0;
+    uint v11_1 = (uint)0;
+    uint v12_1 = (uint)0;
+    uint v13_1 = (uint)0;
+    bool v14_1 = (bool)0;
+    uint v15_1 = (uint)0;
+    LightbvhType23_ v16_1 = (LightbvhType23_)0;
+    uint v17_1 = (uint)0;
+    uint v18_1 = (uint)0;
+    uint v19_1 = (uint)0;
+    LightbvhType23_ v20_1 = (LightbvhType23_)0;
+    uint v21_1 = (uint)0;
+    uint v22_1 = (uint)0;
+    LightbvhType23_ v23_1 = (LightbvhType23_)0;
+    uint v24_1 = (uint)0;
+    bool v25_1 = (bool)0;
+    bool v26_1 = (bool)0;
+    LightbvhType23_ v27_1 = (LightbvhType23_)0;
+    bool v28_1 = (bool)0;
+    LightbvhType24_ v29_1 = (LightbvhType24_)0;
+    bool v30_1 = (bool)0;
+    LightbvhType26_ v31_1 = (LightbvhType26_)0;
+    bool v32_1 = (bool)0;
+    LightbvhType23_ v33_1 = (LightbvhType23_)0;
+    LightbvhType23_ v34_1 = (LightbvhType23_)0;
+    LightbvhType23_ v35_1 = (LightbvhType23_)0;
+    LightbvhType23_ v36_1 = (LightbvhType23_)0;
+    LightbvhType23_ v37_1 = (LightbvhType23_)0;
+    bool v38_1 = (bool)0;
+    uint v39_1 = (uint)0;
+    uint v40_1 = (uint)0;
+    uint v41_1 = (uint)0;
+    uint v42_1 = (uint)0;
+    int v43_1 = (int)0;
+    uint v44_1 = (uint)0;
+    bool v45_1 = (bool)0;
+    LightbvhType26_ v46_1 = (LightbvhType26_)0;
+    uint v47_1 = (uint)0;
+    uint v48_1 = (uint)0;
+    LightbvhType26_ v49_1 = (LightbvhType26_)0;
+    float v50_1 = (float)0;
+    float v51_1 = (float)0;
+    float v52_1 = (float)0;
+    float v53_1 = (float)0;
+    LightbvhType26_ v54_1 = (LightbvhType26_)0;
+    bool v55_1 = (bool)0;
+    LightbvhType26_ v56_1 = (LightbvhType26_)0;
+    bool v57_1 = (bool)0;
+    bool v58_1 = (bool)0;
+    LightbvhType26_ v59_1 = (LightbvhType26_)0;
+    LightbvhType26_ v60_1 = (LightbvhType26_)0;
+    LightbvhType26_ v61_1 = (LightbvhType26_)0;
+    LightbvhType26_ v62_1 = (LightbvhType26_)0;
+    float v63_1 = (float)0;
+    uint v64_1 = (uint)0;
+    uint v65_1 = (uint)0;
+    bool v66_1 = (bool)0;
+    uint v67_1 = (uint)0;
+    int v68_1 = (int)0;
+    uint v69_1 = (uint)0;
+    int v70_1 = (int)0;
+    uint v71_1 = (uint)0;
+    uint v72_1 = (uint)0;
+    uint v73_1 = (uint)0;
+    uint v74_1 = (uint)0;
+    bool v75_1 = (bool)0;
+    uint v76_1 = (uint)0;
+    int v77_1 = (int)0;
+    uint v78_1 = (uint)0;
+    int v79_1 = (int)0;
+    uint v80_1 = (uint)0;
+    uint v81_1 = (uint)0;
+    uint v82_1 = (uint)0;
+    uint v83_1 = (uint)0;
+    bool v84_1 = (bool)0;
+    bool v85_1 = (bool)0;
+    bool v86_1 = (bool)0;
+    bool v87_1 = (bool)0;
+    float v88_1 = (float)0;
+
+    queries_1 = ConstructLightbvhType16_(ConstructLightbvhType14_(Constructarray3_float_(p_1.x, p_1.y, p_1.z), Constructarray3_float_(n_1.x, n_1.y, n_1.z)), Constructarray2_uint_(light, instance));
+    do {
+        uint _e135 = ((NagaBufferLength(lightbvh_nodes) - 0) / 192);
+        uint _e138 = ((NagaBufferLength(lightbvh_instances) - 0) / 136);
+        uint _e141 = ((NagaBufferLength(lightbvh_trails) - 0) / 4);
+        uint _e144 = lightbvh_tree.top;
+        uint _e147 = lightbvh_tree.root;
+        uint _e150 = lightbvh_tree.above;
+        uint _e153 = lightbvh_tree.places;
+        uint _e156 = lightbvh_tree.parts;
+        uint _e159 = lightbvh_tree.trail_words;
+        uint _e162 = lightbvh_tree.live;
+        uint _e165 = lightbvh_tree.lights;
+        uint _e168 = lightbvh_tree.depth;
+        LightbvhType16_ _e170 = queries_1;
+        bool _e176 = (_e162 > 0u);
+        uint _e177 = (_e176 ? _e170.member_1[1] : 4294967295u);
+        bool _e178 = (_e177 < _e138);
+        v2_1 = ZeroValueuint();
+        v3_1 = true;
+        if (_e178) {
+            v1_1 = ZeroValueuint();
+            if (_e176) {
+                uint _e181 = asuint(lightbvh_instances.Load(8+_e177*136+0));
+                uint _e185 = asuint(lightbvh_instances.Load(12+_e177*136+0));
+                v1_1 = ((_e170.member_1[0] - _e181) + _e185);
+            }
+            uint _e188 = v1_1;
+            v2_1 = _e188;
+            v3_1 = (_e176 ? false : true);
+        }
+        uint _e191 = v2_1;
+        bool _e193 = v3_1;
+        uint _e194 = (_e193 ? _e170.member_1[0] : _e191);
+        uint _e195 = (_e194 * _e159);
+        v4_1 = 0u;
+        if ((_e195 < _e141)) {
+            uint _e198 = asuint(lightbvh_trails.Load(_e195*4+0));
+            v4_1 = _e198;
+        }
+        uint _e200 = v4_1;
+        v6_1 = ZeroValueuint();
+        v7_1 = true;
+        if ((_e159 == 2u)) {
+            uint _e202 = (_e195 + 1u);
+            bool _e203 = (_e202 < _e141);
+            v5_1 = ZeroValueuint();
+            if (_e203) {
+                uint _e205 = asuint(lightbvh_trails.Load(_e202*4+0));
+                v5_1 = _e205;
+            }
+            uint _e207 = v5_1;
+            v6_1 = _e207;
+            v7_1 = (_e203 ? false : true);
+        }
+        uint _e210 = v6_1;
+        bool _e212 = v7_1;
+        uint _e213 = (_e212 ? 0u : _e210);
+        v8_1 = ZeroValuebool();
+        v9_1 = ZeroValueLightbvhType24_();
+        if (_e178) {
+            uint _e220 = (_e153 + _e177);
+            v10_1 = 4294967295u;
+            if ((_e220 < _e141)) {
+                uint _e223 = asuint(lightbvh_trails.Load(_e220*4+0));
+                v10_1 = _e223;
+            }
+            uint _e225 = v10_1;
+            v13_1 = ZeroValueuint();
+            v14_1 = true;
+            if ((_e225 != 4294967295u)) {
+                bool _e227 = (_e225 >= 2147483648u);
+                v12_1 = ZeroValueuint();
+                if (_e227) {
+                    uint _e231 = (_e156 + ((_e225 - 2147483648u) + (_e200 & 7u)));
+                    v11_1 = 4294967295u;
+                    if ((_e231 < _e141)) {
+                        uint _e234 = asuint(lightbvh_trails.Load(_e231*4+0));
+                        v11_1 = _e234;
+                    }
+                    uint _e236 = v11_1;
+                    v12_1 = _e236;
+                }
+                uint _e238 = v12_1;
+                v13_1 = _e238;
+                v14_1 = (_e227 ? false : true);
+            }
+            uint _e241 = v13_1;
+            bool _e243 = v14_1;
+            v15_1 = 0u;
+            v16_1 = ConstructLightbvhType23_(0u, 0u);
+            v17_1 = (_e243 ? _e225 : _e241);
+            uint2 loop_bound_3 = uint2(4294967295u, 4294967295u);
+            bool loop_init_3 = true;
+            while(true) {
+                if (all(loop_bound_3 == uint2(0u, 0u))) { break; }
+                loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
+                if (!loop_init_3) {
+                    v15_1 = v22_1;
+                    v16_1 = v23_1;
+                    v17_1 = v24_1;
+                    v26_1 = false;
+                    if (!(v25_1)) {
+                        break;
+                    }
+                }
+                loop_init_3 = false;
+                uint _e246 = v15_1;
+                LightbvhType23_ _e248 = v16_1;
+                uint _e250 = v17_1;
+                v27_1 = _e248;
+                v22_1 = ZeroValueuint();
+                v23_1 = ZeroValueLightbvhType23_();
+                v24_1 = ZeroValueuint();
+                v25_1 = false;
+                if ((_e250 < 2147483648u)) {
+                    bool _e252 = (_e246 < 20u);
+                    v19_1 = ZeroValueuint();
+                    v20_1 = ZeroValueLightbvhType23_();
+                    v21_1 = ZeroValueuint();
+                    if (_e252) {
+                        uint _e271 = (_e150 + (_e250 >> asuint(3u)));
+                        v18_1 = 4294967295u;
+                        if ((_e271 < _e141)) {
+                            uint _e274 = asuint(lightbvh_trails.Load(_e271*4+0));
+                            v18_1 = _e274;
+                        }
+                        uint _e276 = v18_1;
+                        v19_1 = (_e246 + 1u);
+                        v20_1 = ConstructLightbvhType23_((((_e248.member << asuint(3u)) | ((_e250 & 7u) & 7u)) & 1073741823u), (((_e248.member_1 << asuint(3u)) | ((_e248.member >> asuint(27u)) & 7u)) & 1073741823u));
+                        v21_1 = _e276;
+                    }
+                    uint _e279 = v19_1;
+                    LightbvhType23_ _e281 = v20_1;
+                    uint _e283 = v21_1;
+                    v22_1 = _e279;
+                    v23_1 = _e281;
+                    v24_1 = _e283;
+                    v25_1 = _e252;
+                }
+                uint _e285 = v22_1;
+                LightbvhType23_ _e287 = v23_1;
+                uint _e289 = v24_1;
+                bool _e291 = v25_1;
+                continue;
+            }
+            bool _e294 = v26_1;
+            if (_e294) {
+                break;
+            }
+            LightbvhType23_ _e297 = v27_1;
+            v8_1 = _e294;
+            v9_1 = ConstructLightbvhType24_(_e297, ConstructLightbvhType23_(_e200, _e213));
+        }
+        bool _e215 = v8_1;
+        LightbvhType24_ _e217 = v9_1;
+        v28_1 = _e215;
+        v29_1 = _e217;
+        if (_e178) {
+        } else {
+            v28_1 = false;
+            v29_1 = ConstructLightbvhType24_(ConstructLightbvhType23_(_e200, _e213), ConstructLightbvhType23_(0u, 0u));
+        }
+        bool _e300 = v28_1;
+        LightbvhType24_ _e302 = v29_1;
+        bool _e304 = (_e168 == 0u);
+        LightbvhType26_ _e305 = ConstructLightbvhType26_(_e302, ConstructLightbvhType23_(0u, 0u), _e170.member, ConstructLightbvhType25_(0.0, 1.0), 0u, (_e147 + _e144), 4294967295u, 4294967295u, 0u, 4194304u, 0u, _e168, _e304, true);
+        uint _e308 = (asuint(int(21)) - firstbithigh(4128767u));
+        uint _e310 = ((_e308 < 22u) ? _e308 : 22u);
+        uint _e311 = (_e310 & 31u);
+        LightbvhType26_ _e329 = ConstructLightbvhType26_(_e305.member, ConstructLightbvhType23_((4227858432u << asuint(_e311)), 0u), _e305.member_2, _e305.member_3, _e305.member_4, _e305.member_5, _e305.member_6, _e305.member_7, _e305.member_8, _e305.member_9, _e305.member_10, _e305.member_11, _e305.member_12, _e305.member_13);
+        LightbvhType26_ _e346 = ConstructLightbvhType26_(_e329.member, _e329.member_1, _e329.member_2, _e329.member_3, _e329.member_4, _e329.member_5, _e329.member_6, _e329.member_7, _e329.member_8, (4128768u << asuint(_e311)), _e329.member_10, _e329.member_11, _e329.member_12, _e329.member_13);
+        v30_1 = _e300;
+        v31_1 = ConstructLightbvhType26_(_e346.member, _e346.member_1, _e346.member_2, _e346.member_3, _e346.member_4, _e346.member_5, _e346.member_6, _e346.member_7, _e346.member_8, _e346.member_9, _e310, _e346.member_11, _e346.member_12, _e346.member_13);
+        v32_1 = _e304;
+        uint2 loop_bound_4 = uint2(4294967295u, 4294967295u);
+        bool loop_init_4 = true;
+        while(true) {
+            if (all(loop_bound_4 == uint2(0u, 0u))) { break; }
+            loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
+            if (!loop_init_4) {
+                v30_1 = v55_1;
+                v31_1 = v56_1;
+                v32_1 = v57_1;
+                v58_1 = v55_1;
+                if (!((v32_1 ? false : true))) {
+                    break;
+                }
+            }
+            loop_init_4 = false;
+            bool _e363 = v30_1;
+            LightbvhType26_ _e365 = v31_1;
+            bool _e367 = v32_1;
+            v59_1 = _e365;
+            v60_1 = _e365;
+            v61_1 = _e365;
+            v62_1 = _e365;
+            v55_1 = _e363;
+            v56_1 = ZeroValueLightbvhType26_();
+            v57_1 = ZeroValuebool();
+            if (_e367) {
+            } else {
+                bool _e369 = (_e365.member_5 < _e135);
+                uint _e370 = (_e369 ? _e365.member_5 : 0u);
+                if ((_e370 < _e135)) {
+                } else {
+                    v58_1 = true;
+                    break;
+                }
+                uint _e393 = asuint(lightbvh_nodes.Load(0u*4+0u*32+_e370*192+0));
+                uint _e398 = asuint(lightbvh_nodes.Load(1u*4+0u*32+_e370*192+0));
+                uint _e403 = asuint(lightbvh_nodes.Load(2u*4+0u*32+_e370*192+0));
+                uint _e408 = asuint(lightbvh_nodes.Load(3u*4+0u*32+_e370*192+0));
+                int _e411 = asint(asuint(asint((_e408 & 255u))) - asuint(int(127)));
+                float _e412 = (asfloat(_e393) - _e365.member_2.member[0]);
+                float _e413 = (asfloat(_e398) - _e365.member_2.member[1]);
+                float _e414 = (asfloat(_e403) - _e365.member_2.member[2]);
+                float _e417 = asfloat((asuint(_e412) & 2147483647u));
+                float _e420 = asfloat((asuint(_e413) & 2147483647u));
+                float _e423 = asfloat((asuint(_e414) & 2147483647u));
+                float _e425 = ((_e417 > _e420) ? _e417 : _e420);
+                int _e433 = asint(asuint(asint(((asuint(((_e425 > _e423) ? _e425 : _e423)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
+                int _e435 = ((_e433 > _e411) ? _e433 : _e411);
+                int _e436 = asint(asuint(_e411) - asuint(_e435));
+                int _e438 = ((_e436 < int(-40)) ? int(-40) : _e436);
+                int _e439 = naga_neg(_e435);
+                int _e441 = ((_e439 < int(-126)) ? int(-126) : _e439);
+                float _e448 = asfloat((asuint(asint(asuint(((_e441 > int(127)) ? int(127) : _e441)) + asuint(int(127)))) << asuint(int(23))));
+                int _e453 = ((_e438 < int(-126)) ? int(-126) : _e438);
+                float _e460 = asfloat((asuint(asint(asuint(((_e453 > int(127)) ? int(127) : _e453)) + asuint(int(127)))) << asuint(int(23))));
+                float _e468 = (_e460 * 4.656613e-10);
+                float _e480 = (2.0 * 8.0);
+                float _e481 = (asfloat((asuint(_e365.member_2.member_1[0]) & 2147483647u)) * _e480);
+                float _e482 = (asfloat((asuint(_e365.member_2.member_1[1]) & 2147483647u)) * _e480);
+                float _e483 = (asfloat((asuint(_e365.member_2.member_1[2]) & 2147483647u)) * _e480);
+                v0_1 = Constructarray8_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+                v33_1 = ConstructLightbvhType23_(0u, 8u);
+                uint2 loop_bound_5 = uint2(4294967295u, 4294967295u);
+                bool loop_init_5 = true;
+                while(true) {
+                    if (all(loop_bound_5 == uint2(0u, 0u))) { break; }
+                    loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
+                    if (!loop_init_5) {
+                        v33_1 = v36_1;
+                        v38_1 = _e363;
+                        if (!((asint(v37_1.member) != int(0)))) {
+                            break;
+                        }
+                    }
+                    loop_init_5 = false;
+                    LightbvhType23_ _e490 = v33_1;
+                    bool _e493 = (_e490.member < _e490.member_1);
+                    v34_1 = ZeroValueLightbvhType23_();
+                    v35_1 = ZeroValueLightbvhType23_();
+                    if (_e493) {
+                        v34_1 = ConstructLightbvhType23_((_e490.member + 1u), _e490.member_1);
+                        v35_1 = ConstructLightbvhType23_(1u, _e490.member);
+                    }
+                    LightbvhType23_ _e495 = v34_1;
+                    LightbvhType23_ _e497 = v35_1;
+                    v36_1 = _e495;
+                    v37_1 = _e497;
+                    if (_e493) {
+                    } else {
+                        v36_1 = _e490;
+                        v37_1 = ConstructLightbvhType23_(0u, ZeroValueLightbvhType23_().member_1);
+                    }
+                    LightbvhType23_ _e507 = v36_1;
+                    LightbvhType23_ _e509 = v37_1;
+                    bool _e513 = (asint(_e509.member) != int(0));
+                    if (_e513) {
+                        bool _e514 = (_e509.member_1 < 8u);
+                        if (_e514) {
+                        } else {
+                            v38_1 = true;
+                            break;
+                        }
+                        uint _e518 = asuint(lightbvh_nodes.Load(_e509.member_1*4+1u*32+_e370*192+0));
+                        if (_e514) {
+                        } else {
+                            v38_1 = true;
+                            break;
+                        }
+                        uint _e522 = asuint(lightbvh_nodes.Load(_e509.member_1*4+2u*32+_e370*192+0));
+                        if (_e514) {
+                        } else {
+                            v38_1 = true;
+                            break;
+                        }
+                        uint _e526 = asuint(lightbvh_nodes.Load(_e509.member_1*4+3u*32+_e370*192+0));
+                        if (_e514) {
+                        } else {
+                            v38_1 = true;
+                            break;
+                        }
+                        uint _e530 = asuint(lightbvh_nodes.Load(_e509.member_1*4+4u*32+_e370*192+0));
+                        float _e546 = ((_e412 * _e448) + (float(asint(_e518)) * _e468));
+                        float _e547 = ((_e413 * _e448) + (float(asint((_e518 << asuint(15u)))) * _e468));
+                        float _e548 = ((_e414 * _e448) + (float(asint(_e522)) * _e468));
+                        float _e553 = asfloat((((_e530 << asuint(20u)) & 267386880u) + (asuint(_e460) + 4043309056u)));
+                        float _e558 = (float(asint((_e522 << asuint(15u)))) * 4.656613e-10);
+                        float _e560 = float(asint(_e526));
+                        float _e564 = float(asint((_e526 << asuint(8u))));
+                        float _e568 = float(asint((_e526 << asuint(16u))));
+                        float _e572 = (float(asint((_e526 & 255u))) * 0.003921569);
+                        float _e589 = (_e553 * _e553);
+                        float _e595 = ((((_e546 * _e546) + (_e547 * _e547)) + (_e548 * _e548)) + 8.881784e-16);
+                        float _e599 = (_e595 + (1.25 * _e589));
+                        float _e604 = asfloat((1595932665u - (asuint(_e599) >> asuint(int(1)))));
+                        float _e609 = (_e604 * (0.70395225 * (2.3892446 - (_e599 * (_e604 * _e604)))));
+                        float _e610 = (_e553 * _e609);
+                        float _e615 = ((((_e365.member_2.member_1[0] * 4.656613e-10) * _e560) + ((_e365.member_2.member_1[1] * 4.656613e-10) * _e564)) + ((_e365.member_2.member_1[2] * 4.656613e-10) * _e568));
+                        float _e620 = (0.03162278 + (_e610 * (1.0 + (_e558 * (_e615 * _e615)))));
+                        float _e626 = (((((_e365.member_2.member_1[0] + _e365.member_2.member_1[0]) * _e546) + ((_e365.member_2.member_1[1] + _e365.member_2.member_1[1]) * _e547)) + ((_e365.member_2.member_1[2] + _e365.member_2.member_1[2]) * _e548)) * _e609);
+                        float _e628 = (_e626 + ((((_e481 + _e482) + _e483) + ((((_e481 * 4.656613e-10) * float(asint(_e530))) + ((_e482 * 4.656613e-10) * float(asint((_e530 << asuint(8u)))))) + ((_e483 * 4.656613e-10) * float(asint((_e530 << asuint(16u))))))) * _e610));
+                        float _e630 = ((_e628 > 0.0001) ? _e628 : 0.0001);
+                        float _e636 = (asfloat((asuint(_e626) & 2147483647u)) + _e620);
+                        float _e642 = (1.0 + _e558);
+                        float _e648 = ((((_e560 * _e546) + (_e564 * _e547)) + (_e568 * _e548)) * (-2.0 * 4.656613e-10));
+                        float _e651 = (_e553 * ((_e642 > _e572) ? _e642 : _e572));
+                        float _e653 = (_e595 - (2.5 * _e589));
+                        float _e655 = (0.25 * (_e648 * _e648));
+                        float _e661 = ((((_e653 > _e655) ? _e653 : _e655) + 8.881784e-16) + (1.25 * (_e651 * _e651)));
+                        float _e666 = asfloat((1595932665u - (asuint(_e661) >> asuint(int(1)))));
+                        float _e671 = (_e666 * (0.70395225 * (2.3892446 - (_e661 * (_e666 * _e666)))));
+                        float _e673 = ((_e553 * _e671) * _e642);
+                        float _e677 = ((0.03162278 + _e673) + (_e572 * (0.5 - _e673)));
+                        float _e678 = (_e648 * _e671);
+                        float _e682 = (asfloat((asuint(_e678) & 2147483647u)) + _e677);
+                        float _e691 = ((_e636 * _e682) * (_e595 + (0.5 * _e589)));
+                        float _e694 = asfloat((2129859015u - asuint(_e691)));
+                        if (_e514) {
+                        } else {
+                            v38_1 = true;
+                            break;
+                        }
+                        v0_1[min(uint(_e509.member_1), 7u)] = ((asfloat(((_e522 & 2047u) << asuint(19u))) * (((((_e626 > 0.0) ? _e626 : 0.0) * _e636) + (_e620 * ((_e630 < _e620) ? _e630 : _e620))) * ((((_e678 > 0.0) ? _e678 : 0.0) * _e682) + (_e677 * _e677)))) * (_e694 * (2.0 - (_e691 * _e694))));
+                    }
+                    continue;
+                }
+                bool _e702 = v38_1;
+                v58_1 = _e702;
+                if (_e702) {
+                    break;
+                }
+                float _e703[8] = v0_1;
+                bool _e720 = (_e365.member_8 < 20u);
+                v39_1 = ZeroValueuint();
+                if (_e720) {
+                    bool _e743 = (_e365.member_8 < 10u);
+                    v41_1 = _e365.member_8;
+                    if (_e743) {
+                    } else {
+                        v41_1 = (_e365.member_8 - 10u);
+                    }
+                    uint _e746 = v41_1;
+                    v39_1 = (((_e743 ? _e365.member.member.member : _e365.member.member.member_1) >> asuint((((_e746 * 3u) & 31u) & 31u))) & 7u);
+                }
+                uint _e722 = v39_1;
+                v42_1 = _e722;
+                if (_e720) {
+                } else {
+                    uint _e727 = (_e365.member_8 - 20u);
+                    bool _e728 = (_e727 < 10u);
+                    v40_1 = _e727;
+                    if (_e728) {
+                    } else {
+                        v40_1 = (_e365.member_8 - 30u);
+                    }
+                    uint _e731 = v40_1;
+                    v42_1 = (((_e728 ? _e365.member.member_1.member : _e365.member.member_1.member_1) >> asuint((((_e731 * 3u) & 31u) & 31u))) & 7u);
+                }
+                uint _e755 = v42_1;
+                uint _e760 = (0u - ((_e703[1] > 0.0) ? 1u : 0u));
+                uint _e761 = (1u & _e760);
+                uint _e765 = (0u - ((_e703[2] > 0.0) ? 1u : 0u));
+                uint _e768 = (_e761 ^ ((2u ^ _e761) & _e765));
+                uint _e772 = (0u - ((_e703[3] > 0.0) ? 1u : 0u));
+                uint _e775 = (_e768 ^ ((3u ^ _e768) & _e772));
+                uint _e779 = (0u - ((_e703[4] > 0.0) ? 1u : 0u));
+                uint _e782 = (_e775 ^ ((4u ^ _e775) & _e779));
+                uint _e786 = (0u - ((_e703[5] > 0.0) ? 1u : 0u));
+                uint _e789 = (_e782 ^ ((5u ^ _e782) & _e786));
+                uint _e793 = (0u - ((_e703[6] > 0.0) ? 1u : 0u));
+                uint _e796 = (_e789 ^ ((6u ^ _e789) & _e793));
+                uint _e800 = (0u - ((_e703[7] > 0.0) ? 1u : 0u));
+                uint _e803 = (_e796 ^ ((7u ^ _e796) & _e800));
+                float _e806 = ((((0.0 + _e703[0]) + _e703[4]) + ((0.0 + _e703[2]) + _e703[6])) + (((0.0 + _e703[1]) + _e703[5]) + ((0.0 + _e703[3]) + _e703[7])));
+                bool _e807 = (_e806 > 0.0);
+                float _e811 = (_e807 ? _e806 : 1.0);
+                uint _e812 = asuint(_e811);
+                float _e817 = asfloat(((_e812 & 2147483648u) | (2129859015u - (_e812 & 2147483647u))));
+                float _e820 = (_e817 * (2.0 - (_e811 * _e817)));
+                float _e824 = ((float(asint(_e365.member_9)) * 0.9999695) * (_e820 * (2.0 - (_e811 * _e820))));
+                v43_1 = int(2147483647);
+                if (_e365.member_13) {
+                } else {
+                    v43_1 = asint((_e365.member_1.member >> asuint(10u)));
+                }
+                int _e827 = v43_1;
+                int _e833 = asint((asuint(((_e703[0] * _e824) + 8388608.0)) & 8388607u));
+                int _e840 = (((_e833 > int(1)) ? _e833 : int(1)) & asint((0u - ((_e703[0] > 0.0) ? 1u : 0u))));
+                uint _e841 = asuint(_e840);
+                uint _e842 = (_e841 & 4294967295u);
+                int _e844 = asint((_e365.member_13 ? _e755 : _e803));
+                uint _e848 = (0u - (((_e840 <= _e827) && (int(0) < _e844)) ? 1u : 0u));
+                uint _e849 = (_e841 & _e848);
+                int _e855 = asint((asuint(((_e703[1] * _e824) + 8388608.0)) & 8388607u));
+                int _e860 = asint(asuint(_e840) + asuint((((_e855 > int(1)) ? _e855 : int(1)) & asint(_e760))));
+                uint _e861 = asuint(_e860);
+                uint _e864 = (_e842 ^ ((_e861 ^ _e842) & _e848));
+                uint _e869 = (0u - (((_e860 <= _e827) && (int(1) < _e844)) ? 1u : 0u));
+                uint _e872 = (_e849 ^ ((_e861 ^ _e849) & _e869));
+                int _e879 = asint((asuint(((_e703[2] * _e824) + 8388608.0)) & 8388607u));
+                int _e884 = asint(asuint(_e860) + asuint((((_e879 > int(1)) ? _e879 : int(1)) & asint(_e765))));
+                uint _e885 = asuint(_e884);
+                uint _e888 = (_e864 ^ ((_e885 ^ _e864) & _e869));
+                uint _e893 = (0u - (((_e884 <= _e827) && (int(2) < _e844)) ? 1u : 0u));
+                uint _e896 = (_e872 ^ ((_e885 ^ _e872) & _e893));
+                int _e903 = asint((asuint(((_e703[3] * _e824) + 8388608.0)) & 8388607u));
+                int _e908 = asint(asuint(_e884) + asuint((((_e903 > int(1)) ? _e903 : int(1)) & asint(_e772))));
+                uint _e909 = asuint(_e908);
+                uint _e912 = (_e888 ^ ((_e909 ^ _e888) & _e893));
+                uint _e917 = (0u - (((_e908 <= _e827) && (int(3) < _e844)) ? 1u : 0u));
+                uint _e920 = (_e896 ^ ((_e909 ^ _e896) & _e917));
+                int _e927 = asint((asuint(((_e703[4] * _e824) + 8388608.0)) & 8388607u));
+                int _e932 = asint(asuint(_e908) + asuint((((_e927 > int(1)) ? _e927 : int(1)) & asint(_e779))));
+                uint _e933 = asuint(_e932);
+                uint _e936 = (_e912 ^ ((_e933 ^ _e912) & _e917));
+                uint _e941 = (0u - (((_e932 <= _e827) && (int(4) < _e844)) ? 1u : 0u));
+                uint _e944 = (_e920 ^ ((_e933 ^ _e920) & _e941));
+                int _e951 = asint((asuint(((_e703[5] * _e824) + 8388608.0)) & 8388607u));
+                int _e956 = asint(asuint(_e932) + asuint((((_e951 > int(1)) ? _e951 : int(1)) & asint(_e786))));
+                uint _e957 = asuint(_e956);
+                uint _e960 = (_e936 ^ ((_e957 ^ _e936) & _e941));
+                uint _e965 = (0u - (((_e956 <= _e827) && (int(5) < _e844)) ? 1u : 0u));
+                uint _e968 = (_e944 ^ ((_e957 ^ _e944) & _e965));
+                int _e975 = asint((asuint(((_e703[6] * _e824) + 8388608.0)) & 8388607u));
+                int _e980 = asint(asuint(_e956) + asuint((((_e975 > int(1)) ? _e975 : int(1)) & asint(_e793))));
+                uint _e981 = asuint(_e980);
+                uint _e984 = (_e960 ^ ((_e981 ^ _e960) & _e965));
+                uint _e989 = (0u - (((_e980 <= _e827) && (int(6) < _e844)) ? 1u : 0u));
+                uint _e992 = (_e968 ^ ((_e981 ^ _e968) & _e989));
+                int _e999 = asint((asuint(((_e703[7] * _e824) + 8388608.0)) & 8388607u));
+                int _e1004 = asint(asuint(_e980) + asuint((((_e999 > int(1)) ? _e999 : int(1)) & asint(_e800))));
+                uint _e1005 = asuint(_e1004);
+                uint _e1008 = (_e984 ^ ((_e1005 ^ _e984) & _e989));
+                uint _e1013 = (0u - (((_e1004 <= _e827) && (int(7) < _e844)) ? 1u : 0u));
+                uint _e1016 = (_e992 ^ ((_e1005 ^ _e992) & _e1013));
+                uint _e1019 = (_e365.member_13 ? _e755 : ((((((((_e848 & 1u) + (_e869 & 1u)) + (_e893 & 1u)) + (_e917 & 1u)) + (_e941 & 1u)) + (_e965 & 1u)) + (_e989 & 1u)) + (_e1013 & 1u)));
+                bool _e1024 = (_e1019 < 8u);
+                bool _e1025 = ((_e807 && (_e1008 > _e1016)) && _e1024);
+                uint _e1026 = (_e1024 ? _e1019 : 0u);
+                v44_1 = 0u;
+                if (_e1025) {
+                    v44_1 = (((_e1019 == _e803) ? _e365.member_9 : _e1008) - _e1016);
+                }
+                uint _e1030 = v44_1;
+                bool _e1031 = (_e1026 < 8u);
+                if (_e1031) {
+                } else {
+                    v58_1 = true;
+                    break;
+                }
+                uint _e1035 = asuint(lightbvh_nodes.Load(_e1026*4+1u*32+_e370*192+0));
+                uint _e1036 = (_e1035 & 3u);
+                if (_e1031) {
+                } else {
+                    v58_1 = true;
+                    break;
+                }
+                uint _e1040 = asuint(lightbvh_nodes.Load(_e1026*4+5u*32+_e370*192+0));
+                bool _e1044 = ((_e369 && (_e1030 > 0u)) && (_e1030 <= _e365.member_9));
+                uint _e1045 = (_e1044 ? _e1030 : 1u);
+                uint _e1047 = ((_e1045 - 1u) & 4194303u);
+                uint _e1053 = (((_e1047 == 0u) ? 32u : (asuint(int(31)) - firstbithigh(_e1047))) - 10u);
+                uint _e1055 = ((_e1053 < 22u) ? _e1053 : 22u);
+                uint _e1067 = (_e1055 & 31u);
+                LightbvhType26_ _e1088 = ConstructLightbvhType26_(_e365.member, ConstructLightbvhType23_((((_e365.member_1.member - ((_e1025 ? _e1016 : 0u) << asuint(10u))) << asuint(_e1067)) | ((_e365.member_1.member_1 >> asuint(int(1))) >> asuint(((31u - _e1055) & 31u)))), (_e365.member_1.member_1 << asuint(_e1067))), _e365.member_2, _e365.member_3, _e365.member_4, _e365.member_5, _e365.member_6, _e365.member_7, _e365.member_8, _e365.member_9, _e365.member_10, _e365.member_11, _e365.member_12, _e365.member_13);
+                LightbvhType26_ _e1105 = ConstructLightbvhType26_(_e1088.member, _e1088.member_1, _e1088.member_2, _e1088.member_3, _e1088.member_4, _e1088.member_5, _e1088.member_6, _e1088.member_7, _e1088.member_8, (_e1045 << asuint(_e1067)), _e1088.member_10, _e1088.member_11, _e1088.member_12, _e1088.member_13);
+                LightbvhType26_ _e1122 = ConstructLightbvhType26_(_e1105.member, _e1105.member_1, _e1105.member_2, _e1105.member_3, _e1105.member_4, _e1105.member_5, _e1105.member_6, _e1105.member_7, _e1105.member_8, _e1105.member_9, (_e365.member_10 + _e1055), _e1105.member_11, _e1105.member_12, _e1105.member_13);
+                uint _e1123 = (_e365.member_8 + 1u);
+                v45_1 = true;
+                if ((_e1123 == 20u)) {
+                } else {
+                    v45_1 = (_e1123 == 40u);
+                }
+                bool _e1127 = v45_1;
+                uint _e1128 = (_e1040 & 134217727u);
+                uint _e1132 = (_e1040 >> asuint((firstbitlow(134217728u) & 31u)));
+                bool _e1136 = (_e1128 < _e138);
+                bool _e1137 = (((_e1044 && (_e1036 == 3u)) && _e720) && _e1136);
+                bool _e1141 = ((_e1044 && (_e1036 == 1u)) && !(_e1127));
+                LightbvhType26_ _e1159 = ConstructLightbvhType26_(_e1122.member, _e1122.member_1, _e1122.member_2, _e1122.member_3, _e1122.member_4, _e1122.member_5, ((_e1044 && (_e1036 == 2u)) ? _e1040 : 4294967295u), _e1122.member_7, _e1122.member_8, _e1122.member_9, _e1122.member_10, _e1122.member_11, _e1122.member_12, _e1122.member_13);
+                uint _e1161 = (_e365.member_11 - 1u);
+                LightbvhType26_ _e1176 = ConstructLightbvhType26_(_e1159.member, _e1159.member_1, _e1159.member_2, _e1159.member_3, _e1159.member_4, _e1159.member_5, _e1159.member_6, _e1159.member_7, _e1159.member_8, _e1159.member_9, _e1159.member_10, _e1161, _e1159.member_12, _e1159.member_13);
+                bool _e1180 = (!((_e1137 || _e1141)) || (_e1161 == 0u));
+                LightbvhType26_ _e1195 = ConstructLightbvhType26_(_e1176.member, _e1176.member_1, _e1176.member_2, _e1176.member_3, _e1176.member_4, _e1176.member_5, _e1176.member_6, _e1176.member_7, _e1176.member_8, _e1176.member_9, _e1176.member_10, _e1176.member_11, _e1180, _e1176.member_13);
+                v46_1 = ZeroValueLightbvhType26_();
+                if (_e1137) {
+                    if (_e1136) {
+                    } else {
+                        v58_1 = true;
+                        break;
+                    }
+                    LightbvhType26_ _e1248 = ConstructLightbvhType26_(_e1195.member, _e1195.member_1, _e1195.member_2, _e1195.member_3, _e1195.member_4, _e1195.member_5, _e1195.member_6, _e1128, _e1195.member_8, _e1195.member_9, _e1195.member_10, _e1195.member_11, _e1195.member_12, _e1195.member_13);
+                    uint _e1251 = asuint(lightbvh_instances.Load(0+_e1128*136+0));
+                    LightbvhType26_ _e1266 = ConstructLightbvhType26_(_e1248.member, _e1248.member_1, _e1248.member_2, _e1248.member_3, _e1248.member_4, _e1251, _e1248.member_6, _e1248.member_7, _e1248.member_8, _e1248.member_9, _e1248.member_10, _e1248.member_11, _e1248.member_12, _e1248.member_13);
+                    bool _e1267 = (_e1251 == 4294967295u);
+                    v48_1 = 4294967295u;
+                    if (_e1267) {
+                        uint _e1270 = asuint(lightbvh_instances.Load(12+_e1128*136+0));
+                        v48_1 = _e1270;
+                    }
+                    uint _e1272 = v48_1;
+                    LightbvhType26_ _e1287 = ConstructLightbvhType26_(_e1266.member, _e1266.member_1, _e1266.member_2, _e1266.member_3, _e1266.member_4, _e1266.member_5, _e1272, _e1266.member_7, _e1266.member_8, _e1266.member_9, _e1266.member_10, _e1266.member_11, _e1266.member_12, _e1266.member_13);
+                    bool _e1288 = (_e1180 || _e1267);
+                    LightbvhType26_ _e1303 = ConstructLightbvhType26_(_e1287.member, _e1287.member_1, _e1287.member_2, _e1287.member_3, _e1287.member_4, _e1287.member_5, _e1287.member_6, _e1287.member_7, _e1287.member_8, _e1287.member_9, _e1287.member_10, _e1287.member_11, _e1288, _e1287.member_13);
+                    LightbvhType26_ _e1318 = ConstructLightbvhType26_(_e1303.member, _e1303.member_1, _e1303.member_2, _e1303.member_3, _e1303.member_4, _e1303.member_5, _e1303.member_6, _e1303.member_7, 20u, _e1303.member_9, _e1303.member_10, _e1303.member_11, _e1303.member_12, _e1303.member_13);
+                    v49_1 = _e1318;
+                    if ((_e1132 > 0u)) {
+                        uint _e1321 = ((_e1251 < _e135) ? _e1251 : 0u);
+                        if ((_e1321 < _e135)) {
+                        } else {
+                            v58_1 = true;
+                            break;
+                        }
+                        uint _e1324 = naga_mod((_e1132 - 1u), 8u);
+                        bool _e1325 = (_e1324 < 8u);
+                        if (_e1325) {
+                        } else {
+                            v58_1 = true;
+                            break;
+                        }
+                        uint _e1329 = asuint(lightbvh_nodes.Load(_e1324*4+1u*32+_e1321*192+0));
+                        uint _e1330 = (_e1329 & 3u);
+                        if (_e1325) {
+                        } else {
+                            v58_1 = true;
+                            break;
+                        }
+                        uint _e1334 = asuint(lightbvh_nodes.Load(_e1324*4+5u*32+_e1321*192+0));
+                        LightbvhType26_ _e1349 = ConstructLightbvhType26_(_e1318.member, _e1318.member_1, _e1318.member_2, _e1318.member_3, _e1318.member_4, _e1334, _e1318.member_6, _e1318.member_7, _e1318.member_8, _e1318.member_9, _e1318.member_10, _e1318.member_11, _e1318.member_12, _e1318.member_13);
+                        LightbvhType26_ _e1366 = ConstructLightbvhType26_(_e1349.member, _e1349.member_1, _e1349.member_2, _e1349.member_3, _e1349.member_4, _e1349.member_5, ((_e1330 == 2u) ? _e1334 : 4294967295u), _e1349.member_7, _e1349.member_8, _e1349.member_9, _e1349.member_10, _e1349.member_11, _e1349.member_12, _e1349.member_13);
+                        LightbvhType26_ _e1383 = ConstructLightbvhType26_(_e1366.member, _e1366.member_1, _e1366.member_2, _e1366.member_3, _e1366.member_4, _e1366.member_5, _e1366.member_6, _e1366.member_7, _e1366.member_8, _e1366.member_9, _e1366.member_10, _e1366.member_11, (_e1288 || (_e1330 != 1u)), _e1366.member_13);
+                        v49_1 = ConstructLightbvhType26_(_e1383.member, _e1383.member_1, _e1383.member_2, _e1383.member_3, _e1383.member_4, _e1383.member_5, _e1383.member_6, _e1383.member_7, 21u, _e1383.member_9, _e1383.member_10, _e1383.member_11, _e1383.member_12, _e1383.member_13);
+                    }
+                    LightbvhType26_ _e1400 = v49_1;
+                    float _e1410 = asfloat(lightbvh_instances.Load(0u*4+60+_e1128*136+0));
+                    float _e1414 = asfloat(lightbvh_instances.Load(1u*4+60+_e1128*136+0));
+                    float _e1418 = asfloat(lightbvh_instances.Load(2u*4+60+_e1128*136+0));
+                    float _e1419 = (_e170.member.member[0] - _e1410);
+                    float _e1420 = (_e170.member.member[1] - _e1414);
+                    float _e1421 = (_e170.member.member[2] - _e1418);
+                    float _e1426 = ((asfloat((asuint(_e1419) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1419);
+                    float _e1431 = ((asfloat((asuint(_e1420) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1420);
+                    float _e1436 = ((asfloat((asuint(_e1421) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1421);
+                    float _e1441 = asfloat(lightbvh_instances.Load(0u*4+0u*12+72+_e1128*136+0));
+                    float _e1446 = asfloat(lightbvh_instances.Load(1u*4+0u*12+72+_e1128*136+0));
+                    float _e1451 = asfloat(lightbvh_instances.Load(2u*4+0u*12+72+_e1128*136+0));
+                    float _e1459 = asfloat(lightbvh_instances.Load(0u*4+1u*12+72+_e1128*136+0));
+                    float _e1464 = asfloat(lightbvh_instances.Load(1u*4+1u*12+72+_e1128*136+0));
+                    float _e1469 = asfloat(lightbvh_instances.Load(2u*4+1u*12+72+_e1128*136+0));
+                    float _e1480 = asfloat(lightbvh_instances.Load(0u*4+2u*12+72+_e1128*136+0));
+                    float _e1485 = asfloat(lightbvh_instances.Load(1u*4+2u*12+72+_e1128*136+0));
+                    float _e1490 = asfloat(lightbvh_instances.Load(2u*4+2u*12+72+_e1128*136+0));
+                    float _e1494 = (((_e1441 * _e1426) + (_e1459 * _e1431)) + (_e1480 * _e1436));
+                    float _e1495 = (((_e1446 * _e1426) + (_e1464 * _e1431)) + (_e1485 * _e1436));
+                    float _e1496 = (((_e1451 * _e1426) + (_e1469 * _e1431)) + (_e1490 * _e1436));
+                    float _e1507 = asfloat(lightbvh_instances.Load(0u*4+0u*12+24+_e1128*136+0));
+                    float _e1512 = asfloat(lightbvh_instances.Load(1u*4+0u*12+24+_e1128*136+0));
+                    float _e1517 = asfloat(lightbvh_instances.Load(2u*4+0u*12+24+_e1128*136+0));
+                    float _e1522 = (((_e1507 * _e170.member.member_1[0]) + (_e1512 * _e170.member.member_1[1])) + (_e1517 * _e170.member.member_1[2]));
+                    float _e1527 = asfloat(lightbvh_instances.Load(0u*4+1u*12+24+_e1128*136+0));
+                    float _e1532 = asfloat(lightbvh_instances.Load(1u*4+1u*12+24+_e1128*136+0));
+                    float _e1537 = asfloat(lightbvh_instances.Load(2u*4+1u*12+24+_e1128*136+0));
+                    float _e1542 = (((_e1527 * _e170.member.member_1[0]) + (_e1532 * _e170.member.member_1[1])) + (_e1537 * _e170.member.member_1[2]));
+                    float _e1547 = asfloat(lightbvh_instances.Load(0u*4+2u*12+24+_e1128*136+0));
+                    float _e1552 = asfloat(lightbvh_instances.Load(1u*4+2u*12+24+_e1128*136+0));
+                    float _e1557 = asfloat(lightbvh_instances.Load(2u*4+2u*12+24+_e1128*136+0));
+                    float _e1562 = (((_e1547 * _e170.member.member_1[0]) + (_e1552 * _e170.member.member_1[1])) + (_e1557 * _e170.member.member_1[2]));
+                    float _e1567 = ((asfloat((asuint(_e1522) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1522);
+                    float _e1572 = ((asfloat((asuint(_e1542) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1542);
+                    float _e1577 = ((asfloat((asuint(_e1562) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1562);
+                    float _e1582 = (((_e1567 * _e1567) + (_e1572 * _e1572)) + (_e1577 * _e1577));
+                    v50_1 = 0.0;
+                    if ((_e1582 >= asfloat(67108864u))) {
+                        float _e1589 = asfloat((1597463007u - (asuint(_e1582) >> asuint(int(1)))));
+                        float _e1590 = (0.5 * _e1582);
+                        float _e1594 = (_e1589 * (1.5 - ((_e1590 * _e1589) * _e1589)));
+                        v50_1 = (_e1594 * (1.5 - ((_e1590 * _e1594) * _e1594)));
+                    }
+                    float _e1600 = v50_1;
+                    float _e1601 = -(1.1529215e18);
+                    v51_1 = _e1601;
+                    if ((_e1494 < _e1601)) {
+                    } else {
+                        v51_1 = ((_e1494 > 1.1529215e18) ? 1.1529215e18 : _e1494);
+                    }
+                    float _e1606 = v51_1;
+                    v52_1 = _e1601;
+                    if ((_e1495 < _e1601)) {
+                    } else {
+                        v52_1 = ((_e1495 > 1.1529215e18) ? 1.1529215e18 : _e1495);
+                    }
+                    float _e1616 = v52_1;
+                    v53_1 = _e1601;
+                    if ((_e1496 < _e1601)) {
+                    } else {
+                        v53_1 = ((_e1496 > 1.1529215e18) ? 1.1529215e18 : _e1496);
+                    }
+                    float _e1626 = v53_1;
+                    float _e1633 = (_e1567 * _e1600);
+                    float _e1639 = (_e1572 * _e1600);
+                    float _e1645 = (_e1577 * _e1600);
+                    v46_1 = ConstructLightbvhType26_(_e1400.member, _e1400.member_1, ConstructLightbvhType14_(Constructarray3_float_(((asfloat((asuint(_e1606) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1606), ((asfloat((asuint(_e1616) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1616), ((asfloat((asuint(_e1626) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1626)), Constructarray3_float_(((asfloat((asuint(_e1633) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1633), ((asfloat((asuint(_e1639) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1639), ((asfloat((asuint(_e1645) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1645))), _e1400.member_3, _e1400.member_4, _e1400.member_5, _e1400.member_6, _e1400.member_7, _e1400.member_8, _e1400.member_9, _e1400.member_10, _e1400.member_11, _e1400.member_12, _e1400.member_13);
+                }
+                LightbvhType26_ _e1197 = v46_1;
+                v54_1 = _e1197;
+                if (_e1137) {
+                } else {
+                    v47_1 = _e365.member_5;
+                    if (_e1141) {
+                        v47_1 = (_e1040 + (_e720 ? _e144 : 0u));
+                    }
+                    uint _e1201 = v47_1;
+                    LightbvhType26_ _e1216 = ConstructLightbvhType26_(_e1195.member, _e1195.member_1, _e1195.member_2, _e1195.member_3, _e1195.member_4, _e1201, _e1195.member_6, _e1195.member_7, _e1195.member_8, _e1195.member_9, _e1195.member_10, _e1195.member_11, _e1195.member_12, _e1195.member_13);
+                    v54_1 = ConstructLightbvhType26_(_e1216.member, _e1216.member_1, _e1216.member_2, _e1216.member_3, _e1216.member_4, _e1216.member_5, _e1216.member_6, _e1216.member_7, (_e365.member_8 + (_e1141 ? 1u : 0u)), _e1216.member_9, _e1216.member_10, _e1216.member_11, _e1216.member_12, _e1216.member_13);
+                }
+                LightbvhType26_ _e1669 = v54_1;
+                v55_1 = _e702;
+                v56_1 = _e1669;
+                v57_1 = _e1669.member_12;
+            }
+            bool _e1672 = v55_1;
+            LightbvhType26_ _e1674 = v56_1;
+            bool _e1676 = v57_1;
+            continue;
+        }
+        bool _e1680 = v58_1;
+        if (_e1680) {
+            break;
+        }
+        LightbvhType26_ _e1682 = v59_1;
+        LightbvhType26_ _e1686 = v60_1;
+        v63_1 = 0.0;
+        if ((((_e1682.member_6 == _e194) && (_e1686.member_7 == _e177)) && (_e194 != 4294967295u))) {
+            LightbvhType26_ _e1693 = v61_1;
+            LightbvhType26_ _e1698 = v62_1;
+            int _e1704 = naga_neg(asint((22u + ((_e1693.member_10 < 98u) ? _e1693.member_10 : 98u))));
+            int _e1706 = ((_e1704 < int(-126)) ? int(-126) : _e1704);
+            v63_1 = (float(asint(_e1698.member_9)) * asfloat((asuint(asint(asuint(((_e1706 > int(127)) ? int(127) : _e1706)) + asuint(int(127)))) << asuint(int(23)))));
+        }
+        float _e1716 = v63_1;
+        v65_1 = ZeroValueuint();
+        v66_1 = true;
+        if (_e176) {
+            v64_1 = ZeroValueuint();
+            if (_e178) {
+                uint _e1719 = asuint(lightbvh_instances.Load(16+_e177*136+0));
+                v64_1 = _e1719;
+            }
+            uint _e1721 = v64_1;
+            v65_1 = _e1721;
+            v66_1 = (_e178 ? false : true);
+        }
+        uint _e1724 = v65_1;
+        bool _e1726 = v66_1;
+        uint _e1731 = ((_e1726 ? _e165 : _e1724) & 2147483647u);
+        uint _e1736 = asuint((float(int(65536)) * asfloat(880803840u)));
+        uint _e1737 = asuint(float(asint(((_e1731 > 0u) ? _e1731 : 1u))));
+        uint _e1742 = ((_e1736 >> asuint(int(23))) & 255u);
+        uint _e1746 = (_e1736 & 8388607u);
+        uint _e1747 = (_e1746 | 8388608u);
+        uint _e1748 = (_e1737 & 8388607u);
+        uint _e1749 = (_e1748 | 8388608u);
+        bool _e1750 = (_e1747 < _e1749);
+        float _e1754 = asfloat((_e1748 | 1065353216u));
+        uint _e1755 = asuint(_e1754);
+        float _e1760 = asfloat(((_e1755 & 2147483648u) | (2129859015u - (_e1755 & 2147483647u))));
+        float _e1763 = (_e1760 * (2.0 - (_e1754 * _e1760)));
+        float _e1766 = (_e1763 * (2.0 - (_e1754 * _e1763)));
+        float _e1770 = ((asfloat((_e1746 | 1065353216u)) * _e1766) * (_e1750 ? 16777216.0 : 8388608.0));
+        float _e1771 = asfloat(0u);
+        float _e1772 = asfloat(1333788671u);
+        uint _e1777 = ((_e1770 > _e1772) ? 4294967295u : ((_e1770 < _e1771) ? 0u : naga_f2u32(_e1770)));
+        int _e1783 = asint(((_e1747 << asuint(((_e1750 ? int(24) : int(23)) & int(31)))) - (_e1777 * _e1749)));
+        float _e1788 = ((float((_e1783 >> asuint(int(8)))) * _e1766) * 3.0517578e-5);
+        float _e1789 = asfloat(3472883712u);
+        float _e1790 = asfloat(1325400063u);
+        int _e1797 = ((_e1788 == _e1788) ? ((_e1788 > _e1790) ? int(2147483647) : ((_e1788 < _e1789) ? int(-2147483647 - 1) : naga_f2i32(_e1788))) : int(0));
+        uint _e1799 = (_e1777 + asuint(_e1797));
+        int _e1800 = asint(_e1749);
+        int _e1802 = asint(asuint(_e1783) - asuint(asint(asuint(_e1797) * asuint(_e1800))));
+        bool _e1803 = (_e1802 < int(0));
+        v67_1 = _e1799;
+        if (_e1803) {
+            v67_1 = (_e1799 - 1u);
+        }
+        uint _e1806 = v67_1;
+        v68_1 = _e1802;
+        if (_e1803) {
+            v68_1 = asint(asuint(_e1802) + asuint(_e1800));
+        }
+        int _e1809 = v68_1;
+        bool _e1810 = (_e1809 >= _e1800);
+        v69_1 = _e1806;
+        if (_e1810) {
+            v69_1 = (_e1806 + 1u);
+        }
+        uint _e1813 = v69_1;
+        v70_1 = _e1809;
+        if (_e1810) {
+            v70_1 = asint(asuint(_e1809) - asuint(_e1800));
+        }
+        int _e1816 = v70_1;
+        v71_1 = _e1813;
+        if ((asint(asuint(_e1816) * asuint(int(2))) > _e1800)) {
+            v71_1 = (_e1813 + 1u);
+        }
+        uint _e1821 = v71_1;
+        int _e1826 = asint(asuint(asint(asuint(asint(_e1742)) - asuint(asint(((_e1737 >> asuint(int(23))) & 255u))))) + asuint((_e1750 ? int(126) : int(127))));
+        v74_1 = ZeroValueuint();
+        v75_1 = true;
+        if ((_e1742 == 0u)) {
+        } else {
+            bool _e1828 = (_e1826 <= int(0));
+            v73_1 = ZeroValueuint();
+            if (_e1828) {
+            } else {
+                v72_1 = 2139095040u;
+                if ((_e1826 >= int(255))) {
+                } else {
+                    v72_1 = ((asuint(_e1826) << asuint(int(23))) + (_e1821 & 8388607u));
+                }
+                uint _e1836 = v72_1;
+                v73_1 = _e1836;
+            }
+            uint _e1838 = v73_1;
+            v74_1 = _e1838;
+            v75_1 = _e1828;
+        }
+        uint _e1840 = v74_1;
+        bool _e1842 = v75_1;
+        uint _e1846 = (_e162 & 2147483647u);
+        uint _e1851 = asuint(asfloat((((_e1736 ^ _e1737) & 2147483648u) | (_e1842 ? 0u : _e1840))));
+        uint _e1852 = asuint(float(asint(((_e1846 > 0u) ? _e1846 : 1u))));
+        uint _e1857 = ((_e1851 >> asuint(int(23))) & 255u);
+        uint _e1861 = (_e1851 & 8388607u);
+        uint _e1862 = (_e1861 | 8388608u);
+        uint _e1863 = (_e1852 & 8388607u);
+        uint _e1864 = (_e1863 | 8388608u);
+        bool _e1865 = (_e1862 < _e1864);
+        float _e1869 = asfloat((_e1863 | 1065353216u));
+        uint _e1870 = asuint(_e1869);
+        float _e1875 = asfloat(((_e1870 & 2147483648u) | (2129859015u - (_e1870 & 2147483647u))));
+        float _e1878 = (_e1875 * (2.0 - (_e1869 * _e1875)));
+        float _e1881 = (_e1878 * (2.0 - (_e1869 * _e1878)));
+        float _e1885 = ((asfloat((_e1861 | 1065353216u)) * _e1881) * (_e1865 ? 16777216.0 : 8388608.0));
+        uint _e1890 = ((_e1885 > _e1772) ? 4294967295u : ((_e1885 < _e1771) ? 0u : naga_f2u32(_e1885)));
+        int _e1896 = asint(((_e1862 << asuint(((_e1865 ? int(24) : int(23)) & int(31)))) - (_e1890 * _e1864)));
+        float _e1901 = ((float((_e1896 >> asuint(int(8)))) * _e1881) * 3.0517578e-5);
+        int _e1908 = ((_e1901 == _e1901) ? ((_e1901 > _e1790) ? int(2147483647) : ((_e1901 < _e1789) ? int(-2147483647 - 1) : naga_f2i32(_e1901))) : int(0));
+        uint _e1910 = (_e1890 + asuint(_e1908));
+        int _e1911 = asint(_e1864);
+        int _e1913 = asint(asuint(_e1896) - asuint(asint(asuint(_e1908) * asuint(_e1911))));
+        bool _e1914 = (_e1913 < int(0));
+        v76_1 = _e1910;
+        if (_e1914) {
+            v76_1 = (_e1910 - 1u);
+        }
+        uint _e1917 = v76_1;
+        v77_1 = _e1913;
+        if (_e1914) {
+            v77_1 = asint(asuint(_e1913) + asuint(_e1911));
+        }
+        int _e1920 = v77_1;
+        bool _e1921 = (_e1920 >= _e1911);
+        v78_1 = _e1917;
+        if (_e1921) {
+            v78_1 = (_e1917 + 1u);
+        }
+        uint _e1924 = v78_1;
+        v79_1 = _e1920;
+        if (_e1921) {
+            v79_1 = asint(asuint(_e1920) - asuint(_e1911));
+        }
+        int _e1927 = v79_1;
+        v80_1 = _e1924;
+        if ((asint(asuint(_e1927) * asuint(int(2))) > _e1911)) {
+            v80_1 = (_e1924 + 1u);
+        }
+        uint _e1932 = v80_1;
+        int _e1937 = asint(asuint(asint(asuint(asint(_e1857)) - asuint(asint(((_e1852 >> asuint(int(23))) & 255u))))) + asuint((_e1865 ? int(126) : int(127))));
+        v83_1 = ZeroValueuint();
+        v84_1 = true;
+        if ((_e1857 == 0u)) {
+        } else {
+            bool _e1939 = (_e1937 <= int(0));
+            v82_1 = ZeroValueuint();
+            if (_e1939) {
+            } else {
+                v81_1 = 2139095040u;
+                if ((_e1937 >= int(255))) {
+                } else {
+                    v81_1 = ((asuint(_e1937) << asuint(int(23))) + (_e1932 & 8388607u));
+                }
+                uint _e1947 = v81_1;
+                v82_1 = _e1947;
+            }
+            uint _e1949 = v82_1;
+            v83_1 = _e1949;
+            v84_1 = _e1939;
+        }
+        uint _e1951 = v83_1;
+        bool _e1953 = v84_1;
+        v85_1 = ZeroValuebool();
+        if (_e176) {
+            v86_1 = false;
+            if (_e178) {
+                uint _e1962 = asuint(lightbvh_instances.Load(8+_e177*136+0));
+                uint _e1966 = asuint(lightbvh_instances.Load(16+_e177*136+0));
+                v86_1 = ((_e170.member_1[0] - _e1962) < _e1966);
+            }
+            bool _e1969 = v86_1;
+            v85_1 = _e1969;
+        }
+        bool _e1958 = v85_1;
+        v87_1 = _e1958;
+        if (_e176) {
+        } else {
+            v87_1 = (_e170.member_1[0] < _e165);
+        }
+        bool _e1971 = v87_1;
+        v88_1 = 0.0;
+        if (_e1971) {
+            v88_1 = (_e1716 + asfloat((((_e1851 ^ _e1852) & 2147483648u) | (_e1953 ? 0u : _e1951))));
+        }
+        float _e1974 = v88_1;
+        results_1 = _e1974;
+        break;
+    } while(false);
+    float _e2065 = results_1;
+    return _e2065;
+}
+
+typedef float ret_Constructarray2_float_[2];
+ret_Constructarray2_float_ Constructarray2_float_(float arg0, float arg1) {
+    float ret[2] = { arg0, arg1 };
+    return ret;
+}
+
+LightbvhType34_ ConstructLightbvhType34_(float arg0[3], float arg1, float arg2[3], uint arg3, float arg4[3]) {
+    LightbvhType34_ ret = (LightbvhType34_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    ret.member_2 = arg2;
+    ret.member_3 = arg3;
+    ret.member_4 = arg4;
+    return ret;
+}
+
+LightbvhLightPoint ConstructLightbvhLightPoint(float3 arg0, float arg1, float3 arg2, uint arg3, float3 arg4) {
+    LightbvhLightPoint ret = (LightbvhLightPoint)0;
+    ret.p = arg0;
+    ret.density = arg1;
+    ret.normal = arg2;
+    ret.flags = arg3;
+    ret.radiance = arg4;
+    return ret;
+}
+
+float ZeroValuefloat() {
+    return (float)0;
+}
+
+LightbvhInstance ConstructLightbvhInstance(uint arg0, uint arg1, uint arg2, uint arg3, uint arg4, uint arg5, float arg6[3][3], float arg7[3], float arg8[3][3], float arg9, float arg10, float arg11[3], uint arg12, uint arg13) {
+    LightbvhInstance ret = (LightbvhInstance)0;
+    ret.root = arg0;
+    ret.blas = arg1;
+    ret.first = arg2;
+    ret.first_light = arg3;
+    ret.count = arg4;
+    ret.listed = arg5;
+    ret.columns = arg6;
+    ret.translation = arg7;
+    ret.inverse = arg8;
+    ret.per_inverse = arg9;
+    ret.flux = arg10;
+    ret.radiance = arg11;
+    ret.mask = arg12;
+    ret.mirrored = arg13;
+    return ret;
+}
+
+LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, float2 numbers)
+{
+    LightbvhType19_ samples = (LightbvhType19_)0;
+    float numbers_1[2] = (float[2])0;
+    LightbvhType34_ results_2 = (LightbvhType34_)0;
+    float v0_2 = (float)0;
+    float v1_2 = (float)0;
+    float v2_2 = (float)0;
+    float v3_2 = (float)0;
+    float v4_2 = (float)0;
+    float v5_2 = (float)0;
+    float v6_2 = (float)0;
+    float v7_2 = (float)0;
+    float v8_2 = (float)0;
+    float v9_2[3] = (float[3])0;
+    float v10_2[3] = (float[3])0;
+    float v11_2 = (float)0;
+    float v12_2 = (float)0;
+    float v13_2 = (float)0;
+    LightbvhLight v14_2 = (LightbvhLight)0;
+    LightbvhLight v15_2 = (LightbvhLight)0;
+    LightbvhLight v16_2 = (LightbvhLight)0;
+    uint v17_2 = (uint)0;
+    int v18_2 = (int)0;
+    int v19_2 = (int)0;
+    uint v20_2 = (uint)0;
+    uint v21_2 = (uint)0;
+    float v22_2 = (float)0;
+    uint v23_2 = (uint)0;
+    int v24_2 = (int)0;
+    uint v25_2 = (uint)0;
+    int v26_2 = (int)0;
+    uint v27_2 = (uint)0;
+    uint v28_2 = (uint)0;
+    uint v29_2 = (uint)0;
+    float v30_2 = (float)0;
+    float v31_2 = (float)0;
+    float v32_2[3] = (float[3])0;
+
+    samples = ConstructLightbvhType19_(light_1, instance_1, ZeroValuefloat());
+    numbers_1 = Constructarray2_float_(numbers.x, numbers.y);
+    do {
+        uint _e77 = samples.member;
+        uint _e80 = samples.member_1;
+        uint _e82 = ((_e80 == 4294967295u) ? 0u : _e80);
+        v16_2 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0)), Constructarray3_float_(0.0, 0.0, 0.0), 4294967295u, 0u);
+        if ((_e82 < ((NagaBufferLength(lightbvh_instances) - 0) / 136))) {
+            LightbvhInstance _e86 = ConstructLightbvhInstance(asuint(lightbvh_instances.Load(_e82*136+0+0)), asuint(lightbvh_instances.Load(_e82*136+0+4)), asuint(lightbvh_instances.Load(_e82*136+0+8)), asuint(lightbvh_instances.Load(_e82*136+0+12)), asuint(lightbvh_instances.Load(_e82*136+0+16)), asuint(lightbvh_instances.Load(_e82*136+0+20)), Constructarray3_array3_float__(Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+24+0+0)), asfloat(lightbvh_instances.Load(_e82*136+0+24+0+4)), asfloat(lightbvh_instances.Load(_e82*136+0+24+0+8))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+24+12+0)), asfloat(lightbvh_instances.Load(_e82*136+0+24+12+4)), asfloat(lightbvh_instances.Load(_e82*136+0+24+12+8))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+24+24+0)), asfloat(lightbvh_instances.Load(_e82*136+0+24+24+4)), asfloat(lightbvh_instances.Load(_e82*136+0+24+24+8)))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+60+0)), asfloat(lightbvh_instances.Load(_e82*136+0+60+4)), asfloat(lightbvh_instances.Load(_e82*136+0+60+8))), Constructarray3_array3_float__(Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+72+0+0)), asfloat(lightbvh_instances.Load(_e82*136+0+72+0+4)), asfloat(lightbvh_instances.Load(_e82*136+0+72+0+8))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+72+12+0)), asfloat(lightbvh_instances.Load(_e82*136+0+72+12+4)), asfloat(lightbvh_instances.Load(_e82*136+0+72+12+8))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+72+24+0)), asfloat(lightbvh_instances.Load(_e82*136+0+72+24+4)), asfloat(lightbvh_instances.Load(_e82*136+0+72+24+8)))), asfloat(lightbvh_instances.Load(_e82*136+0+108)), asfloat(lightbvh_instances.Load(_e82*136+0+112)), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+116+0)), asfloat(lightbvh_instances.Load(_e82*136+0+116+4)), asfloat(lightbvh_instances.Load(_e82*136+0+116+8))), asuint(lightbvh_instances.Load(_e82*136+0+128)), asuint(lightbvh_instances.Load(_e82*136+0+132)));
+            uint _e88 = (_e77 - _e86.first);
+            uint _e90 = (_e88 + _e86.first_light);
+            v15_2 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0)), Constructarray3_float_(0.0, 0.0, 0.0), 4294967295u, 0u);
+            if ((_e88 < _e86.count)) {
+                v14_2 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0)), Constructarray3_float_(0.0, 0.0, 0.0), 4294967295u, 0u);
+                if ((_e90 < ((NagaBufferLength(lightbvh_lights) - 0) / 56))) {
+                    LightbvhLight _e96 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(asfloat(lightbvh_lights.Load(_e90*56+0+0+0+0)), asfloat(lightbvh_lights.Load(_e90*56+0+0+0+4)), asfloat(lightbvh_lights.Load(_e90*56+0+0+0+8))), Constructarray3_float_(asfloat(lightbvh_lights.Load(_e90*56+0+0+12+0)), asfloat(lightbvh_lights.Load(_e90*56+0+0+12+4)), asfloat(lightbvh_lights.Load(_e90*56+0+0+12+8))), Constructarray3_float_(asfloat(lightbvh_lights.Load(_e90*56+0+0+24+0)), asfloat(lightbvh_lights.Load(_e90*56+0+0+24+4)), asfloat(lightbvh_lights.Load(_e90*56+0+0+24+8)))), Constructarray3_float_(asfloat(lightbvh_lights.Load(_e90*56+0+36+0)), asfloat(lightbvh_lights.Load(_e90*56+0+36+4)), asfloat(lightbvh_lights.Load(_e90*56+0+36+8))), asuint(lightbvh_lights.Load(_e90*56+0+48)), asuint(lightbvh_lights.Load(_e90*56+0+52)));
+                    float _e115 = (_e86.columns[0][0] * _e96.p[0][0]);
+                    float _e116 = (_e86.columns[0][1] * _e96.p[0][0]);
+                    float _e117 = (_e86.columns[0][2] * _e96.p[0][0]);
+                    float _e127 = (_e86.columns[1][0] * _e96.p[0][1]);
+                    float _e128 = (_e86.columns[1][1] * _e96.p[0][1]);
+                    float _e129 = (_e86.columns[1][2] * _e96.p[0][1]);
+                    float _e139 = (_e86.columns[2][0] * _e96.p[0][2]);
+                    float _e140 = (_e86.columns[2][1] * _e96.p[0][2]);
+                    float _e141 = (_e86.columns[2][2] * _e96.p[0][2]);
+                    float _e199 = (((((asfloat((asuint(_e115) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e115) + ((asfloat((asuint(_e127) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e127)) + ((asfloat((asuint(_e139) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e139)) + _e86.translation[0]);
+                    float _e200 = (((((asfloat((asuint(_e116) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e116) + ((asfloat((asuint(_e128) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e128)) + ((asfloat((asuint(_e140) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e140)) + _e86.translation[1]);
+                    float _e201 = (((((asfloat((asuint(_e117) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e117) + ((asfloat((asuint(_e129) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e129)) + ((asfloat((asuint(_e141) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e141)) + _e86.translation[2]);
+                    float _e202 = -(1099511600000.0);
+                    v0_2 = _e202;
+                    if ((_e199 < _e202)) {
+                    } else {
+                        v0_2 = ((_e199 > 1099511600000.0) ? 1099511600000.0 : _e199);
+                    }
+                    float _e207 = v0_2;
+                    v1_2 = _e202;
+                    if ((_e200 < _e202)) {
+                    } else {
+                        v1_2 = ((_e200 > 1099511600000.0) ? 1099511600000.0 : _e200);
+                    }
+                    float _e217 = v1_2;
+                    v2_2 = _e202;
+                    if ((_e201 < _e202)) {
+                    } else {
+                        v2_2 = ((_e201 > 1099511600000.0) ? 1099511600000.0 : _e201);
+                    }
+                    float _e227 = v2_2;
+                    float _e237 = (_e86.columns[0][0] * _e96.p[1][0]);
+                    float _e238 = (_e86.columns[0][1] * _e96.p[1][0]);
+                    float _e239 = (_e86.columns[0][2] * _e96.p[1][0]);
+                    float _e240 = (_e86.columns[1][0] * _e96.p[1][1]);
+                    float _e241 = (_e86.columns[1][1] * _e96.p[1][1]);
+                    float _e242 = (_e86.columns[1][2] * _e96.p[1][1]);
+                    float _e243 = (_e86.columns[2][0] * _e96.p[1][2]);
+                    float _e244 = (_e86.columns[2][1] * _e96.p[1][2]);
+                    float _e245 = (_e86.columns[2][2] * _e96.p[1][2]);
+                    float _e297 = (((((asfloat((asuint(_e237) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e237) + ((asfloat((asuint(_e240) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e240)) + ((asfloat((asuint(_e243) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e243)) + _e86.translation[0]);
+                    float _e298 = (((((asfloat((asuint(_e238) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e238) + ((asfloat((asuint(_e241) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e241)) + ((asfloat((asuint(_e244) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e244)) + _e86.translation[1]);
+                    float _e299 = (((((asfloat((asuint(_e239) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e239) + ((asfloat((asuint(_e242) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e242)) + ((asfloat((asuint(_e245) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e245)) + _e86.translation[2]);
+                    v3_2 = _e202;
+                    if ((_e297 < _e202)) {
+                    } else {
+                        v3_2 = ((_e297 > 1099511600000.0) ? 1099511600000.0 : _e297);
+                    }
+                    float _e304 = v3_2;
+                    v4_2 = _e202;
+                    if ((_e298 < _e202)) {
+                    } else {
+                        v4_2 = ((_e298 > 1099511600000.0) ? 1099511600000.0 : _e298);
+                    }
+                    float _e314 = v4_2;
+                    v5_2 = _e202;
+                    if ((_e299 < _e202)) {
+                    } else {
+                        v5_2 = ((_e299 > 1099511600000.0) ? 1099511600000.0 : _e299);
+                    }
+                    float _e324 = v5_2;
+                    float _e330[3] = Constructarray3_float_(((asfloat((asuint(_e304) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e304), ((asfloat((asuint(_e314) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e314), ((asfloat((asuint(_e324) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e324));
+                    float _e334 = (_e86.columns[0][0] * _e96.p[2][0]);
+                    float _e335 = (_e86.columns[0][1] * _e96.p[2][0]);
+                    float _e336 = (_e86.columns[0][2] * _e96.p[2][0]);
+                    float _e337 = (_e86.columns[1][0] * _e96.p[2][1]);
+                    float _e338 = (_e86.columns[1][1] * _e96.p[2][1]);
+                    float _e339 = (_e86.columns[1][2] * _e96.p[2][1]);
+                    float _e340 = (_e86.columns[2][0] * _e96.p[2][2]);
+                    float _e341 = (_e86.columns[2][1] * _e96.p[2][2]);
+                    float _e342 = (_e86.columns[2][2] * _e96.p[2][2]);
+                    float _e394 = (((((asfloat((asuint(_e334) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e334) + ((asfloat((asuint(_e337) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e337)) + ((asfloat((asuint(_e340) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e340)) + _e86.translation[0]);
+                    float _e395 = (((((asfloat((asuint(_e335) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e335) + ((asfloat((asuint(_e338) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e338)) + ((asfloat((asuint(_e341) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e341)) + _e86.translation[1]);
+                    float _e396 = (((((asfloat((asuint(_e336) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e336) + ((asfloat((asuint(_e339) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e339)) + ((asfloat((asuint(_e342) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e342)) + _e86.translation[2]);
+                    v6_2 = _e202;
+                    if ((_e394 < _e202)) {
+                    } else {
+                        v6_2 = ((_e394 > 1099511600000.0) ? 1099511600000.0 : _e394);
+                    }
+                    float _e401 = v6_2;
+                    v7_2 = _e202;
+                    if ((_e395 < _e202)) {
+                    } else {
+                        v7_2 = ((_e395 > 1099511600000.0) ? 1099511600000.0 : _e395);
+                    }
+                    float _e411 = v7_2;
+                    v8_2 = _e202;
+                    if ((_e396 < _e202)) {
+                    } else {
+                        v8_2 = ((_e396 > 1099511600000.0) ? 1099511600000.0 : _e396);
+                    }
+                    float _e421 = v8_2;
+                    float _e427[3] = Constructarray3_float_(((asfloat((asuint(_e401) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e401), ((asfloat((asuint(_e411) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e411), ((asfloat((asuint(_e421) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e421));
+                    bool _e430 = ((_e86.mirrored & 1u) != 0u);
+                    v9_2 = _e330;
+                    if (_e430) {
+                        v9_2 = _e427;
+                    }
+                    float _e432[3] = v9_2;
+                    v10_2 = _e427;
+                    if (_e430) {
+                        v10_2 = _e330;
+                    }
+                    float _e434[3] = v10_2;
+                    float _e436 = (_e96.p[1][0] - _e96.p[0][0]);
+                    float _e437 = (_e96.p[1][1] - _e96.p[0][1]);
+                    float _e438 = (_e96.p[1][2] - _e96.p[0][2]);
+                    float _e439 = (_e96.p[2][0] - _e96.p[0][0]);
+                    float _e440 = (_e96.p[2][1] - _e96.p[0][1]);
+                    float _e441 = (_e96.p[2][2] - _e96.p[0][2]);
+                    float _e444 = asfloat((asuint(_e436) & 2147483647u));
+                    float _e447 = asfloat((asuint(_e437) & 2147483647u));
+                    float _e450 = asfloat((asuint(_e438) & 2147483647u));
+                    float _e453 = asfloat((asuint(_e439) & 2147483647u));
+                    float _e456 = asfloat((asuint(_e440) & 2147483647u));
+                    float _e459 = asfloat((asuint(_e441) & 2147483647u));
+                    float _e468 = asfloat((asuint(((_e444 > _e453) ? _e444 : _e453)) & 2147483647u));
+                    float _e471 = asfloat((asuint(((_e447 > _e456) ? _e447 : _e456)) & 2147483647u));
+                    float _e474 = asfloat((asuint(((_e450 > _e459) ? _e450 : _e459)) & 2147483647u));
+                    float _e476 = ((_e468 > _e471) ? _e468 : _e471);
+                    int _e484 = asint(asuint(asint(((asuint(((_e476 > _e474) ? _e476 : _e474)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
+                    int _e486 = ((_e484 > int(-127)) ? _e484 : int(-127));
+                    int _e487 = naga_neg(_e486);
+                    int _e489 = ((_e487 < int(-126)) ? int(-126) : _e487);
+                    float _e496 = asfloat((asuint(asint(asuint(((_e489 > int(127)) ? int(127) : _e489)) + asuint(int(127)))) << asuint(int(23))));
+                    float _e497 = (_e436 * _e496);
+                    float _e498 = (_e437 * _e496);
+                    float _e499 = (_e438 * _e496);
+                    float _e500 = (_e439 * _e496);
+                    float _e501 = (_e440 * _e496);
+                    float _e502 = (_e441 * _e496);
+                    float _e514 = asfloat((asuint(((_e498 * _e502) - (_e499 * _e501))) & 2147483647u));
+                    float _e517 = asfloat((asuint(((_e499 * _e500) - (_e497 * _e502))) & 2147483647u));
+                    float _e520 = asfloat((asuint(((_e497 * _e501) - (_e498 * _e500))) & 2147483647u));
+                    float _e522 = ((_e514 > _e517) ? _e514 : _e517);
+                    int _e530 = asint(asuint(asint(((asuint(((_e522 > _e520) ? _e522 : _e520)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
+                    bool _e548 = (((((_e530 > int(-127)) ? _e530 : int(-127)) >= int(-100)) && (_e486 > int(-127))) && ((((0.2126 * _e96.radiance[0]) + (0.7152 * _e96.radiance[1])) + (0.0722 * _e96.radiance[2])) > 0.0));
+                    float _e551 = (_e96.radiance[0] * _e86.radiance[0]);
+                    v11_2 = 7.888609e-31;
+                    if ((_e551 < 7.888609e-31)) {
+                    } else {
+                        v11_2 = ((_e551 > 1.2676506e30) ? 1.2676506e30 : _e551);
+                    }
+                    float _e556 = v11_2;
+                    float _e564 = (_e96.radiance[1] * _e86.radiance[1]);
+                    v12_2 = 7.888609e-31;
+                    if ((_e564 < 7.888609e-31)) {
+                    } else {
+                        v12_2 = ((_e564 > 1.2676506e30) ? 1.2676506e30 : _e564);
+                    }
+                    float _e569 = v12_2;
+                    float _e577 = (_e96.radiance[2] * _e86.radiance[2]);
+                    v13_2 = 7.888609e-31;
+                    if ((_e577 < 7.888609e-31)) {
+                    } else {
+                        v13_2 = ((_e577 > 1.2676506e30) ? 1.2676506e30 : _e577);
+                    }
+                    float _e582 = v13_2;
+                    v14_2 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(((asfloat((asuint(_e207) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e207), ((asfloat((asuint(_e217) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e217), ((asfloat((asuint(_e227) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e227)), _e432, _e434), Constructarray3_float_(((((_e96.radiance[0] > 0.0) && (_e86.radiance[0] > 0.0)) && _e548) ? _e556 : 0.0), ((((_e96.radiance[1] > 0.0) && (_e86.radiance[1] > 0.0)) && _e548) ? _e569 : 0.0), ((((_e96.radiance[2] > 0.0) && (_e86.radiance[2] > 0.0)) && _e548) ? _e582 : 0.0)), _e82, _e96.flags);
+                }
+                LightbvhLight _e592 = v14_2;
+                v15_2 = _e592;
+            }
+            LightbvhLight _e594 = v15_2;
+            v16_2 = _e594;
+        }
+        LightbvhLight _e596 = v16_2;
+        float _e598[2] = numbers_1;
+        float _e609 = (_e596.p[1][0] - _e596.p[0][0]);
+        float _e610 = (_e596.p[1][1] - _e596.p[0][1]);
+        float _e611 = (_e596.p[1][2] - _e596.p[0][2]);
+        float _e617 = (_e596.p[2][0] - _e596.p[0][0]);
+        float _e618 = (_e596.p[2][1] - _e596.p[0][1]);
+        float _e619 = (_e596.p[2][2] - _e596.p[0][2]);
+        float _e622 = asfloat((asuint(_e609) & 2147483647u));
+        float _e625 = asfloat((asuint(_e610) & 2147483647u));
+        float _e628 = asfloat((asuint(_e611) & 2147483647u));
+        float _e631 = asfloat((asuint(_e617) & 2147483647u));
+        float _e634 = asfloat((asuint(_e618) & 2147483647u));
+        float _e637 = asfloat((asuint(_e619) & 2147483647u));
+        float _e646 = asfloat((asuint(((_e622 > _e631) ? _e622 : _e631)) & 2147483647u));
+        float _e649 = asfloat((asuint(((_e625 > _e634) ? _e625 : _e634)) & 2147483647u));
+        float _e652 = asfloat((asuint(((_e628 > _e637) ? _e628 : _e637)) & 2147483647u));
+        float _e654 = ((_e646 > _e649) ? _e646 : _e649);
+        int _e662 = asint(asuint(asint(((asuint(((_e654 > _e652) ? _e654 : _e652)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
+        int _e664 = ((_e662 > int(-127)) ? _e662 : int(-127));
+        int _e665 = naga_neg(_e664);
+        int _e667 = ((_e665 < int(-126)) ? int(-126) : _e665);
+        float _e674 = asfloat((asuint(asint(asuint(((_e667 > int(127)) ? int(127) : _e667)) + asuint(int(127)))) << asuint(int(23))));
+        float _e675 = (_e609 * _e674);
+        float _e676 = (_e610 * _e674);
+        float _e677 = (_e611 * _e674);
+        float _e678 = (_e617 * _e674);
+        float _e679 = (_e618 * _e674);
+        float _e680 = (_e619 * _e674);
+        float _e683 = ((_e676 * _e680) - (_e677 * _e679));
+        float _e686 = ((_e677 * _e678) - (_e675 * _e680));
+        float _e689 = ((_e675 * _e679) - (_e676 * _e678));
+        float _e692 = asfloat((asuint(_e683) & 2147483647u));
+        float _e695 = asfloat((asuint(_e686) & 2147483647u));
+        float _e698 = asfloat((asuint(_e689) & 2147483647u));
+        float _e700 = ((_e692 > _e695) ? _e692 : _e695);
+        int _e708 = asint(asuint(asint(((asuint(((_e700 > _e698) ? _e700 : _e698)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
+        int _e710 = ((_e708 > int(-127)) ? _e708 : int(-127));
+        bool _e711 = (_e710 >= int(-100));
+        int _e714 = naga_neg(_e710);
+        int _e716 = ((_e714 < int(-126)) ? int(-126) : _e714);
+        float _e723 = asfloat((asuint(asint(asuint(((_e716 > int(127)) ? int(127) : _e716)) + asuint(int(127)))) << asuint(int(23))));
+        uint _e728 = (0u - ((_e711 && (_e664 > int(-127))) ? 1u : 0u));
+        float _e731 = asfloat((asuint((_e683 * _e723)) & _e728));
+        float _e734 = asfloat((asuint((_e686 * _e723)) & _e728));
+        float _e739 = asfloat((1065353216u ^ ((asuint((_e689 * _e723)) ^ 1065353216u) & _e728)));
+        uint _e745 = asuint((((_e731 * _e731) + (_e734 * _e734)) + (_e739 * _e739)));
+        uint _e748 = ((_e745 >> asuint(int(23))) & 255u);
+        uint _e750 = ((_e748 & 1u) ^ 1u);
+        uint _e751 = (_e745 & 8388607u);
+        float _e757 = asfloat((_e751 | (1065353216u + (_e750 << asuint(int(23))))));
+        float _e763 = asfloat((1597463007u - (asuint(_e757) >> asuint(int(1)))));
+        float _e764 = (0.5 * _e757);
+        float _e768 = (_e763 * (1.5 - ((_e764 * _e763) * _e763)));
+        float _e772 = (_e768 * (1.5 - ((_e764 * _e768) * _e768)));
+        float _e776 = (_e772 * (1.5 - ((_e764 * _e772) * _e772)));
+        float _e778 = ((_e757 * _e776) * 8388608.0);
+        float _e779 = asfloat(0u);
+        float _e780 = asfloat(1333788671u);
+        uint _e785 = ((_e778 > _e780) ? 4294967295u : ((_e778 < _e779) ? 0u : naga_f2u32(_e778)));
+        uint _e788 = ((_e751 | 8388608u) << asuint(((23u + _e750) & 31u)));
+        float _e796 = ((float((asint((_e788 - (_e785 * _e785))) >> asuint(int(8)))) * _e776) * 1.5258789e-5);
+        float _e797 = asfloat(3472883712u);
+        float _e798 = asfloat(1325400063u);
+        uint _e807 = (_e785 + asuint(((_e796 == _e796) ? ((_e796 > _e798) ? int(2147483647) : ((_e796 < _e797) ? int(-2147483647 - 1) : naga_f2i32(_e796))) : int(0))));
+        int _e810 = asint((_e788 - (_e807 * _e807)));
+        bool _e811 = (_e810 < int(0));
+        v17_2 = _e807;
+        if (_e811) {
+            v17_2 = (_e807 - 1u);
+        }
+        uint _e814 = v17_2;
+        v18_2 = _e810;
+        if (_e811) {
+            v18_2 = asint(asuint(_e810) + asuint(asint(asuint(asint(asuint(int(2)) * asuint(asint(_e814)))) + asuint(int(1)))));
+        }
+        int _e820 = v18_2;
+        int _e822 = asint(asuint(int(2)) * asuint(asint(_e814)));
+        bool _e823 = (_e820 > _e822);
+        v19_2 = _e820;
+        if (_e823) {
+            v19_2 = asint(asuint(_e820) - asuint(asint(asuint(_e822) + asuint(int(1)))));
+        }
+        int _e827 = v19_2;
+        v20_2 = _e814;
+        if (_e823) {
+            v20_2 = (_e814 + 1u);
+        }
+        uint _e830 = v20_2;
+        v21_2 = _e830;
+        if ((_e827 > asint(_e830))) {
+            v21_2 = (_e830 + 1u);
+        }
+        uint _e835 = v21_2;
+        v22_2 = 0.0;
+        if ((asint(_e745) < int(8388608))) {
+        } else {
+            v22_2 = asfloat((((((_e748 + 127u) - _e750) >> asuint(int(1))) << asuint(int(23))) + (_e835 - 8388608u)));
+        }
+        float _e848 = v22_2;
+        uint _e849 = asuint(_e848);
+        uint _e855 = (_e849 & 8388607u);
+        uint _e856 = (_e855 | 8388608u);
+        bool _e857 = (8388608u < _e856);
+        float _e861 = asfloat((_e855 | 1065353216u));
+        uint _e862 = asuint(_e861);
+        float _e867 = asfloat(((_e862 & 2147483648u) | (2129859015u - (_e862 & 2147483647u))));
+        float _e870 = (_e867 * (2.0 - (_e861 * _e867)));
+        float _e873 = (_e870 * (2.0 - (_e861 * _e870)));
+        float _e876 = ((asfloat(1065353216u) * _e873) * (_e857 ? 16777216.0 : 8388608.0));
+        uint _e881 = ((_e876 > _e780) ? 4294967295u : ((_e876 < _e779) ? 0u : naga_f2u32(_e876)));
+        int _e887 = asint(((8388608u << asuint(((_e857 ? int(24) : int(23)) & int(31)))) - (_e881 * _e856)));
+        float _e892 = ((float((_e887 >> asuint(int(8)))) * _e873) * 3.0517578e-5);
+        int _e899 = ((_e892 == _e892) ? ((_e892 > _e798) ? int(2147483647) : ((_e892 < _e797) ? int(-2147483647 - 1) : naga_f2i32(_e892))) : int(0));
+        uint _e901 = (_e881 + asuint(_e899));
+        int _e902 = asint(_e856);
+        int _e904 = asint(asuint(_e887) - asuint(asint(asuint(_e899) * asuint(_e902))));
+        bool _e905 = (_e904 < int(0));
+        v23_2 = _e901;
+        if (_e905) {
+            v23_2 = (_e901 - 1u);
+        }
+        uint _e908 = v23_2;
+        v24_2 = _e904;
+        if (_e905) {
+            v24_2 = asint(asuint(_e904) + asuint(_e902));
+        }
+        int _e911 = v24_2;
+        bool _e912 = (_e911 >= _e902);
+        v25_2 = _e908;
+        if (_e912) {
+            v25_2 = (_e908 + 1u);
+        }
+        uint _e915 = v25_2;
+        v26_2 = _e911;
+        if (_e912) {
+            v26_2 = asint(asuint(_e911) - asuint(_e902));
+        }
+        int _e918 = v26_2;
+        v27_2 = _e915;
+        if ((asint(asuint(_e918) * asuint(int(2))) > _e902)) {
+            v27_2 = (_e915 + 1u);
+        }
+        uint _e923 = v27_2;
+        int _e927 = asint(asuint(asint(asuint(int(127)) - asuint(asint(((_e849 >> asuint(int(23))) & 255u))))) + asuint((_e857 ? int(126) : int(127))));
+        bool _e928 = (_e927 <= int(0));
+        v29_2 = ZeroValueuint();
+        if (_e928) {
+        } else {
+            v28_2 = 2139095040u;
+            if ((_e927 >= int(255))) {
+            } else {
+                v28_2 = ((asuint(_e927) << asuint(int(23))) + (_e923 & 8388607u));
+            }
+            uint _e936 = v28_2;
+            v29_2 = _e936;
+        }
+        uint _e938 = v29_2;
+        float _e941 = asfloat((((1065353216u ^ _e849) & 2147483648u) | (_e928 ? 0u : _e938)));
+        int _e945 = naga_neg(asint(asuint(asint(asuint(_e710) + asuint(_e664))) + asuint(_e664)));
+        int _e947 = ((_e945 < int(-126)) ? int(-126) : _e945);
+        float _e955 = ((_e941 + _e941) * asfloat((asuint(asint(asuint(((_e947 > int(127)) ? int(127) : _e947)) + asuint(int(127)))) << asuint(int(23)))));
+        bool _e959 = ((_e598[0] + _e598[1]) > 1.0);
+        v30_2 = _e598[0];
+        if (_e959) {
+            v30_2 = (1.0 - _e598[0]);
+        }
+        float _e962 = v30_2;
+        v31_2 = _e598[1];
+        if (_e959) {
+            v31_2 = (1.0 - _e598[1]);
+        }
+        float _e965 = v31_2;
+        float _e966 = (_e609 * _e962);
+        float _e967 = (_e610 * _e962);
+        float _e968 = (_e611 * _e962);
+        float _e987 = (_e617 * _e965);
+        float _e988 = (_e618 * _e965);
+        float _e989 = (_e619 * _e965);
+        v32_2 = Constructarray3_float_(0.0, 0.0, 0.0);
+        if (_e711) {
+            v32_2 = Constructarray3_float_((_e731 * _e941), (_e734 * _e941), (_e739 * _e941));
+        }
+        float _e1019[3] = v32_2;
+        results_2 = ConstructLightbvhType34_(Constructarray3_float_(((_e596.p[0][0] + ((asfloat((asuint(_e966) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e966)) + ((asfloat((asuint(_e987) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e987)), ((_e596.p[0][1] + ((asfloat((asuint(_e967) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e967)) + ((asfloat((asuint(_e988) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e988)), ((_e596.p[0][2] + ((asfloat((asuint(_e968) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e968)) + ((asfloat((asuint(_e989) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e989))), (_e711 ? ((_e955 < 1.329228e36) ? _e955 : 1.329228e36) : 0.0), _e1019, _e596.flags, _e596.radiance);
+        break;
+    } while(false);
+    LightbvhType34_ _e1056 = results_2;
+    const LightbvhLightPoint lightbvhlightpoint = ConstructLightbvhLightPoint(float3(_e1056.member[0], _e1056.member[1], _e1056.member[2]), _e1056.member_1, float3(_e1056.member_2[0], _e1056.member_2[1], _e1056.member_2[2]), _e1056.member_3, float3(_e1056.member_4[0], _e1056.member_4[1], _e1056.member_4[2]));
+    return lightbvhlightpoint;
+}
+
