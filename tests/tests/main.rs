@@ -9,6 +9,7 @@ mod encoding;
 mod exact;
 mod film;
 mod flushing;
+mod functions;
 mod importance;
 mod instanced;
 mod kinds_render;

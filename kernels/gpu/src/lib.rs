@@ -11,6 +11,8 @@ mod dispatch;
 mod float_environment;
 pub mod float_modes;
 mod frame;
+#[cfg(feature = "kernels")]
+pub mod functions;
 pub mod kernel;
 mod memory_model;
 pub mod query;

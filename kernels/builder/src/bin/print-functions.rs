@@ -1,15 +1,17 @@
 //! `print-functions`: the functions of a set of kernels for shaders in another language, with the names, the bind group and the bindings
 //! that an engine wants. Needs no compiler of kernels.
 
-use lightbvh_kernels_builder::shader::{Language, Library, Naming, RECEIVERS};
+use lightbvh_kernels_builder::shader::{Language, Library, Naming, RECEIVERS, kernel};
 use lightbvh_kernels_builder::{Error, manifest};
 use std::process::ExitCode;
 
 const USAGE: &str = "\
 Prints functions for shaders, from the committed kernels.
 
-Usage: print-functions LANGUAGE [--set SET] [--prefix PREFIX] [--group GROUP] [--bindings N,I,T,L,W]
+Usage: print-functions kernel NAME
+       print-functions LANGUAGE [--set SET] [--prefix PREFIX] [--group GROUP] [--bindings N,I,T,L,W]
 
+  kernel NAME         a whole kernel in WGSL, push constants as a read-only buffer behind its others
   LANGUAGE            wgsl, glsl, hlsl or metal
   --set SET           any (AnyLights) or linked (MaskedLights); LightBvh otherwise
   --prefix PREFIX     what each name begins with, lower-case words joined by _; lightbvh otherwise
@@ -42,6 +44,15 @@ fn main() -> ExitCode {
 
 fn print(arguments: &[String]) -> Result<String, Error> {
     let unknown = |what: &str, value: &str| Error(format!("no {what} is {value:?}\n\n{USAGE}"));
+    let here = std::env::current_dir().map_err(|error| Error(format!("no current directory: {error}")))?;
+    let root = manifest::root_above(&here)?;
+    let committed = manifest::read(&root)?;
+    if let [word, name] = arguments
+        && word == "kernel"
+    {
+        let (words, buffers) = manifest::module(&root, &committed, &format!("{name}.spv"))?;
+        return kernel(&words, &buffers);
+    }
     let mut naming = Naming::default();
     let mut set = "";
     let mut languages = Language::ALL.into_iter();
@@ -69,9 +80,6 @@ fn print(arguments: &[String]) -> Result<String, Error> {
     let mut sets = RECEIVERS.iter();
     let found = sets.find(|(suffix, _)| suffix.trim_start_matches('_') == set);
     let (suffix, receiver) = found.ok_or_else(|| unknown("set", set))?;
-    let here = std::env::current_dir().map_err(|error| Error(format!("no current directory: {error}")))?;
-    let root = manifest::root_above(&here)?;
-    let committed = manifest::read(&root)?;
     let library = Library::new(naming, receiver, |kernel| {
         manifest::module(&root, &committed, &format!("{kernel}{suffix}.spv"))
     })?;

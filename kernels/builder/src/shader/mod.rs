@@ -176,14 +176,7 @@ impl Library {
         words: &[u32],
         buffers: &[String],
     ) -> Result<(), Error> {
-        let words = words.iter().copied();
-        let options = naga::front::spv::Options {
-            adjust_coordinate_space: false,
-            ..Default::default()
-        };
-        let from = naga::front::spv::Frontend::new(words, &options)
-            .parse()
-            .map_err(|error| Error(error.to_string()))?;
+        let from = parsed(words)?;
         let root = called_by(&from.entry_points[0].function.body);
         let root = root.ok_or_else(|| Error("the entry point calls nothing".to_owned()))?;
         let mut types = Types::new(&from);
@@ -344,6 +337,41 @@ impl Library {
             }
         }
     }
+}
+
+/// A kernel in WGSL, for devices that take nothing else: buffers named as its parameters, at their bindings in group 0, then push
+/// constants as a buffer that is read.
+///
+/// # Errors
+/// When naga cannot translate it.
+pub fn kernel(words: &[u32], buffers: &[String]) -> Result<String, Error> {
+    let mut module = parsed(words)?;
+    let names: HashMap<_, _> = bound(&module, buffers).into_iter().collect();
+    for (own, global) in module.global_variables.iter_mut() {
+        if let Some(name) = names.get(&own) {
+            global.name = Some((*name).to_owned());
+        }
+        if global.space == AddressSpace::Immediate {
+            global.name = Some("push".to_owned());
+            global.space = AddressSpace::Storage {
+                access: StorageAccess::LOAD,
+            };
+            global.binding = Some(ResourceBinding {
+                group: 0,
+                binding: buffers.len() as u32,
+            });
+        }
+    }
+    Language::Wgsl.print(&module, &Naming::default())
+}
+
+fn parsed(words: &[u32]) -> Result<Module, Error> {
+    let options = naga::front::spv::Options {
+        adjust_coordinate_space: false,
+        ..Default::default()
+    };
+    let frontend = naga::front::spv::Frontend::new(words.iter().copied(), &options);
+    frontend.parse().map_err(|error| Error(error.to_string()))
 }
 
 /// Types of the structs around arrays, in the order of [`BUFFERS`].
