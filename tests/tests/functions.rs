@@ -123,7 +123,7 @@ fn functions_keep_their_promises() {
     // Each light with its instance.
     let all: Vec<[u32; 2]> = (0..)
         .zip(view.instances())
-        .flat_map(|(k, own)| (own.first_light..own.first_light + own.count).map(move |light| [light, k]))
+        .flat_map(|(k, own)| (own.first..own.first + own.count).map(move |light| [light, k]))
         .collect();
     let points: Vec<ShadingPoint> = (0..4)
         .map(|_| lightbvh_tests::generate::point(&mut random, 10.0))
