@@ -11,7 +11,7 @@ use lightbvh_gpu::{Access, Binding, Kernel, MOMENTS, Query, functions};
 use lightbvh_host::backend::Mirrored;
 use lightbvh_host::vulkan::Options;
 use lightbvh_kernels_builder::manifest;
-use lightbvh_kernels_builder::shader::{Language, Library, Naming, RECEIVERS};
+use lightbvh_kernels_builder::shader::{Language, Library, Naming, SETS};
 use lightbvh_tests::devices::on_each_device;
 use lightbvh_tests::generate::{Random, small_triangles};
 use lightbvh_tests::placing;
@@ -220,14 +220,15 @@ fn each_set_is_printed_in_each_language() {
     let committed = manifest::read(root).unwrap();
     let folder = std::env::temp_dir().join(format!("lightbvh-functions-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    for (suffix, receiver) in RECEIVERS {
+    for set in &SETS {
+        let suffix = set.suffix;
         let naming = Naming {
             prefix: "many_lamps".to_owned(),
             group: 2,
             bindings: [7, 6, 5, 4, 3],
         };
         let read = |kernel: &str| manifest::module(root, &committed, &format!("{kernel}{suffix}.spv"));
-        let library = Library::new(naming, receiver, read).unwrap();
+        let library = Library::new(naming, set, read).unwrap();
         for language in Language::ALL {
             let text = library.print(language).unwrap();
             assert!(

@@ -1,7 +1,7 @@
 //! `kernels/gpu/spirv/manifest.json`: where the committed modules come from, and what they are.
 
 use crate::files::{self, cannot};
-use crate::shader::{Language, Library, Naming, RECEIVERS};
+use crate::shader::{Language, Library, Naming, SETS};
 use crate::{Error, sources, table};
 use lightbvh_gpu::spirv::{Interface, words};
 use serde::{Deserialize, Serialize};
@@ -140,7 +140,7 @@ pub fn module(root: &Path, committed: &Manifest, file: &str) -> Result<(Vec<u32>
 fn functions(
     read: impl FnMut(&str) -> Result<(Vec<u32>, Vec<String>), Error>,
 ) -> Result<Vec<(String, String)>, Error> {
-    let library = Library::new(Naming::default(), RECEIVERS[0].1, read)?;
+    let library = Library::new(Naming::default(), &SETS[0], read)?;
     let file = |own: Language| format!("{SHADERS}/lightbvh.{}", own.extension());
     let texts = Language::ALL
         .into_iter()

@@ -1,7 +1,7 @@
 //! `print-functions`: the functions of a set of kernels for shaders in another language, with the names, the bind group and the bindings
 //! that an engine wants. Needs no compiler of kernels.
 
-use lightbvh_kernels_builder::shader::{Language, Library, Naming, RECEIVERS, kernel};
+use lightbvh_kernels_builder::shader::{Language, Library, Naming, SETS, kernel};
 use lightbvh_kernels_builder::{Error, manifest};
 use std::process::ExitCode;
 
@@ -77,11 +77,10 @@ fn print(arguments: &[String]) -> Result<String, Error> {
             _ => return Err(unknown("option", option)),
         }
     }
-    let mut sets = RECEIVERS.iter();
-    let found = sets.find(|(suffix, _)| suffix.trim_start_matches('_') == set);
-    let (suffix, receiver) = found.ok_or_else(|| unknown("set", set))?;
-    let library = Library::new(naming, receiver, |kernel| {
-        manifest::module(&root, &committed, &format!("{kernel}{suffix}.spv"))
+    let found = SETS.iter().find(|own| own.suffix.trim_start_matches('_') == set);
+    let set = found.ok_or_else(|| unknown("set", set))?;
+    let library = Library::new(naming, set, |kernel| {
+        manifest::module(&root, &committed, &format!("{kernel}{}.spv", set.suffix))
     })?;
     library.print(language)
 }

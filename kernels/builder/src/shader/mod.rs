@@ -20,6 +20,7 @@ use function::{Copy, Role, constant_value};
 use types::{Names, Types};
 
 /// A function: its kernel, its name, what a query's words after the receiver are, and its answer.
+#[derive(Clone, Copy, Debug)]
 struct Signature {
     kernel: &'static str,
     name: &'static str,
@@ -28,33 +29,72 @@ struct Signature {
     answer: Names,
 }
 
-const FUNCTIONS: [Signature; 3] = [
+const SAMPLE: Signature = Signature {
+    kernel: "sample",
+    name: "sample",
+    words: &["number.xy"],
+    answer: ("LightSample", &["light", "instance", "pmf"]),
+};
+const PMF: Signature = Signature {
+    kernel: "pmf",
+    name: "pmf",
+    words: &["light", "instance"],
+    answer: ("", &[]),
+};
+const LIGHT_POINT: Signature = Signature {
+    kernel: "light_points",
+    name: "light_point",
+    words: &["_", "_"],
+    answer: ("LightPoint", &["p", "density", "normal", "flags", "radiance"]),
+};
+const CELLS: [Signature; 2] = [
     Signature {
-        kernel: "sample",
-        name: "sample",
-        words: &["number.xy"],
-        answer: ("LightSample", &["light", "instance", "pmf"]),
+        kernel: "sample_cell",
+        name: "sample_cell",
+        ..SAMPLE
     },
     Signature {
-        kernel: "pmf",
-        name: "pmf",
-        words: &["light", "instance"],
-        answer: ("", &[]),
-    },
-    Signature {
-        kernel: "light_points",
-        name: "light_point",
-        words: &["_", "_"],
-        answer: ("LightPoint", &["p", "density", "normal", "flags", "radiance"]),
+        kernel: "pmf_cell",
+        name: "pmf_cell",
+        ..PMF
     },
 ];
 
-/// The names of the words of a receiver, by the suffix of the names of its kernels.
-pub const RECEIVERS: [(&str, &[&str]); 3] = [
-    ("", &["p.xyz", "n.xyz"]),
-    ("_any", &["p.xyz", "n.xyz"]),
-    ("_linked", &["p.xyz", "n.xyz", "mask"]),
+const POINT: &[&str] = &["p.xyz", "n.xyz"];
+const CELL: &[&str] = &["center.xyz", "half.xyz", "n.xyz"];
+
+/// A set of kernels over the same nodes.
+#[derive(Clone, Copy, Debug)]
+pub struct Set {
+    /// What the names of its kernels end in.
+    pub suffix: &'static str,
+    /// Its functions, each with the names of a receiver's words.
+    functions: &'static [(Signature, &'static [&'static str])],
+}
+
+/// The sets of kernels: those of `LightBvh`, `AnyLights`, and `MaskedLights`.
+pub const SETS: [Set; 3] = [
+    Set {
+        suffix: "",
+        functions: &[
+            (SAMPLE, POINT),
+            (PMF, POINT),
+            (CELLS[0], CELL),
+            (CELLS[1], CELL),
+            (LIGHT_POINT, POINT),
+        ],
+    },
+    Set {
+        suffix: "_any",
+        functions: &[(SAMPLE, POINT), (PMF, POINT), (LIGHT_POINT, POINT)],
+    },
+    Set {
+        suffix: "_linked",
+        functions: &[(SAMPLE, LINKED), (PMF, LINKED), (LIGHT_POINT, LINKED)],
+    },
 ];
+
+const LINKED: &[&str] = &["p.xyz", "n.xyz", "mask"];
 
 /// A sample as an argument: its probability is not needed. And two numbers in [0, 1).
 const SAMPLES: [&str; 3] = ["light", "instance", "_"];
@@ -138,21 +178,21 @@ pub struct Library {
 }
 
 impl Library {
-    /// The functions of a set of kernels, for a receiver whose words have these names ([`RECEIVERS`]): by the name of a kernel without the set's suffix, `read` gives the words of its module and
+    /// The functions of a set of kernels: by the name of a kernel without the set's suffix, `read` gives the words of its module and
     /// the names of its buffers by binding.
     ///
     /// # Errors
     /// When a module has something that no function can have.
     pub fn new(
         naming: Naming,
-        receiver: &[&str],
+        set: &Set,
         mut read: impl FnMut(&str) -> Result<(Vec<u32>, Vec<String>), Error>,
     ) -> Result<Self, Error> {
         let mut library = Self {
             module: Module::default(),
             naming,
         };
-        for own in &FUNCTIONS {
+        for (own, receiver) in set.functions {
             let (words, buffers) = read(own.kernel)?;
             let added = library.add(own, receiver, &words, &buffers);
             added.map_err(|error| Error(format!("{}: {error}", own.kernel)))?;
