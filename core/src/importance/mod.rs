@@ -30,7 +30,7 @@ use crate::exact;
 pub use crate::node::Cluster;
 use crate::point::ShadingPoint;
 #[doc(inline)]
-pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, TransmissivePoint};
+pub use crate::point::{Cell, GlossyPoint, LinkedPoint, RaySegment, Receiver, TransmissivePoint};
 
 /// A measure of what the lights below each child of a node may contribute at a point. A type chooses it, so that kernels
 /// contain one only.
