@@ -38,7 +38,7 @@ pub use crate::point::{Cell, GlossyPoint, LinkedPoint, RaySegment, Receiver, Tra
 /// `P`: the receiver type.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not weigh the children of `{N}`, of width {W}, for a `{P}`",
-    note = "`MaskedLights` takes a `LinkedPoint`, `LightBvh` and `AnyLights` take a `ShadingPoint`",
+    note = "`MaskedLights` takes a `LinkedPoint`, `LightBvh` and `AnyLights` take a `ShadingPoint` or a `Cell`",
     note = "models for a `GlossyPoint`, a `TransmissivePoint` and a `RaySegment`: `(MomentNode<8>, Glossy<Moments>)`, \
             `(MomentNode<8>, Transmissive<Moments>)`, `(MomentNode<8>, Subtended)`"
 )]

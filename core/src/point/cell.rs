@@ -28,7 +28,7 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// A box in a volume, between two corners.
+    /// A box in a volume, between two opposite corners.
     #[must_use]
     pub fn volume(low: [f32; 3], high: [f32; 3]) -> Self {
         let (low, high) = (vector(&low), vector(&high));
@@ -36,7 +36,7 @@ impl Cell {
         Self {
             center: center.to_array(),
             // Each corner is within, whichever way the middle was rounded.
-            half: max3(high - center, center - low).to_array(),
+            half: max3(abs3(high - center), abs3(center - low)).to_array(),
             n: [0.0; 3],
         }
     }
