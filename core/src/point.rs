@@ -1,10 +1,12 @@
 //! The receiver of light.
 
+mod cell;
 mod glossy;
 mod linked;
 mod segment;
 mod transmissive;
 
+pub use cell::Cell;
 pub use glossy::GlossyPoint;
 pub use linked::LinkedPoint;
 pub use segment::RaySegment;

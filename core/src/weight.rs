@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use crate::exact::{self, pow2, rsqrt_rough};
-use crate::vector::{dot, greatest_exponent};
+use crate::vector::{abs3, dot, greatest_exponent, length_squared, max3};
 
 /// Least cosine that the soft ones are spread by: no light is ever quite out of sight. Its square is the ε of the tables.
 pub(crate) const SOFT: f32 = 0.031_622_78;
@@ -17,6 +17,10 @@ const NEAR: f32 = 0.5;
 const NEAREST: f32 = 2.5;
 /// Squared distances, in units of the scale, are at least this: about (2^-25)². It absorbs whatever devices flush.
 const LEAST_DISTANCE: f32 = pow2(-50);
+/// Twice the mean variance of an axis of a box, in squared half diagonals.
+const TWO_NINTHS: f32 = 2.0 / 9.0;
+/// Squared spreads of normals are at least this.
+const LEAST_SPREAD: f32 = pow2(-18);
 /// A frame this much smaller than its distance counts as this small: its square is far below LEAST_DISTANCE's part of 1.
 const LEAST_FRAME: i32 = -40;
 
@@ -31,12 +35,13 @@ pub(crate) struct Frame {
     pub per_metre: f32,
 }
 
-/// The scale is the exponent of the greater of distance (of the frame's origin) and unit. So squares of what follows neither
+/// The scale is the exponent of the greater of distance (of the frame's origin) and 2^`least`, which is the unit, or the size of a cell if
+/// that is more. So squares of what follows neither
 /// overflow nor underflow, and a scene scaled by a power of two gives the same bits.
 #[inline(always)]
-pub(crate) fn frame(origin: Vec3, unit_exponent: i32, p: Vec3) -> Frame {
+pub(crate) fn frame(origin: Vec3, unit_exponent: i32, least: i32, p: Vec3) -> Frame {
     let x = origin - p;
-    let e = greatest_exponent(x, unit_exponent);
+    let e = greatest_exponent(x, least);
     let below = unit_exponent - e;
     let bounded = if below < LEAST_FRAME { LEAST_FRAME } else { below };
     let per_metre = pow2(-e);
@@ -55,6 +60,45 @@ pub(crate) struct Side {
     /// The normal by the unit of the children's mean normals, and minus twice that unit.
     pub for_m: Vec3,
     pub m_unit: f32,
+    /// [`SOFT`] and [`FLOOR`], or more where normals spread.
+    soft: f32,
+    floor: f32,
+}
+
+impl Side {
+    /// Of normals whose mean is `n`: half their spread softens the cosine and the horizon.
+    #[inline(always)]
+    pub fn spread(self, n: Vec3) -> Self {
+        let rest = exact::max(1.0 - length_squared(n), LEAST_SPREAD);
+        let half = 0.5 * (rest * rsqrt_rough(rest));
+        Self {
+            soft: self.soft + half,
+            floor: self.floor + half,
+            ..self
+        }
+    }
+}
+
+/// The box of a cell as the weight needs it, lengths in units of the frame's scale.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    half: Vec3,
+    /// Twice the mean variance of an axis.
+    squared: f32,
+    /// Twice how far it reaches along the normal.
+    up: f32,
+}
+
+impl Extent {
+    #[inline(always)]
+    pub fn new(half: Vec3, n: Vec3) -> Self {
+        let along = dot(half, abs3(n));
+        Self {
+            half,
+            squared: TWO_NINTHS * length_squared(half) + LEAST_DISTANCE,
+            up: along + along,
+        }
+    }
 }
 
 #[inline(always)]
@@ -63,6 +107,8 @@ pub(crate) fn side(n: Vec3, m_unit: f32) -> Side {
         n: n + n,
         for_m: n * m_unit,
         m_unit: -2.0 * m_unit,
+        soft: SOFT,
+        floor: FLOOR,
     }
 }
 
@@ -101,18 +147,41 @@ pub(crate) fn recip(x: f32) -> f32 {
 /// Φ · soft cos θ · soft cos θ' / distance², positive for any positive Φ.
 #[inline(always)]
 pub(crate) fn weight(l: &Lobe, side: &Side) -> f32 {
+    from_nearest(l, side, l.x)
+}
+
+/// The mean over a cell: to the lights, its points are as many more places of their own. The nearest of them counts for the distance.
+#[inline(always)]
+pub(crate) fn weight_over(l: &Lobe, side: &Side, cell: &Extent) -> f32 {
+    let own = l.breadth * l.breadth;
+    let ratio = 1.0 + l.less;
+    let across = own + cell.squared;
+    let along = own * (ratio * ratio) + cell.squared;
+    let inverse = rsqrt_rough(across);
+    let both = Lobe {
+        breadth: across * inverse,
+        less: (along * rsqrt_rough(along)) * inverse - 1.0,
+        reach: (l.reach * l.breadth + cell.up) * inverse,
+        ..*l
+    };
+    from_nearest(&both, side, max3(abs3(l.x) - cell.half, Vec3::ZERO))
+}
+
+/// [`weight`], `nearest` away from the nearest receiver.
+#[inline(always)]
+fn from_nearest(l: &Lobe, side: &Side, nearest: Vec3) -> f32 {
     let squared = l.breadth * l.breadth;
     let d_squared = dot(l.x, l.x) + LEAST_DISTANCE;
-    let near = d_squared + NEAR * squared;
+    let near = (dot(nearest, nearest) + LEAST_DISTANCE) + NEAR * squared;
     let inverse = rsqrt_rough(d_squared + FAR * squared);
     let u = l.breadth * inverse;
 
     // The receiver's side. The spread along its normal is the breadth, but less where that runs along the mean normal.
     let turn = dot(side.for_m, l.m);
-    let incident_spread = SOFT + u * (1.0 + l.less * (turn * turn));
+    let incident_spread = side.soft + u * (1.0 + l.less * (turn * turn));
     let incident = dot(side.n, l.x) * inverse;
     // The box limits the part above the horizon: a low top cuts the tail.
-    let cut = exact::min(exact::max(incident + l.reach * u, FLOOR), incident_spread);
+    let cut = exact::min(exact::max(incident + l.reach * u, side.floor), incident_spread);
     let (n1, d1) = soft(incident, incident_spread, cut);
 
     // The emitters' side, from the nearest part of the set: spread by its depth along its normal, and by the spread of the normals.

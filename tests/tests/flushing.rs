@@ -6,8 +6,8 @@ use bytemuck::{Pod, cast_slice};
 use lightbvh::bvh::Cursor;
 use lightbvh::device::point::Receiver;
 use lightbvh::importance::{
-    DefaultImportance, Flux, Glossy, ImportanceModel, Leveled, Linked, LinkedPoint, RaySegment, Subtended,
-    Transmissive, TransmissivePoint,
+    Cell, DefaultImportance, Flux, Glossy, ImportanceModel, Leveled, Linked, LinkedPoint, RaySegment,
+    Subtended, Transmissive, TransmissivePoint,
 };
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::node::{
@@ -194,6 +194,12 @@ fn triangles_by_moments() {
         let to = scenes::point(random, sizes).p;
         let receiver = RaySegment { from: point.p, to };
         ask::<_, Defensive<Subtended, 6>, _, 8>(bvh, &receiver, &point, random);
+        let cell = Cell {
+            n: point.n.map(|x| x * random.between(0.0, 1.0)),
+            ..Cell::volume(point.p, to)
+        };
+        let cell = cell.checked().expect("a receiver in the domain");
+        ask::<_, DefaultImportance, _, 8>(bvh, &cell, &point, random);
     });
 }
 

@@ -30,7 +30,7 @@ use crate::exact;
 pub use crate::node::Cluster;
 use crate::point::ShadingPoint;
 #[doc(inline)]
-pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, TransmissivePoint};
+pub use crate::point::{Cell, GlossyPoint, LinkedPoint, RaySegment, Receiver, TransmissivePoint};
 
 /// A measure of what the lights below each child of a node may contribute at a point. A type chooses it, so that kernels
 /// contain one only.
@@ -38,7 +38,7 @@ pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, Transmiss
 /// `P`: the receiver type.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not weigh the children of `{N}`, of width {W}, for a `{P}`",
-    note = "`MaskedLights` takes a `LinkedPoint`, `LightBvh` and `AnyLights` take a `ShadingPoint`",
+    note = "`MaskedLights` takes a `LinkedPoint`, `LightBvh` and `AnyLights` take a `ShadingPoint` or a `Cell`",
     note = "models for a `GlossyPoint`, a `TransmissivePoint` and a `RaySegment`: `(MomentNode<8>, Glossy<Moments>)`, \
             `(MomentNode<8>, Transmissive<Moments>)`, `(MomentNode<8>, Subtended)`"
 )]

@@ -2,7 +2,8 @@
 
 use super::{ImportanceModel, Space};
 use crate::node::MomentLayout;
-use crate::point::ShadingPoint;
+use crate::point::{Cell, ShadingPoint};
+use crate::vector::vector;
 
 /// Φ · cos θ · cos θ' / d², each a mean over the lights of a child as their moments give it; on the layouts that hold
 /// [`LightMoments`](crate::moments::LightMoments). Formulas and constants are explained, with what was measured, in
@@ -14,5 +15,14 @@ impl<N: MomentLayout<W>, const W: usize> ImportanceModel<N, W> for Moments {
     #[inline(always)]
     fn weights_in(node: &N, point: &ShadingPoint, space: Space) -> [f32; W] {
         node.moment_weights(point.position(), point.normal(), space)
+    }
+}
+
+/// The same as a mean over the points of a cell: their positions add to the spread of the lights', their normals to that of the
+/// cosine, and the distance is from the nearest point of the box.
+impl<N: MomentLayout<W>, const W: usize> ImportanceModel<N, W, Cell> for Moments {
+    #[inline(always)]
+    fn weights_in(node: &N, cell: &Cell, space: Space) -> [f32; W] {
+        node.cell_weights(vector(&cell.center), vector(&cell.n), vector(&cell.half), space)
     }
 }

@@ -177,4 +177,7 @@ pub trait MomentLayout<const W: usize>: Node<W, Summary = LightMoments> {
     /// The weights of the children at the point `p` with the normal `n`, in the node's space; see
     /// [`ImportanceModel::weights`](crate::ImportanceModel::weights). `space` is [`Instance::space`](crate::Instance::space).
     fn moment_weights(&self, p: Vec3, n: Vec3, space: Space) -> [f32; W];
+
+    /// The same over a box about `p` of half extents `half`, whose points have the mean normal `n`.
+    fn cell_weights(&self, p: Vec3, n: Vec3, half: Vec3, space: Space) -> [f32; W];
 }

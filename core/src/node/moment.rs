@@ -19,8 +19,8 @@ use crate::light::{EmissiveTriangle, Light};
 use crate::moments::{Frame, Framed, LEAST_LENGTH, LightMoments, row};
 use crate::summary::{Lanes, SUMMARY_WORDS};
 use crate::unroll::each;
-use crate::vector::{abs3, dot, flush3};
-use crate::weight::{Lobe, frame, side, weight};
+use crate::vector::{abs3, dot, flush3, greatest_exponent};
+use crate::weight::{Extent, Lobe, frame, side, weight, weight_over};
 
 /// Words of a node: row 0 is the header (origin x, y, z, exponents), the others hold a word of each child. After the first ones come its
 /// box and its link; a row of normals stands before them, two rows of beams and one of masks after them, where there are any.
@@ -380,14 +380,36 @@ impl<const W: usize, const ROWS: usize, L: Light> Node<W> for PackedMomentNode<W
 impl<const W: usize, const ROWS: usize, L: Light> MomentLayout<W> for PackedMomentNode<W, ROWS, L> {
     #[inline(always)]
     fn moment_weights(&self, p: Vec3, n: Vec3, space: Space) -> [f32; W] {
-        let frame = frame(self.origin(), self.unit_exponent(), p);
-        let side = side(n, WORD_UNIT);
+        self.weights_over::<false>(p, n, Vec3::ZERO, space)
+    }
+
+    #[inline(always)]
+    fn cell_weights(&self, p: Vec3, n: Vec3, half: Vec3, space: Space) -> [f32; W] {
+        self.weights_over::<true>(p, n, half, space)
+    }
+}
+
+impl<const W: usize, const ROWS: usize, L> PackedMomentNode<W, ROWS, L> {
+    /// At a point, or over a cell.
+    #[inline(always)]
+    fn weights_over<const CELL: bool>(&self, p: Vec3, n: Vec3, half: Vec3, space: Space) -> [f32; W] {
+        let unit_exponent = self.unit_exponent();
+        let mut least = unit_exponent;
+        let mut side = side(n, WORD_UNIT);
+        let mut slack = space.slack;
+        if CELL {
+            least = greatest_exponent(half, least);
+            side = side.spread(n);
+            slack += (half.x + half.y) + half.z;
+        }
+        let frame = frame(self.origin(), unit_exponent, least, p);
+        let extent = Extent::new(half * frame.per_metre, n);
         let word_unit = frame.unit * WORD_UNIT;
         let breadth_bias = breadth_bias(frame.unit);
         let up = abs3(n) * (2.0 * EXTENT_RANGE);
         let up_sum = (up.x + up.y) + up.z;
         let up = up * WORD_UNIT;
-        let near = Near::new(p, &space, frame.per_metre);
+        let near = Near::new(p, &Space { slack, ..space }, frame.per_metre);
         let mut weights = [0.0; W];
         for i in 0..W {
             let (w0, w1, w2, w3) = (
@@ -405,7 +427,11 @@ impl<const W: usize, const ROWS: usize, L: Light> MomentLayout<W> for PackedMome
                 spread: (w2 & 255) as i32 as f32 * SPREAD_UNIT,
                 reach: up_sum + dot(up, Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16))),
             };
-            weights[i] = weight(&lobe, &side);
+            weights[i] = if CELL {
+                weight_over(&lobe, &side, &extent)
+            } else {
+                weight(&lobe, &side)
+            };
             if Self::BEAMS {
                 let cone = beam_factor(self.0[Self::BEAM][i], &lobe, WORD_UNIT, frame.unit, near.slack);
                 let h = Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16)) * WORD_UNIT

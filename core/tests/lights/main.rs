@@ -5,6 +5,7 @@
 
 use lightbvh::exact;
 
+mod cells;
 mod face;
 mod kinds;
 mod kit;

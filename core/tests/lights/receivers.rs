@@ -17,7 +17,7 @@ use lightbvh::{
 
 use crate::kit::{Random, Wide, dot, minus, room, times, wide};
 
-fn node(sets: &[LightMoments; 4]) -> MomentNode<4> {
+pub fn node(sets: &[LightMoments; 4]) -> MomentNode<4> {
     let mut node = MomentNode::EMPTY;
     (0..4).for_each(|slot| node.set_child(slot, kind::LIGHT, slot as u32));
     node.set_summaries(sets);
@@ -363,7 +363,7 @@ fn weights_of_segments_are_positive_everywhere() {
     }
 }
 
-fn refused<T: core::fmt::Debug>(found: Result<T, DomainError>, what: &str) {
+pub fn refused<T: core::fmt::Debug>(found: Result<T, DomainError>, what: &str) {
     let error = found.expect_err(what).to_string();
     assert!(error.starts_with(what), "{error}");
 }

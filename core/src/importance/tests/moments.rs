@@ -198,7 +198,7 @@ fn weights_are_the_table_s() {
 fn small_frames_far_away_keep_their_size() {
     for (below, kept) in [(0, 0), (20, 20), (39, 39), (40, 40), (41, 40), (90, 40)] {
         let far = Vec3::new(exact::pow2(50), 0.0, 0.0);
-        let frame = crate::weight::frame(far, 50 - below, Vec3::ZERO);
+        let frame = crate::weight::frame(far, 50 - below, 50 - below, Vec3::ZERO);
         assert_eq!(frame.unit, exact::pow2(-kept), "{below}");
     }
 }

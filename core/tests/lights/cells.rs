@@ -1,0 +1,285 @@
+//! Cells of points: every light has its exact probability, wherever its instance is.
+
+use glam::Vec3;
+use lightbvh::exact::{hash, pow2};
+use lightbvh::importance::{Cell, ImportanceModel, Receiver};
+use lightbvh::{
+    EmissiveTriangle, LightBvh, LightMoments, Moments, Random64, SampledLight, ShadingPoint, Transform,
+};
+
+use crate::kit::{Random, room};
+use crate::receivers::{node, refused};
+
+const ORIGIN: [f32; 3] = [0.0; 3];
+
+impl Random {
+    /// Within about `reach` of the origin, sides up to `size`; a flat one, and one in a volume now and then.
+    fn cell(&mut self, reach: f32, size: f32) -> Cell {
+        let flat = self.below(3) == 0;
+        let length = [0.0, 0.3, 1.0][self.below(3) as usize];
+        Cell {
+            center: self.within(reach),
+            half: [1.0, if flat { 0.0 } else { 1.0 }, 1.0].map(|x| x * size * self.unit()),
+            n: self.unit_vector().map(|x| x * length),
+        }
+    }
+
+    /// Turned, sheared, flattened, or stretched far.
+    fn affine(&mut self) -> Transform {
+        let mut map = self.similarity(20.0, 1.0);
+        match self.below(4) {
+            0 => map.columns[0][1] += 3.0 * self.signed(),
+            1 => map.columns[1] = ORIGIN,
+            2 => map.columns[2] = map.columns[2].map(|x| x * 1e4),
+            _ => {}
+        }
+        map
+    }
+}
+
+/// A mesh of a few lights in many places.
+fn places(random: &mut Random, count: u32) -> LightBvh {
+    let mut mesh = room(random).all()[..6].to_vec();
+    mesh.iter_mut().for_each(|triangle| triangle.mesh = 0);
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(mesh).expect("within the domain");
+    for _ in 0..count {
+        bvh.add_instance(mesh, random.affine()).expect("an instance");
+    }
+    bvh.refit();
+    bvh
+}
+
+fn pmfs<P: Receiver>(bvh: &LightBvh, receiver: &P) -> Vec<f64>
+where
+    Moments: ImportanceModel<lightbvh::MomentNode<8>, 8, P>,
+{
+    let tree = bvh.tree().by::<Moments>();
+    let all = (0..).zip(bvh.view().instances());
+    all.flat_map(|(id, own)| (own.first..own.first + own.count).map(move |light| (light, id)))
+        .map(|(light, id)| f64::from(tree.pmf(receiver, light, id)))
+        .collect()
+}
+
+/// Under any map, no light is lost, probabilities sum to one, and the share of numbers that choose a light is its probability: each has one
+/// range of them.
+#[test]
+fn every_light_has_its_share_of_numbers() {
+    let mut chosen = 0;
+    for seed in 0..40 {
+        let random = &mut Random(seed);
+        let bvh = places(random, 12);
+        let cell = random.cell(15.0, 8.0);
+        let found = pmfs(&bvh, &cell);
+        let sum: f64 = found.iter().sum();
+        assert!((sum - 1.0).abs() < 1e-5, "{sum}");
+        let volume = ShadingPoint { p: ORIGIN, n: ORIGIN };
+        for (own, any) in found.iter().zip(pmfs(&bvh, &volume)) {
+            assert_eq!(*own > 0.0, any > 0.0, "{cell:?}");
+        }
+        let mut counts = vec![0; found.len()];
+        for high in (0..1 << 14).map(|k| k << 18) {
+            let random = Random64 { high, low: 0 };
+            let sampled = bvh.tree().by::<Moments>().sample(&cell, random);
+            let light = sampled.light as usize;
+            assert_eq!(f64::from(sampled.pmf), found[light]);
+            counts[light] += 1;
+        }
+        for (count, pmf) in counts.into_iter().zip(found) {
+            assert!((f64::from(count) - pmf * f64::from(1 << 14)).abs() <= 1.0);
+            chosen += u32::from(count > 0);
+        }
+    }
+    assert!(chosen > 500, "{chosen}");
+}
+
+/// The default, with its share of uniform choice: many at once are those of one at a time.
+#[test]
+fn many_candidates_are_single_ones() {
+    let random = &mut Random(7);
+    let bvh = places(random, 30);
+    for _ in 0..50 {
+        let (cell, number) = (random.cell(15.0, 3.0), random.word());
+        let many: [SampledLight; 32] = bvh.tree().sample_many(&cell, number);
+        for (k, own) in (0..).zip(many) {
+            let one = Random64::from(number).spaced(k, 32);
+            assert_eq!(bvh.sample(&cell, one), Some(own));
+            let pmf = bvh.tree().pmf(&cell, own.light, own.instance);
+            assert_eq!(pmf.to_bits(), own.pmf.to_bits());
+        }
+    }
+}
+
+/// A scene scaled by a power of two keeps each bit.
+#[test]
+fn scale_changes_nothing() {
+    let random = &mut Random(3);
+    let lights = room(random).all()[..40].to_vec();
+    let of = |scale: f32| {
+        let mut bvh = LightBvh::default();
+        let scaled = |light: &EmissiveTriangle| EmissiveTriangle {
+            p: light.p.map(|p| p.map(|x| x * scale)),
+            mesh: 0,
+            ..*light
+        };
+        let mesh = bvh.add_mesh(lights.iter().map(scaled).collect()).expect("lights");
+        bvh.add_instance(mesh, Transform::IDENTITY).expect("an instance");
+        bvh.refit();
+        bvh
+    };
+    let cells: Vec<Cell> = (0..20).map(|_| random.cell(5.0, 3.0)).collect();
+    let [one, far, small] = [0, 30, -20].map(|e| {
+        let bvh = of(pow2(e));
+        let scaled = cells.iter().map(|cell| Cell {
+            center: cell.center.map(|x| x * pow2(e)),
+            half: cell.half.map(|x| x * pow2(e)),
+            n: cell.n,
+        });
+        scaled.map(|cell| pmfs(&bvh, &cell)).collect::<Vec<_>>()
+    });
+    assert!(one == far && one == small);
+}
+
+/// Extremes of size, distance and flux, of a cell far greater than the lights and far smaller.
+#[test]
+fn weights_are_positive_everywhere() {
+    let random = &mut Random(2);
+    for (trial, scale) in [-90, -40, 0, 20, 39].repeat(200).into_iter().enumerate() {
+        let size = pow2([scale, -100, 40, scale - 30][trial % 4]);
+        let cell = random.cell(pow2(scale), size).checked().expect("in the domain");
+        let sets: [LightMoments; 4] = core::array::from_fn(|slot| {
+            let across = [0.0, random.unit() * pow2(scale)][trial % 2];
+            let c = [cell.center, random.within(pow2(scale))][slot % 2];
+            LightMoments {
+                phi: pow2(random.below(60) as i32 - 30),
+                c: Vec3::from_array(c),
+                across,
+                along: across,
+                m: Vec3::from_array(random.unit_vector()),
+                h: Vec3::splat(across),
+            }
+        });
+        for weight in Moments::weights(&node(&sets), &cell) {
+            assert!(
+                (pow2(-120)..=pow2(120)).contains(&weight),
+                "{weight} at {cell:?} of {sets:?}"
+            );
+        }
+    }
+}
+
+/// The mapped box holds every mapped point. Under a similarity the mean normal turns with them.
+#[test]
+fn a_mapped_cell_holds_its_points() {
+    let random = &mut Random(4);
+    let mut held = 0;
+    for _ in 0..300 {
+        let bvh = places(random, 1);
+        let instance = bvh.view().instances()[0];
+        let cell = random.cell(15.0, 5.0);
+        let local = cell.to_local(&instance);
+        for k in 0..16 {
+            let n = random.unit_vector();
+            let p = core::array::from_fn(|axis| {
+                let side = if hash(k) >> axis & 1 == 0 { 1.0 } else { -1.0 };
+                cell.center[axis] + side * cell.half[axis]
+            });
+            let point = ShadingPoint { p, n }.to_local(&instance);
+            for axis in 0..3 {
+                let away = (point.p[axis] - local.center[axis]).abs();
+                let size = point.p[axis].abs() + local.half[axis];
+                // A map without volume has no inverse: coordinates end at 2^60.
+                held += u32::from(local.half[axis] < pow2(60));
+                assert!(
+                    local.half[axis] == pow2(60) || away <= local.half[axis] + 1e-4 * size,
+                    "{cell:?} by {instance:?}"
+                );
+            }
+            let alike = Cell { n, ..cell }.to_local(&instance);
+            assert!((Vec3::from_array(alike.n) - point.normal()).length() < 1e-5);
+        }
+        let length = |n| Vec3::from_array(n).length();
+        assert!(length(local.n) <= length(cell.n) * 1.001);
+    }
+    assert!(held > 10_000, "{held}");
+}
+
+/// A cell of one point is that point; a cell of several is around them.
+#[test]
+fn cells_are_made_of_points() {
+    let random = &mut Random(5);
+    assert_eq!(Cell::around(&[]), None);
+    let bvh = places(random, 20);
+    let mut off = 0.0;
+    for _ in 0..100 {
+        let (p, n) = (random.within(15.0), random.unit_vector());
+        let point = ShadingPoint { p, n };
+        let one = Cell::around(&[point]).expect("a point");
+        assert_eq!(
+            one,
+            Cell {
+                center: p,
+                half: ORIGIN,
+                n
+            }
+        );
+        let differences = pmfs(&bvh, &one).into_iter().zip(pmfs(&bvh, &point));
+        off += differences.map(|(a, b)| (a - b).abs()).sum::<f64>();
+    }
+    // The spread of normals counts as at least 2^-9.
+    assert!(off < 0.02 * 100.0, "{off}");
+    let [a, b] = [[-1.0, 0.0, 2.0], [3.0, 0.5, 2.0]];
+    let of = |p, n| ShadingPoint { p, n };
+    let cell = Cell::around(&[of(a, [0.0, 1.0, 0.0]), of(b, [1.0, 0.0, 0.0])]);
+    let half = [2.0, 0.25, 0.0];
+    let (center, n) = ([1.0, 0.25, 2.0], [0.5, 0.5, 0.0]);
+    assert_eq!(cell, Some(Cell { center, half, n }));
+    assert_eq!(
+        Cell::volume(a, b),
+        Cell {
+            center,
+            half,
+            n: ORIGIN
+        }
+    );
+}
+
+#[test]
+fn cells_are_checked() {
+    let sound = Cell::volume([-1.0; 3], [f32::from_bits(1), 2.0, 3.0]);
+    assert!(sound.checked().is_ok_and(|cell| cell.half == [0.5, 1.5, 2.0]));
+    for wrong in [f32::NAN, f32::INFINITY, 2e12] {
+        let center = [0.0, wrong, 0.0];
+        refused(
+            Cell { center, ..sound }.checked(),
+            "coordinate y of the middle of a cell",
+        );
+    }
+    for wrong in [f32::NAN, f32::INFINITY, 2e12, -1.0] {
+        let cell = Cell {
+            half: [1.0, wrong, 1.0],
+            ..sound
+        };
+        refused(cell.checked(), "half the sides of a cell is (1, ");
+        assert_eq!(
+            places(&mut Random(1), 1).sample(
+                &Cell {
+                    half: [wrong.min(-1.0); 3],
+                    ..sound
+                },
+                7_u32
+            ),
+            None
+        );
+    }
+    for wrong in [[1.0; 3], [f32::NAN; 3], [0.0, 1.01, 0.0]] {
+        refused(
+            Cell { n: wrong, ..sound }.checked(),
+            "the mean normal of a cell is (",
+        );
+        assert_eq!(
+            places(&mut Random(1), 1).sample(&Cell { n: wrong, ..sound }, 7_u32),
+            None
+        );
+    }
+}
