@@ -1,15 +1,15 @@
-//! Passes for receivers with masks, over lights of any kind in instances with masks: nodes, and so refits, of their own.
+//! Passes for cells, over the nodes of `LightBvh`; and for receivers with masks, over lights of any kind in instances with masks: nodes, and so refits, of their own.
 
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
-use lightbvh::importance::LinkedPoint;
+use lightbvh::importance::{Cell, LinkedPoint};
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::refit::{self, BlasRoot, Children, LIMITED_ROWS, world_light};
 use lightbvh::tree::{Masked, Model};
 use lightbvh::{Instance, LightPoint, LightTree, Random64, SampledLight, ShadingPoint};
 use spirv_std::spirv;
 
-use crate::bvh::WIDTH;
+use crate::bvh::{Node, StandardTree, WIDTH};
 use crate::invocation;
 use crate::kinds::points_for_pass;
 use crate::query::{PointsPush, QueryPush};
@@ -43,6 +43,33 @@ impl LinkedQuery {
         }
     }
 }
+
+/// A cell, and what is asked: 44 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct CellQuery {
+    /// The cell to be lit.
+    pub cell: Cell,
+    /// As of [`Query`](crate::query::Query).
+    pub words: [u32; 2],
+}
+
+impl CellQuery {
+    /// The receiver.
+    #[inline(always)]
+    #[must_use]
+    pub fn receiver(&self) -> Cell {
+        self.cell
+    }
+}
+
+query_passes!(
+    CellQuery,
+    Node,
+    StandardTree,
+    sample_cell = "sample_cell",
+    pmf_cell = "pmf_cell"
+);
 
 type LinkedTree<'a> = LightTree<'a, LinkedNode, LinkedImportance, WIDTH>;
 
