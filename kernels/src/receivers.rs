@@ -1,4 +1,5 @@
-//! Passes for cells, over the nodes of `LightBvh`; and for receivers with masks, over lights of any kind in instances with masks: nodes, and so refits, of their own.
+//! Passes for cells, over the nodes of `LightBvh`. Passes for receivers with masks, over lights of any kind in instances with masks:
+//! nodes, and so refits, of their own.
 
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;

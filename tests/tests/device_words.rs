@@ -6,7 +6,7 @@ use std::fmt::Debug;
 use bytemuck::{Pod, bytes_of};
 use lightbvh::device::bvh::follow;
 use lightbvh::device::point::Receiver;
-use lightbvh::importance::{DefaultImportance, ImportanceModel, LinkedPoint};
+use lightbvh::importance::{Cell, DefaultImportance, ImportanceModel, LinkedPoint};
 use lightbvh::light::Light;
 use lightbvh::node::Node;
 use lightbvh::refit::world_light;
@@ -14,7 +14,7 @@ use lightbvh::{
     BuildParams, Bvh, Edit, Eq4, Heuristic, INVALID, LightNode, LightPoint, Lights, Random64, SampledLight,
     ShadingPoint,
 };
-use lightbvh_gpu::{EQ4, Kernel, KernelSet, LinkedQuery, MOMENTS, Query, query_push};
+use lightbvh_gpu::{CellQuery, EQ4, Kernel, KernelSet, LinkedQuery, MOMENTS, Query, query_push};
 use lightbvh_host::backend::{Mirrored, held};
 use lightbvh_host::vulkan::{Device, Options};
 use lightbvh_kernels::bvh::{AnyNode, Node as MomentsNode, PaperNode};
@@ -46,6 +46,23 @@ impl Ask for ShadingPoint {
     fn query(self, words: [u32; 2]) -> Query {
         let [high, low] = words;
         Query::sample(self, Random64 { high, low })
+    }
+}
+
+impl Ask for Cell {
+    type Query = CellQuery;
+
+    fn at(point: ShadingPoint, random: &mut Random) -> Self {
+        let half = [0; 3].map(|_| random.between(0.0, 2.0));
+        let shorter = random.unit();
+        Self {
+            center: point.p,
+            half,
+            n: point.n.map(|x| x * shorter),
+        }
+    }
+    fn query(self, words: [u32; 2]) -> CellQuery {
+        CellQuery { cell: self, words }
     }
 }
 
@@ -292,6 +309,13 @@ fn triangles_by_moments() {
     on_exact(|device| {
         frames::<MomentsNode, DefaultImportance, ShadingPoint, 8>(device, MOMENTS);
         built::<MomentsNode, DefaultImportance, 8>(device, MOMENTS);
+    });
+}
+
+#[test]
+fn triangles_for_cells() {
+    on_exact(|device| {
+        frames::<MomentsNode, DefaultImportance, Cell, 8>(device, KernelSet::CELLS);
     });
 }
 

@@ -78,13 +78,43 @@ struct LightbvhType27_ {
     uint member_1;
     LightbvhType26_ member_2;
 };
+struct LightbvhType29_ {
+    float member[3];
+    float member_1[3];
+    float member_2[3];
+};
+struct LightbvhType30_ {
+    LightbvhType29_ member;
+    uint member_1[2];
+};
+struct LightbvhType31_ {
+    LightbvhType24_ member;
+    LightbvhType23_ member_1;
+    LightbvhType25_ member_2;
+    uint member_3;
+    uint member_4;
+    uint member_5;
+    uint member_6;
+    uint member_7;
+    uint member_8;
+    uint member_9;
+    LightbvhType29_ member_10;
+    uint member_11;
+    bool member_12;
+    bool member_13;
+};
+struct LightbvhType32_ {
+    uint member;
+    uint member_1;
+    LightbvhType31_ member_2;
+};
 struct LightbvhLight {
     float p[3][3];
     float radiance[3];
     uint mesh;
     uint flags;
 };
-struct LightbvhType34_ {
+struct LightbvhType38_ {
     float member[3];
     float member_1;
     float member_2[3];
@@ -520,28 +550,28 @@ LightbvhLightSample lightbvh_sample(vec3 p, vec3 n, uvec2 number) {
                     v72_ = true;
                     break;
                 }
-                uint _e606 = lightbvh_nodes.list[_e577][0u][0u];
-                uint _e611 = lightbvh_nodes.list[_e577][0u][1u];
-                uint _e616 = lightbvh_nodes.list[_e577][0u][2u];
-                uint _e621 = lightbvh_nodes.list[_e577][0u][3u];
-                int _e624 = (int((_e621 & 255u)) - 127);
-                float _e625 = (uintBitsToFloat(_e606) - _e571.member_2.member_2.member[0]);
-                float _e626 = (uintBitsToFloat(_e611) - _e571.member_2.member_2.member[1]);
-                float _e627 = (uintBitsToFloat(_e616) - _e571.member_2.member_2.member[2]);
-                float _e630 = uintBitsToFloat((floatBitsToUint(_e625) & 2147483647u));
-                float _e633 = uintBitsToFloat((floatBitsToUint(_e626) & 2147483647u));
-                float _e636 = uintBitsToFloat((floatBitsToUint(_e627) & 2147483647u));
-                float _e638 = ((_e630 > _e633) ? _e630 : _e633);
-                int _e646 = (int(((floatBitsToUint(((_e638 > _e636) ? _e638 : _e636)) >> uint(23)) & 255u)) - 127);
-                int _e648 = ((_e646 > _e624) ? _e646 : _e624);
-                int _e649 = (_e624 - _e648);
-                int _e651 = ((_e649 < -40) ? -40 : _e649);
-                int _e652 = -(_e648);
-                int _e654 = ((_e652 < -126) ? -126 : _e652);
-                float _e661 = uintBitsToFloat((uint((((_e654 > 127) ? 127 : _e654) + 127)) << uint(23)));
-                int _e666 = ((_e651 < -126) ? -126 : _e651);
-                float _e673 = uintBitsToFloat((uint((((_e666 > 127) ? 127 : _e666) + 127)) << uint(23)));
-                float _e681 = (_e673 * 4.656613e-10);
+                uint _e606 = lightbvh_nodes.list[_e577][0u][3u];
+                int _e609 = (int((_e606 & 255u)) - 127);
+                uint _e620 = lightbvh_nodes.list[_e577][0u][0u];
+                uint _e625 = lightbvh_nodes.list[_e577][0u][1u];
+                uint _e630 = lightbvh_nodes.list[_e577][0u][2u];
+                float _e632 = (uintBitsToFloat(_e620) - _e571.member_2.member_2.member[0]);
+                float _e633 = (uintBitsToFloat(_e625) - _e571.member_2.member_2.member[1]);
+                float _e634 = (uintBitsToFloat(_e630) - _e571.member_2.member_2.member[2]);
+                float _e637 = uintBitsToFloat((floatBitsToUint(_e632) & 2147483647u));
+                float _e640 = uintBitsToFloat((floatBitsToUint(_e633) & 2147483647u));
+                float _e643 = uintBitsToFloat((floatBitsToUint(_e634) & 2147483647u));
+                float _e645 = ((_e637 > _e640) ? _e637 : _e640);
+                int _e653 = (int(((floatBitsToUint(((_e645 > _e643) ? _e645 : _e643)) >> uint(23)) & 255u)) - 127);
+                int _e655 = ((_e653 > _e609) ? _e653 : _e609);
+                int _e656 = (_e609 - _e655);
+                int _e658 = ((_e656 < -40) ? -40 : _e656);
+                int _e659 = -(_e655);
+                int _e661 = ((_e659 < -126) ? -126 : _e659);
+                float _e668 = uintBitsToFloat((uint((((_e661 > 127) ? 127 : _e661) + 127)) << uint(23)));
+                int _e673 = ((_e658 < -126) ? -126 : _e658);
+                float _e680 = uintBitsToFloat((uint((((_e673 > 127) ? 127 : _e673) + 127)) << uint(23)));
+                float _e681 = (_e680 * 4.656613e-10);
                 float _e693 = (2.0 * 8.0);
                 float _e694 = (uintBitsToFloat((floatBitsToUint(_e571.member_2.member_2.member_1[0]) & 2147483647u)) * _e693);
                 float _e695 = (uintBitsToFloat((floatBitsToUint(_e571.member_2.member_2.member_1[1]) & 2147483647u)) * _e693);
@@ -604,10 +634,10 @@ LightbvhLightSample lightbvh_sample(vec3 p, vec3 n, uvec2 number) {
                             break;
                         }
                         uint _e743 = lightbvh_nodes.list[_e577][4u][_e722.member_1];
-                        float _e759 = ((_e625 * _e661) + (float(int(_e731)) * _e681));
-                        float _e760 = ((_e626 * _e661) + (float(int((_e731 << 15u))) * _e681));
-                        float _e761 = ((_e627 * _e661) + (float(int(_e735)) * _e681));
-                        float _e766 = uintBitsToFloat((((_e743 << 20u) & 267386880u) + (floatBitsToUint(_e673) + 4043309056u)));
+                        float _e759 = ((_e632 * _e668) + (float(int(_e731)) * _e681));
+                        float _e760 = ((_e633 * _e668) + (float(int((_e731 << 15u))) * _e681));
+                        float _e761 = ((_e634 * _e668) + (float(int(_e735)) * _e681));
+                        float _e766 = uintBitsToFloat((((_e743 << 20u) & 267386880u) + (floatBitsToUint(_e680) + 4043309056u)));
                         float _e771 = (float(int((_e735 << 15u))) * 4.656613e-10);
                         float _e773 = float(int(_e739));
                         float _e777 = float(int((_e739 << 8u)));
@@ -1450,28 +1480,28 @@ float lightbvh_pmf(vec3 p_1, vec3 n_1, uint light, uint instance) {
                     v58_1 = true;
                     break;
                 }
-                uint _e393 = lightbvh_nodes.list[_e370][0u][0u];
-                uint _e398 = lightbvh_nodes.list[_e370][0u][1u];
-                uint _e403 = lightbvh_nodes.list[_e370][0u][2u];
-                uint _e408 = lightbvh_nodes.list[_e370][0u][3u];
-                int _e411 = (int((_e408 & 255u)) - 127);
-                float _e412 = (uintBitsToFloat(_e393) - _e365.member_2.member[0]);
-                float _e413 = (uintBitsToFloat(_e398) - _e365.member_2.member[1]);
-                float _e414 = (uintBitsToFloat(_e403) - _e365.member_2.member[2]);
-                float _e417 = uintBitsToFloat((floatBitsToUint(_e412) & 2147483647u));
-                float _e420 = uintBitsToFloat((floatBitsToUint(_e413) & 2147483647u));
-                float _e423 = uintBitsToFloat((floatBitsToUint(_e414) & 2147483647u));
-                float _e425 = ((_e417 > _e420) ? _e417 : _e420);
-                int _e433 = (int(((floatBitsToUint(((_e425 > _e423) ? _e425 : _e423)) >> uint(23)) & 255u)) - 127);
-                int _e435 = ((_e433 > _e411) ? _e433 : _e411);
-                int _e436 = (_e411 - _e435);
-                int _e438 = ((_e436 < -40) ? -40 : _e436);
-                int _e439 = -(_e435);
-                int _e441 = ((_e439 < -126) ? -126 : _e439);
-                float _e448 = uintBitsToFloat((uint((((_e441 > 127) ? 127 : _e441) + 127)) << uint(23)));
-                int _e453 = ((_e438 < -126) ? -126 : _e438);
-                float _e460 = uintBitsToFloat((uint((((_e453 > 127) ? 127 : _e453) + 127)) << uint(23)));
-                float _e468 = (_e460 * 4.656613e-10);
+                uint _e393 = lightbvh_nodes.list[_e370][0u][3u];
+                int _e396 = (int((_e393 & 255u)) - 127);
+                uint _e407 = lightbvh_nodes.list[_e370][0u][0u];
+                uint _e412 = lightbvh_nodes.list[_e370][0u][1u];
+                uint _e417 = lightbvh_nodes.list[_e370][0u][2u];
+                float _e419 = (uintBitsToFloat(_e407) - _e365.member_2.member[0]);
+                float _e420 = (uintBitsToFloat(_e412) - _e365.member_2.member[1]);
+                float _e421 = (uintBitsToFloat(_e417) - _e365.member_2.member[2]);
+                float _e424 = uintBitsToFloat((floatBitsToUint(_e419) & 2147483647u));
+                float _e427 = uintBitsToFloat((floatBitsToUint(_e420) & 2147483647u));
+                float _e430 = uintBitsToFloat((floatBitsToUint(_e421) & 2147483647u));
+                float _e432 = ((_e424 > _e427) ? _e424 : _e427);
+                int _e440 = (int(((floatBitsToUint(((_e432 > _e430) ? _e432 : _e430)) >> uint(23)) & 255u)) - 127);
+                int _e442 = ((_e440 > _e396) ? _e440 : _e396);
+                int _e443 = (_e396 - _e442);
+                int _e445 = ((_e443 < -40) ? -40 : _e443);
+                int _e446 = -(_e442);
+                int _e448 = ((_e446 < -126) ? -126 : _e446);
+                float _e455 = uintBitsToFloat((uint((((_e448 > 127) ? 127 : _e448) + 127)) << uint(23)));
+                int _e460 = ((_e445 < -126) ? -126 : _e445);
+                float _e467 = uintBitsToFloat((uint((((_e460 > 127) ? 127 : _e460) + 127)) << uint(23)));
+                float _e468 = (_e467 * 4.656613e-10);
                 float _e480 = (2.0 * 8.0);
                 float _e481 = (uintBitsToFloat((floatBitsToUint(_e365.member_2.member_1[0]) & 2147483647u)) * _e480);
                 float _e482 = (uintBitsToFloat((floatBitsToUint(_e365.member_2.member_1[1]) & 2147483647u)) * _e480);
@@ -1534,10 +1564,10 @@ float lightbvh_pmf(vec3 p_1, vec3 n_1, uint light, uint instance) {
                             break;
                         }
                         uint _e530 = lightbvh_nodes.list[_e370][4u][_e509.member_1];
-                        float _e546 = ((_e412 * _e448) + (float(int(_e518)) * _e468));
-                        float _e547 = ((_e413 * _e448) + (float(int((_e518 << 15u))) * _e468));
-                        float _e548 = ((_e414 * _e448) + (float(int(_e522)) * _e468));
-                        float _e553 = uintBitsToFloat((((_e530 << 20u) & 267386880u) + (floatBitsToUint(_e460) + 4043309056u)));
+                        float _e546 = ((_e419 * _e455) + (float(int(_e518)) * _e468));
+                        float _e547 = ((_e420 * _e455) + (float(int((_e518 << 15u))) * _e468));
+                        float _e548 = ((_e421 * _e455) + (float(int(_e522)) * _e468));
+                        float _e553 = uintBitsToFloat((((_e530 << 20u) & 267386880u) + (floatBitsToUint(_e467) + 4043309056u)));
                         float _e558 = (float(int((_e522 << 15u))) * 4.656613e-10);
                         float _e560 = float(int(_e526));
                         float _e564 = float(int((_e526 << 8u)));
@@ -2084,57 +2114,2134 @@ float lightbvh_pmf(vec3 p_1, vec3 n_1, uint light, uint instance) {
     return _e2065;
 }
 
-LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, vec2 numbers) {
-    LightbvhType19_ samples = LightbvhType19_(0u, 0u, 0.0);
-    float numbers_1[2] = float[2](0.0, 0.0);
-    LightbvhType34_ results_2 = LightbvhType34_(float[3](0.0, 0.0, 0.0), 0.0, float[3](0.0, 0.0, 0.0), 0u, float[3](0.0, 0.0, 0.0));
-    float v0_2 = 0.0;
-    float v1_2 = 0.0;
-    float v2_2 = 0.0;
-    float v3_2 = 0.0;
-    float v4_2 = 0.0;
-    float v5_2 = 0.0;
-    float v6_2 = 0.0;
-    float v7_2 = 0.0;
-    float v8_2 = 0.0;
-    float v9_2[3] = float[3](0.0, 0.0, 0.0);
-    float v10_2[3] = float[3](0.0, 0.0, 0.0);
-    float v11_2 = 0.0;
-    float v12_2 = 0.0;
-    float v13_2 = 0.0;
-    LightbvhLight v14_2 = LightbvhLight(float[3][3](float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), float[3](0.0, 0.0, 0.0), 0u, 0u);
-    LightbvhLight v15_2 = LightbvhLight(float[3][3](float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), float[3](0.0, 0.0, 0.0), 0u, 0u);
-    LightbvhLight v16_2 = LightbvhLight(float[3][3](float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), float[3](0.0, 0.0, 0.0), 0u, 0u);
-    uint v17_2 = 0u;
-    int v18_2 = 0;
-    int v19_2 = 0;
+LightbvhLightSample lightbvh_sample_cell(vec3 center, vec3 half_, vec3 n_2, uvec2 number_1) {
+    LightbvhType30_ queries_2 = LightbvhType30_(LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), uint[2](0u, 0u));
+    LightbvhType19_ results_2 = LightbvhType19_(0u, 0u, 0.0);
+    float v0_2[8] = float[8](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    uint v1_2 = 0u;
+    uint v2_2 = 0u;
+    uint v3_2 = 0u;
+    uint v4_2 = 0u;
+    uint v5_2 = 0u;
+    uint v6_2 = 0u;
+    uint v7_2 = 0u;
+    uint v8_2 = 0u;
+    uint v9_2 = 0u;
+    uint v10_2 = 0u;
+    uint v11_2 = 0u;
+    uint v12_2 = 0u;
+    bool v13_2 = false;
+    uint v14_2 = 0u;
+    uint v15_2 = 0u;
+    uint v16_2 = 0u;
+    bool v17_2 = false;
+    bool v18_2 = false;
+    LightbvhType24_ v19_2 = LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u));
     uint v20_2 = 0u;
     uint v21_2 = 0u;
-    float v22_2 = 0.0;
+    uint v22_2 = 0u;
     uint v23_2 = 0u;
-    int v24_2 = 0;
+    bool v24_2 = false;
     uint v25_2 = 0u;
-    int v26_2 = 0;
+    LightbvhType23_ v26_2 = LightbvhType23_(0u, 0u);
     uint v27_2 = 0u;
     uint v28_2 = 0u;
     uint v29_2 = 0u;
-    float v30_2 = 0.0;
-    float v31_2 = 0.0;
-    float v32_2[3] = float[3](0.0, 0.0, 0.0);
-    samples = LightbvhType19_(light_1, instance_1, 0.0);
+    LightbvhType23_ v30_2 = LightbvhType23_(0u, 0u);
+    uint v31_2 = 0u;
+    uint v32_2 = 0u;
+    LightbvhType23_ v33_2 = LightbvhType23_(0u, 0u);
+    uint v34_2 = 0u;
+    bool v35_2 = false;
+    bool v36_2 = false;
+    LightbvhType23_ v37_2 = LightbvhType23_(0u, 0u);
+    bool v38_2 = false;
+    LightbvhType24_ v39_2 = LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u));
+    bool v40_2 = false;
+    LightbvhType24_ v41_2 = LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u));
+    uint v42_2 = 0u;
+    uint v43_2 = 0u;
+    bool v44_2 = false;
+    LightbvhType32_ v45_2 = LightbvhType32_(0u, 0u, LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false));
+    bool v46_2 = false;
+    LightbvhType23_ v47_2 = LightbvhType23_(0u, 0u);
+    LightbvhType23_ v48_2 = LightbvhType23_(0u, 0u);
+    LightbvhType23_ v49_2 = LightbvhType23_(0u, 0u);
+    LightbvhType23_ v50_2 = LightbvhType23_(0u, 0u);
+    LightbvhType23_ v51_2 = LightbvhType23_(0u, 0u);
+    bool v52_2 = false;
+    uint v53_2 = 0u;
+    uint v54_2 = 0u;
+    uint v55_2 = 0u;
+    uint v56_2 = 0u;
+    int v57_2 = 0;
+    uint v58_2 = 0u;
+    bool v59_2 = false;
+    LightbvhType32_ v60_2 = LightbvhType32_(0u, 0u, LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false));
+    uint v61_2 = 0u;
+    uint v62_2 = 0u;
+    LightbvhType32_ v63_2 = LightbvhType32_(0u, 0u, LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false));
+    float v64_2 = 0.0;
+    float v65_2 = 0.0;
+    float v66_2 = 0.0;
+    float v67_2 = 0.0;
+    LightbvhType32_ v68_2 = LightbvhType32_(0u, 0u, LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false));
+    bool v69_2 = false;
+    LightbvhType32_ v70_2 = LightbvhType32_(0u, 0u, LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false));
+    bool v71_2 = false;
+    bool v72_2 = false;
+    LightbvhType32_ v73_2 = LightbvhType32_(0u, 0u, LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false));
+    LightbvhType32_ v74_2 = LightbvhType32_(0u, 0u, LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false));
+    LightbvhType32_ v75_2 = LightbvhType32_(0u, 0u, LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false));
+    LightbvhType32_ v76_2 = LightbvhType32_(0u, 0u, LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false));
+    uint v77_2 = 0u;
+    uint v78_2 = 0u;
+    LightbvhType32_ v79_2 = LightbvhType32_(0u, 0u, LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false));
+    LightbvhType32_ v80_2 = LightbvhType32_(0u, 0u, LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false));
+    float v81_2 = 0.0;
+    uint v82_2 = 0u;
+    uint v83_2 = 0u;
+    bool v84_2 = false;
+    uint v85_2 = 0u;
+    int v86_2 = 0;
+    uint v87_2 = 0u;
+    int v88_2 = 0;
+    uint v89_1 = 0u;
+    uint v90_1 = 0u;
+    uint v91_1 = 0u;
+    uint v92_1 = 0u;
+    bool v93_1 = false;
+    uint v94_1 = 0u;
+    int v95_1 = 0;
+    uint v96_1 = 0u;
+    int v97_1 = 0;
+    uint v98_1 = 0u;
+    uint v99_1 = 0u;
+    uint v100_1 = 0u;
+    uint v101_1 = 0u;
+    bool v102_1 = false;
+    LightbvhType19_ v103_1 = LightbvhType19_(0u, 0u, 0.0);
+    queries_2 = LightbvhType30_(LightbvhType29_(float[3](center.x, center.y, center.z), float[3](half_.x, half_.y, half_.z), float[3](n_2.x, n_2.y, n_2.z)), uint[2](number_1.x, number_1.y));
+    do {
+        uint _e148 = uint(lightbvh_nodes.list.length());
+        uint _e151 = uint(lightbvh_instances.list.length());
+        uint _e154 = uint(lightbvh_trails.list.length());
+        uint _e157 = lightbvh_tree.top;
+        uint _e160 = lightbvh_tree.root;
+        uint _e163 = lightbvh_tree.above;
+        uint _e166 = lightbvh_tree.places;
+        uint _e169 = lightbvh_tree.parts;
+        uint _e172 = lightbvh_tree.trail_words;
+        uint _e175 = lightbvh_tree.live;
+        uint _e178 = lightbvh_tree.lights;
+        uint _e181 = lightbvh_tree.depth;
+        LightbvhType30_ _e183 = queries_2;
+        v40_2 = false;
+        v41_2 = LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u));
+        v42_2 = 4294967295u;
+        v43_2 = 4294967295u;
+        if (((_e183.member_1[0] >> 10u) < 65536u)) {
+            uint _e198 = ((_e183.member_1[0] << 6u) | ((_e183.member_1[1] >> uint(1)) >> 25u));
+            uint _e200 = (_e183.member_1[1] << 6u);
+            bool _e201 = (_e175 > 0u);
+            v1_2 = 0u;
+            v2_2 = 0u;
+            if (_e201) {
+                uint _e254 = (_e200 >> uint(16));
+                uint _e255 = (_e200 & 65535u);
+                uint _e257 = (_e175 >> uint(16));
+                uint _e258 = (_e175 & 65535u);
+                uint _e263 = ((_e254 * _e258) + ((_e255 * _e258) >> uint(16)));
+                uint _e274 = (_e200 * _e175);
+                uint _e276 = (_e198 >> uint(16));
+                uint _e277 = (_e198 & 65535u);
+                uint _e282 = ((_e276 * _e258) + ((_e277 * _e258) >> uint(16)));
+                uint _e293 = (_e198 * _e175);
+                uint _e294 = (_e293 + (((_e254 * _e257) + (_e263 >> uint(16))) + (((_e255 * _e257) + (_e263 & 65535u)) >> uint(16))));
+                uint _e297 = ((((_e276 * _e257) + (_e282 >> uint(16))) + (((_e277 * _e257) + (_e282 & 65535u)) >> uint(16))) + ((_e294 < _e293) ? 1u : 0u));
+                v7_2 = 4294967295u;
+                v8_2 = 4294967295u;
+                if ((_e297 < _e151)) {
+                    uint _e301 = lightbvh_instances.list[_e297].listed;
+                    v5_2 = 4294967295u;
+                    v6_2 = 4294967295u;
+                    if ((_e301 < _e151)) {
+                        uint _e305 = lightbvh_instances.list[_e301].count;
+                        bool _e306 = (_e305 > 0u);
+                        v4_2 = 4294967295u;
+                        if (_e306) {
+                            uint _e309 = lightbvh_instances.list[_e301].first;
+                            uint _e311 = (_e274 >> uint(16));
+                            uint _e312 = (_e274 & 65535u);
+                            uint _e314 = (_e305 >> uint(16));
+                            uint _e315 = (_e305 & 65535u);
+                            uint _e320 = ((_e311 * _e315) + ((_e312 * _e315) >> uint(16)));
+                            uint _e332 = (_e294 >> uint(16));
+                            uint _e333 = (_e294 & 65535u);
+                            uint _e338 = ((_e332 * _e315) + ((_e333 * _e315) >> uint(16)));
+                            uint _e349 = (_e294 * _e305);
+                            v4_2 = (_e309 + ((((_e332 * _e314) + (_e338 >> uint(16))) + (((_e333 * _e314) + (_e338 & 65535u)) >> uint(16))) + (((_e349 + (((_e311 * _e314) + (_e320 >> uint(16))) + (((_e312 * _e314) + (_e320 & 65535u)) >> uint(16)))) < _e349) ? 1u : 0u)));
+                        }
+                        uint _e356 = v4_2;
+                        v5_2 = _e356;
+                        v6_2 = (_e306 ? _e301 : 4294967295u);
+                    }
+                    uint _e359 = v5_2;
+                    uint _e361 = v6_2;
+                    v7_2 = _e359;
+                    v8_2 = _e361;
+                }
+                uint _e363 = v7_2;
+                uint _e365 = v8_2;
+                v1_2 = _e363;
+                v2_2 = _e365;
+            }
+            uint _e203 = v1_2;
+            uint _e205 = v2_2;
+            v9_2 = _e203;
+            v10_2 = _e205;
+            if (_e201) {
+            } else {
+                v3_2 = 4294967295u;
+                if ((_e178 > 0u)) {
+                    uint _e208 = (_e200 >> uint(16));
+                    uint _e209 = (_e200 & 65535u);
+                    uint _e211 = (_e178 >> uint(16));
+                    uint _e212 = (_e178 & 65535u);
+                    uint _e217 = ((_e208 * _e212) + ((_e209 * _e212) >> uint(16)));
+                    uint _e229 = (_e198 >> uint(16));
+                    uint _e230 = (_e198 & 65535u);
+                    uint _e235 = ((_e229 * _e212) + ((_e230 * _e212) >> uint(16)));
+                    uint _e246 = (_e198 * _e178);
+                    v3_2 = ((((_e229 * _e211) + (_e235 >> uint(16))) + (((_e230 * _e211) + (_e235 & 65535u)) >> uint(16))) + (((_e246 + (((_e208 * _e211) + (_e217 >> uint(16))) + (((_e209 * _e211) + (_e217 & 65535u)) >> uint(16)))) < _e246) ? 1u : 0u));
+                }
+                uint _e252 = v3_2;
+                v9_2 = _e252;
+                v10_2 = 4294967295u;
+            }
+            uint _e367 = v9_2;
+            uint _e369 = v10_2;
+            bool _e370 = (_e369 < _e151);
+            v12_2 = 0u;
+            v13_2 = true;
+            if (_e370) {
+                v11_2 = 0u;
+                if (_e201) {
+                    uint _e373 = lightbvh_instances.list[_e369].first;
+                    uint _e377 = lightbvh_instances.list[_e369].first_light;
+                    v11_2 = ((_e367 - _e373) + _e377);
+                }
+                uint _e380 = v11_2;
+                v12_2 = _e380;
+                v13_2 = (_e201 ? false : true);
+            }
+            uint _e383 = v12_2;
+            bool _e385 = v13_2;
+            uint _e387 = ((_e385 ? _e367 : _e383) * _e172);
+            v14_2 = 0u;
+            if ((_e387 < _e154)) {
+                uint _e390 = lightbvh_trails.list[_e387];
+                v14_2 = _e390;
+            }
+            uint _e392 = v14_2;
+            v16_2 = 0u;
+            v17_2 = true;
+            if ((_e172 == 2u)) {
+                uint _e394 = (_e387 + 1u);
+                bool _e395 = (_e394 < _e154);
+                v15_2 = 0u;
+                if (_e395) {
+                    uint _e397 = lightbvh_trails.list[_e394];
+                    v15_2 = _e397;
+                }
+                uint _e399 = v15_2;
+                v16_2 = _e399;
+                v17_2 = (_e395 ? false : true);
+            }
+            uint _e402 = v16_2;
+            bool _e404 = v17_2;
+            uint _e405 = (_e404 ? 0u : _e402);
+            v18_2 = false;
+            v19_2 = LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u));
+            if (_e370) {
+                uint _e412 = (_e166 + _e369);
+                v20_2 = 4294967295u;
+                if ((_e412 < _e154)) {
+                    uint _e415 = lightbvh_trails.list[_e412];
+                    v20_2 = _e415;
+                }
+                uint _e417 = v20_2;
+                v23_2 = 0u;
+                v24_2 = true;
+                if ((_e417 != 4294967295u)) {
+                    bool _e419 = (_e417 >= 2147483648u);
+                    v22_2 = 0u;
+                    if (_e419) {
+                        uint _e423 = (_e169 + ((_e417 - 2147483648u) + (_e392 & 7u)));
+                        v21_2 = 4294967295u;
+                        if ((_e423 < _e154)) {
+                            uint _e426 = lightbvh_trails.list[_e423];
+                            v21_2 = _e426;
+                        }
+                        uint _e428 = v21_2;
+                        v22_2 = _e428;
+                    }
+                    uint _e430 = v22_2;
+                    v23_2 = _e430;
+                    v24_2 = (_e419 ? false : true);
+                }
+                uint _e433 = v23_2;
+                bool _e435 = v24_2;
+                v25_2 = 0u;
+                v26_2 = LightbvhType23_(0u, 0u);
+                v27_2 = (_e435 ? _e417 : _e433);
+                bool loop_init_6 = true;
+                while(true) {
+                    if (!loop_init_6) {
+                        v25_2 = v32_2;
+                        v26_2 = v33_2;
+                        v27_2 = v34_2;
+                        v36_2 = false;
+                        if (!(v35_2)) {
+                            break;
+                        }
+                    }
+                    loop_init_6 = false;
+                    uint _e438 = v25_2;
+                    LightbvhType23_ _e440 = v26_2;
+                    uint _e442 = v27_2;
+                    v37_2 = _e440;
+                    v32_2 = 0u;
+                    v33_2 = LightbvhType23_(0u, 0u);
+                    v34_2 = 0u;
+                    v35_2 = false;
+                    if ((_e442 < 2147483648u)) {
+                        bool _e444 = (_e438 < 20u);
+                        v29_2 = 0u;
+                        v30_2 = LightbvhType23_(0u, 0u);
+                        v31_2 = 0u;
+                        if (_e444) {
+                            uint _e463 = (_e163 + (_e442 >> 3u));
+                            v28_2 = 4294967295u;
+                            if ((_e463 < _e154)) {
+                                uint _e466 = lightbvh_trails.list[_e463];
+                                v28_2 = _e466;
+                            }
+                            uint _e468 = v28_2;
+                            v29_2 = (_e438 + 1u);
+                            v30_2 = LightbvhType23_((((_e440.member << 3u) | ((_e442 & 7u) & 7u)) & 1073741823u), (((_e440.member_1 << 3u) | ((_e440.member >> 27u) & 7u)) & 1073741823u));
+                            v31_2 = _e468;
+                        }
+                        uint _e471 = v29_2;
+                        LightbvhType23_ _e473 = v30_2;
+                        uint _e475 = v31_2;
+                        v32_2 = _e471;
+                        v33_2 = _e473;
+                        v34_2 = _e475;
+                        v35_2 = _e444;
+                    }
+                    uint _e477 = v32_2;
+                    LightbvhType23_ _e479 = v33_2;
+                    uint _e481 = v34_2;
+                    bool _e483 = v35_2;
+                    continue;
+                }
+                bool _e486 = v36_2;
+                if (_e486) {
+                    break;
+                }
+                LightbvhType23_ _e489 = v37_2;
+                v18_2 = _e486;
+                v19_2 = LightbvhType24_(_e489, LightbvhType23_(_e392, _e405));
+            }
+            bool _e407 = v18_2;
+            LightbvhType24_ _e409 = v19_2;
+            v38_2 = _e407;
+            v39_2 = _e409;
+            if (_e370) {
+            } else {
+                v38_2 = false;
+                v39_2 = LightbvhType24_(LightbvhType23_(_e392, _e405), LightbvhType23_(0u, 0u));
+            }
+            bool _e492 = v38_2;
+            LightbvhType24_ _e494 = v39_2;
+            v40_2 = _e492;
+            v41_2 = _e494;
+            v42_2 = _e369;
+            v43_2 = _e367;
+        }
+        bool _e496 = v40_2;
+        LightbvhType24_ _e498 = v41_2;
+        uint _e500 = v42_2;
+        uint _e502 = v43_2;
+        bool _e505 = (_e181 == 0u);
+        LightbvhType31_ _e507 = LightbvhType31_(_e498, LightbvhType23_(_e183.member_1[0], _e183.member_1[1]), LightbvhType25_(0.0, 1.0), 0u, (_e160 + _e157), 4294967295u, 4294967295u, 0u, 4194304u, 0u, _e183.member, _e181, _e505, (_e502 != 4294967295u));
+        uint _e510 = (uint(21) - uint(findMSB(4128767u)));
+        uint _e512 = ((_e510 < 22u) ? _e510 : 22u);
+        uint _e520 = (_e512 & 31u);
+        LightbvhType31_ _e541 = LightbvhType31_(_e507.member, LightbvhType23_((((_e183.member_1[0] - 67108864u) << _e520) | ((_e183.member_1[1] >> uint(1)) >> ((31u - _e512) & 31u))), (_e183.member_1[1] << _e520)), _e507.member_2, _e507.member_3, _e507.member_4, _e507.member_5, _e507.member_6, _e507.member_7, _e507.member_8, _e507.member_9, _e507.member_10, _e507.member_11, _e507.member_12, _e507.member_13);
+        LightbvhType31_ _e558 = LightbvhType31_(_e541.member, _e541.member_1, _e541.member_2, _e541.member_3, _e541.member_4, _e541.member_5, _e541.member_6, _e541.member_7, (4128768u << _e520), _e541.member_9, _e541.member_10, _e541.member_11, _e541.member_12, _e541.member_13);
+        v44_2 = _e496;
+        v45_2 = LightbvhType32_(_e502, _e500, LightbvhType31_(_e558.member, _e558.member_1, _e558.member_2, _e558.member_3, _e558.member_4, _e558.member_5, _e558.member_6, _e558.member_7, _e558.member_8, _e512, _e558.member_10, _e558.member_11, _e558.member_12, _e558.member_13));
+        v46_2 = _e505;
+        bool loop_init_7 = true;
+        while(true) {
+            if (!loop_init_7) {
+                v44_2 = v69_2;
+                v45_2 = v70_2;
+                v46_2 = v71_2;
+                v72_2 = v69_2;
+                if (!((v46_2 ? false : true))) {
+                    break;
+                }
+            }
+            loop_init_7 = false;
+            bool _e576 = v44_2;
+            LightbvhType32_ _e578 = v45_2;
+            bool _e580 = v46_2;
+            v73_2 = _e578;
+            v74_2 = _e578;
+            v75_2 = _e578;
+            v76_2 = _e578;
+            v79_2 = _e578;
+            v80_2 = _e578;
+            v69_2 = _e576;
+            v70_2 = LightbvhType32_(0u, 0u, LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false));
+            v71_2 = false;
+            if (_e580) {
+            } else {
+                bool _e583 = (_e578.member_2.member_4 < _e148);
+                uint _e584 = (_e583 ? _e578.member_2.member_4 : 0u);
+                if ((_e584 < _e148)) {
+                } else {
+                    v72_2 = true;
+                    break;
+                }
+                uint _e625 = lightbvh_nodes.list[_e584][0u][3u];
+                int _e628 = (int((_e625 & 255u)) - 127);
+                float _e638 = uintBitsToFloat((floatBitsToUint(_e578.member_2.member_10.member_1[0]) & 2147483647u));
+                float _e641 = uintBitsToFloat((floatBitsToUint(_e578.member_2.member_10.member_1[1]) & 2147483647u));
+                float _e644 = uintBitsToFloat((floatBitsToUint(_e578.member_2.member_10.member_1[2]) & 2147483647u));
+                float _e646 = ((_e638 > _e641) ? _e638 : _e641);
+                int _e654 = (int(((floatBitsToUint(((_e646 > _e644) ? _e646 : _e644)) >> uint(23)) & 255u)) - 127);
+                int _e656 = ((_e654 > _e628) ? _e654 : _e628);
+                float _e662 = (1.0 - (((_e578.member_2.member_10.member_2[0] * _e578.member_2.member_10.member_2[0]) + (_e578.member_2.member_10.member_2[1] * _e578.member_2.member_10.member_2[1])) + (_e578.member_2.member_10.member_2[2] * _e578.member_2.member_10.member_2[2])));
+                float _e664 = ((_e662 > 3.8146973e-6) ? _e662 : 3.8146973e-6);
+                float _e669 = uintBitsToFloat((1595932665u - (floatBitsToUint(_e664) >> uint(1))));
+                float _e676 = (0.5 * (_e664 * (_e669 * (0.70395225 * (2.3892446 - (_e664 * (_e669 * _e669)))))));
+                float _e678 = (0.0001 + _e676);
+                uint _e682 = lightbvh_nodes.list[_e584][0u][0u];
+                uint _e687 = lightbvh_nodes.list[_e584][0u][1u];
+                uint _e692 = lightbvh_nodes.list[_e584][0u][2u];
+                float _e694 = (uintBitsToFloat(_e682) - _e578.member_2.member_10.member[0]);
+                float _e695 = (uintBitsToFloat(_e687) - _e578.member_2.member_10.member[1]);
+                float _e696 = (uintBitsToFloat(_e692) - _e578.member_2.member_10.member[2]);
+                float _e699 = uintBitsToFloat((floatBitsToUint(_e694) & 2147483647u));
+                float _e702 = uintBitsToFloat((floatBitsToUint(_e695) & 2147483647u));
+                float _e705 = uintBitsToFloat((floatBitsToUint(_e696) & 2147483647u));
+                float _e707 = ((_e699 > _e702) ? _e699 : _e702);
+                int _e715 = (int(((floatBitsToUint(((_e707 > _e705) ? _e707 : _e705)) >> uint(23)) & 255u)) - 127);
+                int _e717 = ((_e715 > _e656) ? _e715 : _e656);
+                int _e718 = (_e628 - _e717);
+                int _e720 = ((_e718 < -40) ? -40 : _e718);
+                int _e721 = -(_e717);
+                int _e723 = ((_e721 < -126) ? -126 : _e721);
+                float _e730 = uintBitsToFloat((uint((((_e723 > 127) ? 127 : _e723) + 127)) << uint(23)));
+                int _e735 = ((_e720 < -126) ? -126 : _e720);
+                float _e742 = uintBitsToFloat((uint((((_e735 > 127) ? 127 : _e735) + 127)) << uint(23)));
+                float _e743 = (_e578.member_2.member_10.member_1[0] * _e730);
+                float _e744 = (_e578.member_2.member_10.member_1[1] * _e730);
+                float _e745 = (_e578.member_2.member_10.member_1[2] * _e730);
+                float _e748 = uintBitsToFloat((floatBitsToUint(_e578.member_2.member_10.member_2[0]) & 2147483647u));
+                float _e751 = uintBitsToFloat((floatBitsToUint(_e578.member_2.member_10.member_2[1]) & 2147483647u));
+                float _e754 = uintBitsToFloat((floatBitsToUint(_e578.member_2.member_10.member_2[2]) & 2147483647u));
+                float _e759 = (((_e743 * _e748) + (_e744 * _e751)) + (_e745 * _e754));
+                float _e766 = ((0.22222222 * (((_e743 * _e743) + (_e744 * _e744)) + (_e745 * _e745))) + 8.881784e-16);
+                float _e768 = (_e742 * 4.656613e-10);
+                float _e771 = (2.0 * 8.0);
+                float _e772 = (_e748 * _e771);
+                float _e773 = (_e751 * _e771);
+                float _e774 = (_e754 * _e771);
+                v0_2 = float[8](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+                v47_2 = LightbvhType23_(0u, 8u);
+                bool loop_init_8 = true;
+                while(true) {
+                    if (!loop_init_8) {
+                        v47_2 = v50_2;
+                        v52_2 = _e576;
+                        if (!((int(v51_2.member) != 0))) {
+                            break;
+                        }
+                    }
+                    loop_init_8 = false;
+                    LightbvhType23_ _e781 = v47_2;
+                    bool _e784 = (_e781.member < _e781.member_1);
+                    v48_2 = LightbvhType23_(0u, 0u);
+                    v49_2 = LightbvhType23_(0u, 0u);
+                    if (_e784) {
+                        v48_2 = LightbvhType23_((_e781.member + 1u), _e781.member_1);
+                        v49_2 = LightbvhType23_(1u, _e781.member);
+                    }
+                    LightbvhType23_ _e786 = v48_2;
+                    LightbvhType23_ _e788 = v49_2;
+                    v50_2 = _e786;
+                    v51_2 = _e788;
+                    if (_e784) {
+                    } else {
+                        v50_2 = _e781;
+                        v51_2 = LightbvhType23_(0u, LightbvhType23_(0u, 0u).member_1);
+                    }
+                    LightbvhType23_ _e798 = v50_2;
+                    LightbvhType23_ _e800 = v51_2;
+                    bool _e804 = (int(_e800.member) != 0);
+                    if (_e804) {
+                        bool _e805 = (_e800.member_1 < 8u);
+                        if (_e805) {
+                        } else {
+                            v52_2 = true;
+                            break;
+                        }
+                        uint _e809 = lightbvh_nodes.list[_e584][1u][_e800.member_1];
+                        if (_e805) {
+                        } else {
+                            v52_2 = true;
+                            break;
+                        }
+                        uint _e813 = lightbvh_nodes.list[_e584][2u][_e800.member_1];
+                        if (_e805) {
+                        } else {
+                            v52_2 = true;
+                            break;
+                        }
+                        uint _e817 = lightbvh_nodes.list[_e584][3u][_e800.member_1];
+                        if (_e805) {
+                        } else {
+                            v52_2 = true;
+                            break;
+                        }
+                        uint _e821 = lightbvh_nodes.list[_e584][4u][_e800.member_1];
+                        float _e837 = ((_e694 * _e730) + (float(int(_e809)) * _e768));
+                        float _e838 = ((_e695 * _e730) + (float(int((_e809 << 15u))) * _e768));
+                        float _e839 = ((_e696 * _e730) + (float(int(_e813)) * _e768));
+                        float _e844 = uintBitsToFloat((((_e821 << 20u) & 267386880u) + (floatBitsToUint(_e742) + 4043309056u)));
+                        float _e851 = float(int(_e817));
+                        float _e855 = float(int((_e817 << 8u)));
+                        float _e859 = float(int((_e817 << 16u)));
+                        float _e863 = (float(int((_e817 & 255u))) * 0.003921569);
+                        float _e880 = (_e844 * _e844);
+                        float _e881 = (1.0 + (float(int((_e813 << 15u))) * 4.656613e-10));
+                        float _e882 = (_e880 + _e766);
+                        float _e885 = ((_e880 * (_e881 * _e881)) + _e766);
+                        float _e890 = uintBitsToFloat((1595932665u - (floatBitsToUint(_e882) >> uint(1))));
+                        float _e895 = (_e890 * (0.70395225 * (2.3892446 - (_e882 * (_e890 * _e890)))));
+                        float _e896 = (_e882 * _e895);
+                        float _e901 = uintBitsToFloat((1595932665u - (floatBitsToUint(_e885) >> uint(1))));
+                        float _e909 = (((_e885 * (_e901 * (0.70395225 * (2.3892446 - (_e885 * (_e901 * _e901)))))) * _e895) - 1.0);
+                        float _e922 = (uintBitsToFloat((floatBitsToUint(_e837) & 2147483647u)) - _e743);
+                        float _e923 = (uintBitsToFloat((floatBitsToUint(_e838) & 2147483647u)) - _e744);
+                        float _e924 = (uintBitsToFloat((floatBitsToUint(_e839) & 2147483647u)) - _e745);
+                        float _e926 = ((_e922 > 0.0) ? _e922 : 0.0);
+                        float _e928 = ((_e923 > 0.0) ? _e923 : 0.0);
+                        float _e930 = ((_e924 > 0.0) ? _e924 : 0.0);
+                        float _e931 = (_e896 * _e896);
+                        float _e937 = ((((_e837 * _e837) + (_e838 * _e838)) + (_e839 * _e839)) + 8.881784e-16);
+                        float _e947 = (_e937 + (1.25 * _e931));
+                        float _e952 = uintBitsToFloat((1595932665u - (floatBitsToUint(_e947) >> uint(1))));
+                        float _e957 = (_e952 * (0.70395225 * (2.3892446 - (_e947 * (_e952 * _e952)))));
+                        float _e958 = (_e896 * _e957);
+                        float _e963 = ((((_e578.member_2.member_10.member_2[0] * 4.656613e-10) * _e851) + ((_e578.member_2.member_10.member_2[1] * 4.656613e-10) * _e855)) + ((_e578.member_2.member_10.member_2[2] * 4.656613e-10) * _e859));
+                        float _e968 = ((0.03162278 + _e676) + (_e958 * (1.0 + (_e909 * (_e963 * _e963)))));
+                        float _e974 = (((((_e578.member_2.member_10.member_2[0] + _e578.member_2.member_10.member_2[0]) * _e837) + ((_e578.member_2.member_10.member_2[1] + _e578.member_2.member_10.member_2[1]) * _e838)) + ((_e578.member_2.member_10.member_2[2] + _e578.member_2.member_10.member_2[2]) * _e839)) * _e957);
+                        float _e976 = (_e974 + (((((((_e772 + _e773) + _e774) + ((((_e772 * 4.656613e-10) * float(int(_e821))) + ((_e773 * 4.656613e-10) * float(int((_e821 << 8u))))) + ((_e774 * 4.656613e-10) * float(int((_e821 << 16u)))))) * _e844) + (_e759 + _e759)) * _e895) * _e958));
+                        float _e978 = ((_e976 > _e678) ? _e976 : _e678);
+                        float _e984 = (uintBitsToFloat((floatBitsToUint(_e974) & 2147483647u)) + _e968);
+                        float _e990 = (1.0 + _e909);
+                        float _e996 = ((((_e851 * _e837) + (_e855 * _e838)) + (_e859 * _e839)) * (-2.0 * 4.656613e-10));
+                        float _e999 = (_e896 * ((_e990 > _e863) ? _e990 : _e863));
+                        float _e1001 = (_e937 - (2.5 * _e931));
+                        float _e1003 = (0.25 * (_e996 * _e996));
+                        float _e1009 = ((((_e1001 > _e1003) ? _e1001 : _e1003) + 8.881784e-16) + (1.25 * (_e999 * _e999)));
+                        float _e1014 = uintBitsToFloat((1595932665u - (floatBitsToUint(_e1009) >> uint(1))));
+                        float _e1019 = (_e1014 * (0.70395225 * (2.3892446 - (_e1009 * (_e1014 * _e1014)))));
+                        float _e1021 = ((_e896 * _e1019) * _e990);
+                        float _e1025 = ((0.03162278 + _e1021) + (_e863 * (0.5 - _e1021)));
+                        float _e1026 = (_e996 * _e1019);
+                        float _e1030 = (uintBitsToFloat((floatBitsToUint(_e1026) & 2147483647u)) + _e1025);
+                        float _e1039 = ((_e984 * _e1030) * (((((_e926 * _e926) + (_e928 * _e928)) + (_e930 * _e930)) + 8.881784e-16) + (0.5 * _e931)));
+                        float _e1042 = uintBitsToFloat((2129859015u - floatBitsToUint(_e1039)));
+                        if (_e805) {
+                        } else {
+                            v52_2 = true;
+                            break;
+                        }
+                        v0_2[_e800.member_1] = ((uintBitsToFloat(((_e813 & 2047u) << 19u)) * (((((_e974 > 0.0) ? _e974 : 0.0) * _e984) + (_e968 * ((_e978 < _e968) ? _e978 : _e968))) * ((((_e1026 > 0.0) ? _e1026 : 0.0) * _e1030) + (_e1025 * _e1025)))) * (_e1042 * (2.0 - (_e1039 * _e1042))));
+                    }
+                    continue;
+                }
+                bool _e1050 = v52_2;
+                v72_2 = _e1050;
+                if (_e1050) {
+                    break;
+                }
+                float _e1051[8] = v0_2;
+                bool _e1073 = (_e578.member_2.member_7 < 20u);
+                v53_2 = 0u;
+                if (_e1073) {
+                    bool _e1096 = (_e578.member_2.member_7 < 10u);
+                    v55_2 = _e578.member_2.member_7;
+                    if (_e1096) {
+                    } else {
+                        v55_2 = (_e578.member_2.member_7 - 10u);
+                    }
+                    uint _e1099 = v55_2;
+                    v53_2 = (((_e1096 ? _e578.member_2.member.member.member : _e578.member_2.member.member.member_1) >> (((_e1099 * 3u) & 31u) & 31u)) & 7u);
+                }
+                uint _e1075 = v53_2;
+                v56_2 = _e1075;
+                if (_e1073) {
+                } else {
+                    uint _e1080 = (_e578.member_2.member_7 - 20u);
+                    bool _e1081 = (_e1080 < 10u);
+                    v54_2 = _e1080;
+                    if (_e1081) {
+                    } else {
+                        v54_2 = (_e578.member_2.member_7 - 30u);
+                    }
+                    uint _e1084 = v54_2;
+                    v56_2 = (((_e1081 ? _e578.member_2.member.member_1.member : _e578.member_2.member.member_1.member_1) >> (((_e1084 * 3u) & 31u) & 31u)) & 7u);
+                }
+                uint _e1108 = v56_2;
+                uint _e1113 = (0u - ((_e1051[1] > 0.0) ? 1u : 0u));
+                uint _e1114 = (1u & _e1113);
+                uint _e1118 = (0u - ((_e1051[2] > 0.0) ? 1u : 0u));
+                uint _e1121 = (_e1114 ^ ((2u ^ _e1114) & _e1118));
+                uint _e1125 = (0u - ((_e1051[3] > 0.0) ? 1u : 0u));
+                uint _e1128 = (_e1121 ^ ((3u ^ _e1121) & _e1125));
+                uint _e1132 = (0u - ((_e1051[4] > 0.0) ? 1u : 0u));
+                uint _e1135 = (_e1128 ^ ((4u ^ _e1128) & _e1132));
+                uint _e1139 = (0u - ((_e1051[5] > 0.0) ? 1u : 0u));
+                uint _e1142 = (_e1135 ^ ((5u ^ _e1135) & _e1139));
+                uint _e1146 = (0u - ((_e1051[6] > 0.0) ? 1u : 0u));
+                uint _e1149 = (_e1142 ^ ((6u ^ _e1142) & _e1146));
+                uint _e1153 = (0u - ((_e1051[7] > 0.0) ? 1u : 0u));
+                uint _e1156 = (_e1149 ^ ((7u ^ _e1149) & _e1153));
+                float _e1159 = ((((0.0 + _e1051[0]) + _e1051[4]) + ((0.0 + _e1051[2]) + _e1051[6])) + (((0.0 + _e1051[1]) + _e1051[5]) + ((0.0 + _e1051[3]) + _e1051[7])));
+                bool _e1160 = (_e1159 > 0.0);
+                float _e1164 = (_e1160 ? _e1159 : 1.0);
+                uint _e1165 = floatBitsToUint(_e1164);
+                float _e1170 = uintBitsToFloat(((_e1165 & 2147483648u) | (2129859015u - (_e1165 & 2147483647u))));
+                float _e1173 = (_e1170 * (2.0 - (_e1164 * _e1170)));
+                float _e1177 = ((float(int(_e578.member_2.member_8)) * 0.9999695) * (_e1173 * (2.0 - (_e1164 * _e1173))));
+                v57_2 = 2147483647;
+                if (_e578.member_2.member_13) {
+                } else {
+                    v57_2 = int((_e578.member_2.member_1.member >> 10u));
+                }
+                int _e1180 = v57_2;
+                int _e1186 = int((floatBitsToUint(((_e1051[0] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1193 = (((_e1186 > 1) ? _e1186 : 1) & int((0u - ((_e1051[0] > 0.0) ? 1u : 0u))));
+                uint _e1194 = uint(_e1193);
+                uint _e1195 = (_e1194 & 4294967295u);
+                int _e1197 = int((_e578.member_2.member_13 ? _e1108 : _e1156));
+                uint _e1201 = (0u - (((_e1193 <= _e1180) && (0 < _e1197)) ? 1u : 0u));
+                uint _e1202 = (_e1194 & _e1201);
+                int _e1208 = int((floatBitsToUint(((_e1051[1] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1213 = (_e1193 + (((_e1208 > 1) ? _e1208 : 1) & int(_e1113)));
+                uint _e1214 = uint(_e1213);
+                uint _e1217 = (_e1195 ^ ((_e1214 ^ _e1195) & _e1201));
+                uint _e1222 = (0u - (((_e1213 <= _e1180) && (1 < _e1197)) ? 1u : 0u));
+                uint _e1225 = (_e1202 ^ ((_e1214 ^ _e1202) & _e1222));
+                int _e1232 = int((floatBitsToUint(((_e1051[2] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1237 = (_e1213 + (((_e1232 > 1) ? _e1232 : 1) & int(_e1118)));
+                uint _e1238 = uint(_e1237);
+                uint _e1241 = (_e1217 ^ ((_e1238 ^ _e1217) & _e1222));
+                uint _e1246 = (0u - (((_e1237 <= _e1180) && (2 < _e1197)) ? 1u : 0u));
+                uint _e1249 = (_e1225 ^ ((_e1238 ^ _e1225) & _e1246));
+                int _e1256 = int((floatBitsToUint(((_e1051[3] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1261 = (_e1237 + (((_e1256 > 1) ? _e1256 : 1) & int(_e1125)));
+                uint _e1262 = uint(_e1261);
+                uint _e1265 = (_e1241 ^ ((_e1262 ^ _e1241) & _e1246));
+                uint _e1270 = (0u - (((_e1261 <= _e1180) && (3 < _e1197)) ? 1u : 0u));
+                uint _e1273 = (_e1249 ^ ((_e1262 ^ _e1249) & _e1270));
+                int _e1280 = int((floatBitsToUint(((_e1051[4] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1285 = (_e1261 + (((_e1280 > 1) ? _e1280 : 1) & int(_e1132)));
+                uint _e1286 = uint(_e1285);
+                uint _e1289 = (_e1265 ^ ((_e1286 ^ _e1265) & _e1270));
+                uint _e1294 = (0u - (((_e1285 <= _e1180) && (4 < _e1197)) ? 1u : 0u));
+                uint _e1297 = (_e1273 ^ ((_e1286 ^ _e1273) & _e1294));
+                int _e1304 = int((floatBitsToUint(((_e1051[5] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1309 = (_e1285 + (((_e1304 > 1) ? _e1304 : 1) & int(_e1139)));
+                uint _e1310 = uint(_e1309);
+                uint _e1313 = (_e1289 ^ ((_e1310 ^ _e1289) & _e1294));
+                uint _e1318 = (0u - (((_e1309 <= _e1180) && (5 < _e1197)) ? 1u : 0u));
+                uint _e1321 = (_e1297 ^ ((_e1310 ^ _e1297) & _e1318));
+                int _e1328 = int((floatBitsToUint(((_e1051[6] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1333 = (_e1309 + (((_e1328 > 1) ? _e1328 : 1) & int(_e1146)));
+                uint _e1334 = uint(_e1333);
+                uint _e1337 = (_e1313 ^ ((_e1334 ^ _e1313) & _e1318));
+                uint _e1342 = (0u - (((_e1333 <= _e1180) && (6 < _e1197)) ? 1u : 0u));
+                uint _e1345 = (_e1321 ^ ((_e1334 ^ _e1321) & _e1342));
+                int _e1352 = int((floatBitsToUint(((_e1051[7] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1357 = (_e1333 + (((_e1352 > 1) ? _e1352 : 1) & int(_e1153)));
+                uint _e1358 = uint(_e1357);
+                uint _e1361 = (_e1337 ^ ((_e1358 ^ _e1337) & _e1342));
+                uint _e1366 = (0u - (((_e1357 <= _e1180) && (7 < _e1197)) ? 1u : 0u));
+                uint _e1369 = (_e1345 ^ ((_e1358 ^ _e1345) & _e1366));
+                uint _e1372 = (_e578.member_2.member_13 ? _e1108 : ((((((((_e1201 & 1u) + (_e1222 & 1u)) + (_e1246 & 1u)) + (_e1270 & 1u)) + (_e1294 & 1u)) + (_e1318 & 1u)) + (_e1342 & 1u)) + (_e1366 & 1u)));
+                bool _e1377 = (_e1372 < 8u);
+                bool _e1378 = ((_e1160 && (_e1361 > _e1369)) && _e1377);
+                uint _e1379 = (_e1377 ? _e1372 : 0u);
+                v58_2 = 0u;
+                if (_e1378) {
+                    v58_2 = (((_e1372 == _e1156) ? _e578.member_2.member_8 : _e1361) - _e1369);
+                }
+                uint _e1383 = v58_2;
+                bool _e1384 = (_e1379 < 8u);
+                if (_e1384) {
+                } else {
+                    v72_2 = true;
+                    break;
+                }
+                uint _e1388 = lightbvh_nodes.list[_e584][1u][_e1379];
+                uint _e1389 = (_e1388 & 3u);
+                if (_e1384) {
+                } else {
+                    v72_2 = true;
+                    break;
+                }
+                uint _e1393 = lightbvh_nodes.list[_e584][5u][_e1379];
+                bool _e1397 = ((_e583 && (_e1383 > 0u)) && (_e1383 <= _e578.member_2.member_8));
+                uint _e1398 = (_e1397 ? _e1383 : 1u);
+                uint _e1400 = ((_e1398 - 1u) & 4194303u);
+                uint _e1406 = (((_e1400 == 0u) ? 32u : (uint(31) - uint(findMSB(_e1400)))) - 10u);
+                uint _e1408 = ((_e1406 < 22u) ? _e1406 : 22u);
+                uint _e1421 = (_e1408 & 31u);
+                LightbvhType32_ _e1446 = LightbvhType32_(_e578.member, _e578.member_1, LightbvhType31_(_e578.member_2.member, LightbvhType23_((((_e578.member_2.member_1.member - ((_e1378 ? _e1369 : 0u) << 10u)) << _e1421) | ((_e578.member_2.member_1.member_1 >> uint(1)) >> ((31u - _e1408) & 31u))), (_e578.member_2.member_1.member_1 << _e1421)), _e578.member_2.member_2, _e578.member_2.member_3, _e578.member_2.member_4, _e578.member_2.member_5, _e578.member_2.member_6, _e578.member_2.member_7, _e578.member_2.member_8, _e578.member_2.member_9, _e578.member_2.member_10, _e578.member_2.member_11, _e578.member_2.member_12, _e578.member_2.member_13));
+                LightbvhType32_ _e1467 = LightbvhType32_(_e1446.member, _e1446.member_1, LightbvhType31_(_e1446.member_2.member, _e1446.member_2.member_1, _e1446.member_2.member_2, _e1446.member_2.member_3, _e1446.member_2.member_4, _e1446.member_2.member_5, _e1446.member_2.member_6, _e1446.member_2.member_7, (_e1398 << _e1421), _e1446.member_2.member_9, _e1446.member_2.member_10, _e1446.member_2.member_11, _e1446.member_2.member_12, _e1446.member_2.member_13));
+                LightbvhType32_ _e1489 = LightbvhType32_(_e1467.member, _e1467.member_1, LightbvhType31_(_e1467.member_2.member, _e1467.member_2.member_1, _e1467.member_2.member_2, _e1467.member_2.member_3, _e1467.member_2.member_4, _e1467.member_2.member_5, _e1467.member_2.member_6, _e1467.member_2.member_7, _e1467.member_2.member_8, (_e578.member_2.member_9 + _e1408), _e1467.member_2.member_10, _e1467.member_2.member_11, _e1467.member_2.member_12, _e1467.member_2.member_13));
+                uint _e1490 = (_e578.member_2.member_7 + 1u);
+                v59_2 = true;
+                if ((_e1490 == 20u)) {
+                } else {
+                    v59_2 = (_e1490 == 40u);
+                }
+                bool _e1494 = v59_2;
+                uint _e1495 = (_e1393 & 134217727u);
+                uint _e1499 = (_e1393 >> (uint(findLSB(134217728u)) & 31u));
+                bool _e1503 = (_e1495 < _e151);
+                bool _e1504 = (((_e1397 && (_e1389 == 3u)) && _e1073) && _e1503);
+                bool _e1508 = ((_e1397 && (_e1389 == 1u)) && !(_e1494));
+                LightbvhType32_ _e1530 = LightbvhType32_(_e1489.member, _e1489.member_1, LightbvhType31_(_e1489.member_2.member, _e1489.member_2.member_1, _e1489.member_2.member_2, _e1489.member_2.member_3, _e1489.member_2.member_4, ((_e1397 && (_e1389 == 2u)) ? _e1393 : 4294967295u), _e1489.member_2.member_6, _e1489.member_2.member_7, _e1489.member_2.member_8, _e1489.member_2.member_9, _e1489.member_2.member_10, _e1489.member_2.member_11, _e1489.member_2.member_12, _e1489.member_2.member_13));
+                uint _e1533 = (_e578.member_2.member_11 - 1u);
+                LightbvhType32_ _e1552 = LightbvhType32_(_e1530.member, _e1530.member_1, LightbvhType31_(_e1530.member_2.member, _e1530.member_2.member_1, _e1530.member_2.member_2, _e1530.member_2.member_3, _e1530.member_2.member_4, _e1530.member_2.member_5, _e1530.member_2.member_6, _e1530.member_2.member_7, _e1530.member_2.member_8, _e1530.member_2.member_9, _e1530.member_2.member_10, _e1533, _e1530.member_2.member_12, _e1530.member_2.member_13));
+                bool _e1556 = (!((_e1504 || _e1508)) || (_e1533 == 0u));
+                LightbvhType32_ _e1575 = LightbvhType32_(_e1552.member, _e1552.member_1, LightbvhType31_(_e1552.member_2.member, _e1552.member_2.member_1, _e1552.member_2.member_2, _e1552.member_2.member_3, _e1552.member_2.member_4, _e1552.member_2.member_5, _e1552.member_2.member_6, _e1552.member_2.member_7, _e1552.member_2.member_8, _e1552.member_2.member_9, _e1552.member_2.member_10, _e1552.member_2.member_11, _e1556, _e1552.member_2.member_13));
+                v60_2 = LightbvhType32_(0u, 0u, LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false));
+                if (_e1504) {
+                    if (_e1503) {
+                    } else {
+                        v72_2 = true;
+                        break;
+                    }
+                    LightbvhType32_ _e1640 = LightbvhType32_(_e1575.member, _e1575.member_1, LightbvhType31_(_e1575.member_2.member, _e1575.member_2.member_1, _e1575.member_2.member_2, _e1575.member_2.member_3, _e1575.member_2.member_4, _e1575.member_2.member_5, _e1495, _e1575.member_2.member_7, _e1575.member_2.member_8, _e1575.member_2.member_9, _e1575.member_2.member_10, _e1575.member_2.member_11, _e1575.member_2.member_12, _e1575.member_2.member_13));
+                    uint _e1643 = lightbvh_instances.list[_e1495].root;
+                    LightbvhType32_ _e1662 = LightbvhType32_(_e1640.member, _e1640.member_1, LightbvhType31_(_e1640.member_2.member, _e1640.member_2.member_1, _e1640.member_2.member_2, _e1640.member_2.member_3, _e1643, _e1640.member_2.member_5, _e1640.member_2.member_6, _e1640.member_2.member_7, _e1640.member_2.member_8, _e1640.member_2.member_9, _e1640.member_2.member_10, _e1640.member_2.member_11, _e1640.member_2.member_12, _e1640.member_2.member_13));
+                    bool _e1663 = (_e1643 == 4294967295u);
+                    v62_2 = 4294967295u;
+                    if (_e1663) {
+                        uint _e1666 = lightbvh_instances.list[_e1495].first_light;
+                        v62_2 = _e1666;
+                    }
+                    uint _e1668 = v62_2;
+                    LightbvhType32_ _e1687 = LightbvhType32_(_e1662.member, _e1662.member_1, LightbvhType31_(_e1662.member_2.member, _e1662.member_2.member_1, _e1662.member_2.member_2, _e1662.member_2.member_3, _e1662.member_2.member_4, _e1668, _e1662.member_2.member_6, _e1662.member_2.member_7, _e1662.member_2.member_8, _e1662.member_2.member_9, _e1662.member_2.member_10, _e1662.member_2.member_11, _e1662.member_2.member_12, _e1662.member_2.member_13));
+                    bool _e1688 = (_e1556 || _e1663);
+                    LightbvhType32_ _e1707 = LightbvhType32_(_e1687.member, _e1687.member_1, LightbvhType31_(_e1687.member_2.member, _e1687.member_2.member_1, _e1687.member_2.member_2, _e1687.member_2.member_3, _e1687.member_2.member_4, _e1687.member_2.member_5, _e1687.member_2.member_6, _e1687.member_2.member_7, _e1687.member_2.member_8, _e1687.member_2.member_9, _e1687.member_2.member_10, _e1687.member_2.member_11, _e1688, _e1687.member_2.member_13));
+                    LightbvhType32_ _e1726 = LightbvhType32_(_e1707.member, _e1707.member_1, LightbvhType31_(_e1707.member_2.member, _e1707.member_2.member_1, _e1707.member_2.member_2, _e1707.member_2.member_3, _e1707.member_2.member_4, _e1707.member_2.member_5, _e1707.member_2.member_6, 20u, _e1707.member_2.member_8, _e1707.member_2.member_9, _e1707.member_2.member_10, _e1707.member_2.member_11, _e1707.member_2.member_12, _e1707.member_2.member_13));
+                    v63_2 = _e1726;
+                    if ((_e1499 > 0u)) {
+                        uint _e1729 = ((_e1643 < _e148) ? _e1643 : 0u);
+                        if ((_e1729 < _e148)) {
+                        } else {
+                            v72_2 = true;
+                            break;
+                        }
+                        uint _e1732 = ((_e1499 - 1u) % 8u);
+                        bool _e1733 = (_e1732 < 8u);
+                        if (_e1733) {
+                        } else {
+                            v72_2 = true;
+                            break;
+                        }
+                        uint _e1737 = lightbvh_nodes.list[_e1729][1u][_e1732];
+                        uint _e1738 = (_e1737 & 3u);
+                        if (_e1733) {
+                        } else {
+                            v72_2 = true;
+                            break;
+                        }
+                        uint _e1742 = lightbvh_nodes.list[_e1729][5u][_e1732];
+                        LightbvhType32_ _e1761 = LightbvhType32_(_e1726.member, _e1726.member_1, LightbvhType31_(_e1726.member_2.member, _e1726.member_2.member_1, _e1726.member_2.member_2, _e1726.member_2.member_3, _e1742, _e1726.member_2.member_5, _e1726.member_2.member_6, _e1726.member_2.member_7, _e1726.member_2.member_8, _e1726.member_2.member_9, _e1726.member_2.member_10, _e1726.member_2.member_11, _e1726.member_2.member_12, _e1726.member_2.member_13));
+                        LightbvhType32_ _e1782 = LightbvhType32_(_e1761.member, _e1761.member_1, LightbvhType31_(_e1761.member_2.member, _e1761.member_2.member_1, _e1761.member_2.member_2, _e1761.member_2.member_3, _e1761.member_2.member_4, ((_e1738 == 2u) ? _e1742 : 4294967295u), _e1761.member_2.member_6, _e1761.member_2.member_7, _e1761.member_2.member_8, _e1761.member_2.member_9, _e1761.member_2.member_10, _e1761.member_2.member_11, _e1761.member_2.member_12, _e1761.member_2.member_13));
+                        LightbvhType32_ _e1803 = LightbvhType32_(_e1782.member, _e1782.member_1, LightbvhType31_(_e1782.member_2.member, _e1782.member_2.member_1, _e1782.member_2.member_2, _e1782.member_2.member_3, _e1782.member_2.member_4, _e1782.member_2.member_5, _e1782.member_2.member_6, _e1782.member_2.member_7, _e1782.member_2.member_8, _e1782.member_2.member_9, _e1782.member_2.member_10, _e1782.member_2.member_11, (_e1688 || (_e1738 != 1u)), _e1782.member_2.member_13));
+                        v63_2 = LightbvhType32_(_e1803.member, _e1803.member_1, LightbvhType31_(_e1803.member_2.member, _e1803.member_2.member_1, _e1803.member_2.member_2, _e1803.member_2.member_3, _e1803.member_2.member_4, _e1803.member_2.member_5, _e1803.member_2.member_6, 21u, _e1803.member_2.member_8, _e1803.member_2.member_9, _e1803.member_2.member_10, _e1803.member_2.member_11, _e1803.member_2.member_12, _e1803.member_2.member_13));
+                    }
+                    LightbvhType32_ _e1824 = v63_2;
+                    float _e1833 = lightbvh_instances.list[_e1495].translation[0u];
+                    float _e1837 = lightbvh_instances.list[_e1495].translation[1u];
+                    float _e1841 = lightbvh_instances.list[_e1495].translation[2u];
+                    float _e1842 = (_e183.member.member[0] - _e1833);
+                    float _e1843 = (_e183.member.member[1] - _e1837);
+                    float _e1844 = (_e183.member.member[2] - _e1841);
+                    float _e1849 = ((uintBitsToFloat((floatBitsToUint(_e1842) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1842);
+                    float _e1854 = ((uintBitsToFloat((floatBitsToUint(_e1843) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1843);
+                    float _e1859 = ((uintBitsToFloat((floatBitsToUint(_e1844) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1844);
+                    float _e1864 = lightbvh_instances.list[_e1495].inverse_[0u][0u];
+                    float _e1869 = lightbvh_instances.list[_e1495].inverse_[0u][1u];
+                    float _e1874 = lightbvh_instances.list[_e1495].inverse_[0u][2u];
+                    float _e1882 = lightbvh_instances.list[_e1495].inverse_[1u][0u];
+                    float _e1887 = lightbvh_instances.list[_e1495].inverse_[1u][1u];
+                    float _e1892 = lightbvh_instances.list[_e1495].inverse_[1u][2u];
+                    float _e1903 = lightbvh_instances.list[_e1495].inverse_[2u][0u];
+                    float _e1908 = lightbvh_instances.list[_e1495].inverse_[2u][1u];
+                    float _e1913 = lightbvh_instances.list[_e1495].inverse_[2u][2u];
+                    float _e1917 = (((_e1864 * _e1849) + (_e1882 * _e1854)) + (_e1903 * _e1859));
+                    float _e1918 = (((_e1869 * _e1849) + (_e1887 * _e1854)) + (_e1908 * _e1859));
+                    float _e1919 = (((_e1874 * _e1849) + (_e1892 * _e1854)) + (_e1913 * _e1859));
+                    float _e1927 = lightbvh_instances.list[_e1495].columns[0u][0u];
+                    float _e1932 = lightbvh_instances.list[_e1495].columns[0u][1u];
+                    float _e1937 = lightbvh_instances.list[_e1495].columns[0u][2u];
+                    float _e1942 = (((_e1927 * _e183.member.member_2[0]) + (_e1932 * _e183.member.member_2[1])) + (_e1937 * _e183.member.member_2[2]));
+                    float _e1947 = lightbvh_instances.list[_e1495].columns[1u][0u];
+                    float _e1952 = lightbvh_instances.list[_e1495].columns[1u][1u];
+                    float _e1957 = lightbvh_instances.list[_e1495].columns[1u][2u];
+                    float _e1962 = (((_e1947 * _e183.member.member_2[0]) + (_e1952 * _e183.member.member_2[1])) + (_e1957 * _e183.member.member_2[2]));
+                    float _e1967 = lightbvh_instances.list[_e1495].columns[2u][0u];
+                    float _e1972 = lightbvh_instances.list[_e1495].columns[2u][1u];
+                    float _e1977 = lightbvh_instances.list[_e1495].columns[2u][2u];
+                    float _e1982 = (((_e1967 * _e183.member.member_2[0]) + (_e1972 * _e183.member.member_2[1])) + (_e1977 * _e183.member.member_2[2]));
+                    float _e1987 = ((uintBitsToFloat((floatBitsToUint(_e1942) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1942);
+                    float _e1992 = ((uintBitsToFloat((floatBitsToUint(_e1962) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1962);
+                    float _e1997 = ((uintBitsToFloat((floatBitsToUint(_e1982) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1982);
+                    float _e2002 = (((_e1987 * _e1987) + (_e1992 * _e1992)) + (_e1997 * _e1997));
+                    float _e2003 = uintBitsToFloat(67108864u);
+                    v64_2 = 0.0;
+                    if ((_e2002 >= _e2003)) {
+                        float _e2009 = uintBitsToFloat((1597463007u - (floatBitsToUint(_e2002) >> uint(1))));
+                        float _e2010 = (0.5 * _e2002);
+                        float _e2014 = (_e2009 * (1.5 - ((_e2010 * _e2009) * _e2009)));
+                        v64_2 = (_e2014 * (1.5 - ((_e2010 * _e2014) * _e2014)));
+                    }
+                    float _e2020 = v64_2;
+                    float _e2021 = -(1.1529215e18);
+                    v65_2 = _e2021;
+                    if ((_e1917 < _e2021)) {
+                    } else {
+                        v65_2 = ((_e1917 > 1.1529215e18) ? 1.1529215e18 : _e1917);
+                    }
+                    float _e2026 = v65_2;
+                    v66_2 = _e2021;
+                    if ((_e1918 < _e2021)) {
+                    } else {
+                        v66_2 = ((_e1918 > 1.1529215e18) ? 1.1529215e18 : _e1918);
+                    }
+                    float _e2036 = v66_2;
+                    v67_2 = _e2021;
+                    if ((_e1919 < _e2021)) {
+                    } else {
+                        v67_2 = ((_e1919 > 1.1529215e18) ? 1.1529215e18 : _e1919);
+                    }
+                    float _e2046 = v67_2;
+                    float _e2053 = (_e1987 * _e2020);
+                    float _e2059 = (_e1992 * _e2020);
+                    float _e2065 = (_e1997 * _e2020);
+                    float _e2081 = ((uintBitsToFloat((floatBitsToUint(_e183.member.member_2[0]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e183.member.member_2[0]);
+                    float _e2086 = ((uintBitsToFloat((floatBitsToUint(_e183.member.member_2[1]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e183.member.member_2[1]);
+                    float _e2091 = ((uintBitsToFloat((floatBitsToUint(_e183.member.member_2[2]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e183.member.member_2[2]);
+                    float _e2096 = (((_e2081 * _e2081) + (_e2086 * _e2086)) + (_e2091 * _e2091));
+                    float _e2098 = ((_e2096 > _e2003) ? _e2096 : _e2003);
+                    float _e2103 = uintBitsToFloat((1597463007u - (floatBitsToUint(_e2098) >> uint(1))));
+                    float _e2104 = (0.5 * _e2098);
+                    float _e2108 = (_e2103 * (1.5 - ((_e2104 * _e2103) * _e2103)));
+                    float _e2113 = (_e2098 * (_e2108 * (1.5 - ((_e2104 * _e2108) * _e2108))));
+                    float _e2114 = (((uintBitsToFloat((floatBitsToUint(_e2053) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2053) * _e2113);
+                    float _e2115 = (((uintBitsToFloat((floatBitsToUint(_e2059) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2059) * _e2113);
+                    float _e2116 = (((uintBitsToFloat((floatBitsToUint(_e2065) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2065) * _e2113);
+                    float _e2142 = ((uintBitsToFloat((floatBitsToUint(_e183.member.member_1[0]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e183.member.member_1[0]);
+                    float _e2147 = ((uintBitsToFloat((floatBitsToUint(_e183.member.member_1[1]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e183.member.member_1[1]);
+                    float _e2152 = ((uintBitsToFloat((floatBitsToUint(_e183.member.member_1[2]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e183.member.member_1[2]);
+                    float _e2192 = (((uintBitsToFloat((floatBitsToUint(_e1864) & 2147483647u)) * _e2142) + (uintBitsToFloat((floatBitsToUint(_e1882) & 2147483647u)) * _e2147)) + (uintBitsToFloat((floatBitsToUint(_e1903) & 2147483647u)) * _e2152));
+                    float _e2193 = (((uintBitsToFloat((floatBitsToUint(_e1869) & 2147483647u)) * _e2142) + (uintBitsToFloat((floatBitsToUint(_e1887) & 2147483647u)) * _e2147)) + (uintBitsToFloat((floatBitsToUint(_e1908) & 2147483647u)) * _e2152));
+                    float _e2194 = (((uintBitsToFloat((floatBitsToUint(_e1874) & 2147483647u)) * _e2142) + (uintBitsToFloat((floatBitsToUint(_e1892) & 2147483647u)) * _e2147)) + (uintBitsToFloat((floatBitsToUint(_e1913) & 2147483647u)) * _e2152));
+                    float _e2196 = ((_e2192 < 1.1529215e18) ? _e2192 : 1.1529215e18);
+                    float _e2198 = ((_e2193 < 1.1529215e18) ? _e2193 : 1.1529215e18);
+                    float _e2200 = ((_e2194 < 1.1529215e18) ? _e2194 : 1.1529215e18);
+                    v60_2 = LightbvhType32_(_e1824.member, _e1824.member_1, LightbvhType31_(_e1824.member_2.member, _e1824.member_2.member_1, _e1824.member_2.member_2, _e1824.member_2.member_3, _e1824.member_2.member_4, _e1824.member_2.member_5, _e1824.member_2.member_6, _e1824.member_2.member_7, _e1824.member_2.member_8, _e1824.member_2.member_9, LightbvhType29_(float[3](((uintBitsToFloat((floatBitsToUint(_e2026) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2026), ((uintBitsToFloat((floatBitsToUint(_e2036) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2036), ((uintBitsToFloat((floatBitsToUint(_e2046) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2046)), float[3](((uintBitsToFloat((floatBitsToUint(_e2196) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2196), ((uintBitsToFloat((floatBitsToUint(_e2198) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2198), ((uintBitsToFloat((floatBitsToUint(_e2200) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2200)), float[3](((uintBitsToFloat((floatBitsToUint(_e2114) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2114), ((uintBitsToFloat((floatBitsToUint(_e2115) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2115), ((uintBitsToFloat((floatBitsToUint(_e2116) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2116))), _e1824.member_2.member_11, _e1824.member_2.member_12, _e1824.member_2.member_13));
+                }
+                LightbvhType32_ _e1577 = v60_2;
+                v68_2 = _e1577;
+                if (_e1504) {
+                } else {
+                    v61_2 = _e578.member_2.member_4;
+                    if (_e1508) {
+                        v61_2 = (_e1393 + (_e1073 ? _e157 : 0u));
+                    }
+                    uint _e1581 = v61_2;
+                    LightbvhType32_ _e1600 = LightbvhType32_(_e1575.member, _e1575.member_1, LightbvhType31_(_e1575.member_2.member, _e1575.member_2.member_1, _e1575.member_2.member_2, _e1575.member_2.member_3, _e1581, _e1575.member_2.member_5, _e1575.member_2.member_6, _e1575.member_2.member_7, _e1575.member_2.member_8, _e1575.member_2.member_9, _e1575.member_2.member_10, _e1575.member_2.member_11, _e1575.member_2.member_12, _e1575.member_2.member_13));
+                    v68_2 = LightbvhType32_(_e1600.member, _e1600.member_1, LightbvhType31_(_e1600.member_2.member, _e1600.member_2.member_1, _e1600.member_2.member_2, _e1600.member_2.member_3, _e1600.member_2.member_4, _e1600.member_2.member_5, _e1600.member_2.member_6, (_e578.member_2.member_7 + (_e1508 ? 1u : 0u)), _e1600.member_2.member_8, _e1600.member_2.member_9, _e1600.member_2.member_10, _e1600.member_2.member_11, _e1600.member_2.member_12, _e1600.member_2.member_13));
+                }
+                LightbvhType32_ _e2239 = v68_2;
+                v69_2 = _e1050;
+                v70_2 = _e2239;
+                v71_2 = _e2239.member_2.member_12;
+            }
+            bool _e2243 = v69_2;
+            LightbvhType32_ _e2245 = v70_2;
+            bool _e2247 = v71_2;
+            continue;
+        }
+        bool _e2251 = v72_2;
+        if (_e2251) {
+            break;
+        }
+        LightbvhType32_ _e2253 = v73_2;
+        bool _e2255 = (_e2253.member != 4294967295u);
+        LightbvhType32_ _e2257 = v74_2;
+        LightbvhType32_ _e2263 = v75_2;
+        LightbvhType32_ _e2267 = v76_2;
+        bool _e2271 = ((_e2257.member_2.member_5 != 4294967295u) && (!(_e2255) || (_e2263.member_2.member_6 == _e2267.member_1)));
+        uint _e2272 = (_e2255 ? _e2267.member_1 : _e2263.member_2.member_6);
+        v78_2 = _e2253.member;
+        if (_e2255) {
+        } else {
+            v77_2 = _e2257.member_2.member_5;
+            if ((_e2263.member_2.member_6 < _e151)) {
+                uint _e2276 = lightbvh_instances.list[_e2263.member_2.member_6].first_light;
+                uint _e2280 = lightbvh_instances.list[_e2263.member_2.member_6].first;
+                v77_2 = ((_e2257.member_2.member_5 - _e2276) + _e2280);
+            }
+            uint _e2283 = v77_2;
+            v78_2 = _e2283;
+        }
+        uint _e2285 = v78_2;
+        v81_2 = 0.0;
+        if (_e2271) {
+            LightbvhType32_ _e2287 = v79_2;
+            LightbvhType32_ _e2293 = v80_2;
+            int _e2300 = -(int((22u + ((_e2287.member_2.member_9 < 98u) ? _e2287.member_2.member_9 : 98u))));
+            int _e2302 = ((_e2300 < -126) ? -126 : _e2300);
+            v81_2 = (float(int(_e2293.member_2.member_8)) * uintBitsToFloat((uint((((_e2302 > 127) ? 127 : _e2302) + 127)) << uint(23))));
+        }
+        float _e2312 = v81_2;
+        v83_2 = 0u;
+        v84_2 = true;
+        if ((_e175 > 0u)) {
+            bool _e2314 = (_e2272 < _e151);
+            v82_2 = 0u;
+            if (_e2314) {
+                uint _e2317 = lightbvh_instances.list[_e2272].count;
+                v82_2 = _e2317;
+            }
+            uint _e2319 = v82_2;
+            v83_2 = _e2319;
+            v84_2 = (_e2314 ? false : true);
+        }
+        uint _e2322 = v83_2;
+        bool _e2324 = v84_2;
+        uint _e2329 = ((_e2324 ? _e178 : _e2322) & 2147483647u);
+        uint _e2334 = floatBitsToUint((float(65536) * uintBitsToFloat(880803840u)));
+        uint _e2335 = floatBitsToUint(float(int(((_e2329 > 0u) ? _e2329 : 1u))));
+        uint _e2340 = ((_e2334 >> uint(23)) & 255u);
+        uint _e2344 = (_e2334 & 8388607u);
+        uint _e2345 = (_e2344 | 8388608u);
+        uint _e2346 = (_e2335 & 8388607u);
+        uint _e2347 = (_e2346 | 8388608u);
+        bool _e2348 = (_e2345 < _e2347);
+        float _e2352 = uintBitsToFloat((_e2346 | 1065353216u));
+        uint _e2353 = floatBitsToUint(_e2352);
+        float _e2358 = uintBitsToFloat(((_e2353 & 2147483648u) | (2129859015u - (_e2353 & 2147483647u))));
+        float _e2361 = (_e2358 * (2.0 - (_e2352 * _e2358)));
+        float _e2364 = (_e2361 * (2.0 - (_e2352 * _e2361)));
+        float _e2368 = ((uintBitsToFloat((_e2344 | 1065353216u)) * _e2364) * (_e2348 ? 16777216.0 : 8388608.0));
+        float _e2369 = uintBitsToFloat(0u);
+        float _e2370 = uintBitsToFloat(1333788671u);
+        uint _e2375 = ((_e2368 > _e2370) ? 4294967295u : ((_e2368 < _e2369) ? 0u : uint(_e2368)));
+        int _e2381 = int(((_e2345 << uint(((_e2348 ? 24 : 23) & 31))) - (_e2375 * _e2347)));
+        float _e2386 = ((float((_e2381 >> uint(8))) * _e2364) * 3.0517578e-5);
+        float _e2387 = uintBitsToFloat(3472883712u);
+        float _e2388 = uintBitsToFloat(1325400063u);
+        int _e2395 = ((_e2386 == _e2386) ? ((_e2386 > _e2388) ? 2147483647 : ((_e2386 < _e2387) ? -2147483648 : int(_e2386))) : 0);
+        uint _e2397 = (_e2375 + uint(_e2395));
+        int _e2398 = int(_e2347);
+        int _e2400 = (_e2381 - (_e2395 * _e2398));
+        bool _e2401 = (_e2400 < 0);
+        v85_2 = _e2397;
+        if (_e2401) {
+            v85_2 = (_e2397 - 1u);
+        }
+        uint _e2404 = v85_2;
+        v86_2 = _e2400;
+        if (_e2401) {
+            v86_2 = (_e2400 + _e2398);
+        }
+        int _e2407 = v86_2;
+        bool _e2408 = (_e2407 >= _e2398);
+        v87_2 = _e2404;
+        if (_e2408) {
+            v87_2 = (_e2404 + 1u);
+        }
+        uint _e2411 = v87_2;
+        v88_2 = _e2407;
+        if (_e2408) {
+            v88_2 = (_e2407 - _e2398);
+        }
+        int _e2414 = v88_2;
+        v89_1 = _e2411;
+        if (((_e2414 * 2) > _e2398)) {
+            v89_1 = (_e2411 + 1u);
+        }
+        uint _e2419 = v89_1;
+        int _e2424 = ((int(_e2340) - int(((_e2335 >> uint(23)) & 255u))) + (_e2348 ? 126 : 127));
+        v92_1 = 0u;
+        v93_1 = true;
+        if ((_e2340 == 0u)) {
+        } else {
+            bool _e2426 = (_e2424 <= 0);
+            v91_1 = 0u;
+            if (_e2426) {
+            } else {
+                v90_1 = 2139095040u;
+                if ((_e2424 >= 255)) {
+                } else {
+                    v90_1 = ((uint(_e2424) << uint(23)) + (_e2419 & 8388607u));
+                }
+                uint _e2434 = v90_1;
+                v91_1 = _e2434;
+            }
+            uint _e2436 = v91_1;
+            v92_1 = _e2436;
+            v93_1 = _e2426;
+        }
+        uint _e2438 = v92_1;
+        bool _e2440 = v93_1;
+        uint _e2444 = (_e175 & 2147483647u);
+        uint _e2449 = floatBitsToUint(uintBitsToFloat((((_e2334 ^ _e2335) & 2147483648u) | (_e2440 ? 0u : _e2438))));
+        uint _e2450 = floatBitsToUint(float(int(((_e2444 > 0u) ? _e2444 : 1u))));
+        uint _e2455 = ((_e2449 >> uint(23)) & 255u);
+        uint _e2459 = (_e2449 & 8388607u);
+        uint _e2460 = (_e2459 | 8388608u);
+        uint _e2461 = (_e2450 & 8388607u);
+        uint _e2462 = (_e2461 | 8388608u);
+        bool _e2463 = (_e2460 < _e2462);
+        float _e2467 = uintBitsToFloat((_e2461 | 1065353216u));
+        uint _e2468 = floatBitsToUint(_e2467);
+        float _e2473 = uintBitsToFloat(((_e2468 & 2147483648u) | (2129859015u - (_e2468 & 2147483647u))));
+        float _e2476 = (_e2473 * (2.0 - (_e2467 * _e2473)));
+        float _e2479 = (_e2476 * (2.0 - (_e2467 * _e2476)));
+        float _e2483 = ((uintBitsToFloat((_e2459 | 1065353216u)) * _e2479) * (_e2463 ? 16777216.0 : 8388608.0));
+        uint _e2488 = ((_e2483 > _e2370) ? 4294967295u : ((_e2483 < _e2369) ? 0u : uint(_e2483)));
+        int _e2494 = int(((_e2460 << uint(((_e2463 ? 24 : 23) & 31))) - (_e2488 * _e2462)));
+        float _e2499 = ((float((_e2494 >> uint(8))) * _e2479) * 3.0517578e-5);
+        int _e2506 = ((_e2499 == _e2499) ? ((_e2499 > _e2388) ? 2147483647 : ((_e2499 < _e2387) ? -2147483648 : int(_e2499))) : 0);
+        uint _e2508 = (_e2488 + uint(_e2506));
+        int _e2509 = int(_e2462);
+        int _e2511 = (_e2494 - (_e2506 * _e2509));
+        bool _e2512 = (_e2511 < 0);
+        v94_1 = _e2508;
+        if (_e2512) {
+            v94_1 = (_e2508 - 1u);
+        }
+        uint _e2515 = v94_1;
+        v95_1 = _e2511;
+        if (_e2512) {
+            v95_1 = (_e2511 + _e2509);
+        }
+        int _e2518 = v95_1;
+        bool _e2519 = (_e2518 >= _e2509);
+        v96_1 = _e2515;
+        if (_e2519) {
+            v96_1 = (_e2515 + 1u);
+        }
+        uint _e2522 = v96_1;
+        v97_1 = _e2518;
+        if (_e2519) {
+            v97_1 = (_e2518 - _e2509);
+        }
+        int _e2525 = v97_1;
+        v98_1 = _e2522;
+        if (((_e2525 * 2) > _e2509)) {
+            v98_1 = (_e2522 + 1u);
+        }
+        uint _e2530 = v98_1;
+        int _e2535 = ((int(_e2455) - int(((_e2450 >> uint(23)) & 255u))) + (_e2463 ? 126 : 127));
+        v101_1 = 0u;
+        v102_1 = true;
+        if ((_e2455 == 0u)) {
+        } else {
+            bool _e2537 = (_e2535 <= 0);
+            v100_1 = 0u;
+            if (_e2537) {
+            } else {
+                v99_1 = 2139095040u;
+                if ((_e2535 >= 255)) {
+                } else {
+                    v99_1 = ((uint(_e2535) << uint(23)) + (_e2530 & 8388607u));
+                }
+                uint _e2545 = v99_1;
+                v100_1 = _e2545;
+            }
+            uint _e2547 = v100_1;
+            v101_1 = _e2547;
+            v102_1 = _e2537;
+        }
+        uint _e2549 = v101_1;
+        bool _e2551 = v102_1;
+        v103_1 = LightbvhType19_(4294967295u, 4294967295u, 0.0);
+        if ((_e2255 || _e2271)) {
+            v103_1 = LightbvhType19_(_e2285, _e2272, (_e2312 + uintBitsToFloat((((_e2449 ^ _e2450) & 2147483648u) | (_e2551 ? 0u : _e2549)))));
+        }
+        LightbvhType19_ _e2559 = v103_1;
+        results_2 = _e2559;
+        break;
+    } while(false);
+    LightbvhType19_ _e2665 = results_2;
+    return LightbvhLightSample(_e2665.member, _e2665.member_1, _e2665.member_2);
+}
+
+float lightbvh_pmf_cell(vec3 center_1, vec3 half_1, vec3 n_3, uint light_1, uint instance_1) {
+    LightbvhType30_ queries_3 = LightbvhType30_(LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), uint[2](0u, 0u));
+    float results_3 = 0.0;
+    float v0_3[8] = float[8](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    uint v1_3 = 0u;
+    uint v2_3 = 0u;
+    bool v3_3 = false;
+    uint v4_3 = 0u;
+    uint v5_3 = 0u;
+    uint v6_3 = 0u;
+    bool v7_3 = false;
+    bool v8_3 = false;
+    LightbvhType24_ v9_3 = LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u));
+    uint v10_3 = 0u;
+    uint v11_3 = 0u;
+    uint v12_3 = 0u;
+    uint v13_3 = 0u;
+    bool v14_3 = false;
+    uint v15_3 = 0u;
+    LightbvhType23_ v16_3 = LightbvhType23_(0u, 0u);
+    uint v17_3 = 0u;
+    uint v18_3 = 0u;
+    uint v19_3 = 0u;
+    LightbvhType23_ v20_3 = LightbvhType23_(0u, 0u);
+    uint v21_3 = 0u;
+    uint v22_3 = 0u;
+    LightbvhType23_ v23_3 = LightbvhType23_(0u, 0u);
+    uint v24_3 = 0u;
+    bool v25_3 = false;
+    bool v26_3 = false;
+    LightbvhType23_ v27_3 = LightbvhType23_(0u, 0u);
+    bool v28_3 = false;
+    LightbvhType24_ v29_3 = LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u));
+    bool v30_3 = false;
+    LightbvhType31_ v31_3 = LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false);
+    bool v32_3 = false;
+    LightbvhType23_ v33_3 = LightbvhType23_(0u, 0u);
+    LightbvhType23_ v34_3 = LightbvhType23_(0u, 0u);
+    LightbvhType23_ v35_3 = LightbvhType23_(0u, 0u);
+    LightbvhType23_ v36_3 = LightbvhType23_(0u, 0u);
+    LightbvhType23_ v37_3 = LightbvhType23_(0u, 0u);
+    bool v38_3 = false;
+    uint v39_3 = 0u;
+    uint v40_3 = 0u;
+    uint v41_3 = 0u;
+    uint v42_3 = 0u;
+    int v43_3 = 0;
+    uint v44_3 = 0u;
+    bool v45_3 = false;
+    LightbvhType31_ v46_3 = LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false);
+    uint v47_3 = 0u;
+    uint v48_3 = 0u;
+    LightbvhType31_ v49_3 = LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false);
+    float v50_3 = 0.0;
+    float v51_3 = 0.0;
+    float v52_3 = 0.0;
+    float v53_3 = 0.0;
+    LightbvhType31_ v54_3 = LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false);
+    bool v55_3 = false;
+    LightbvhType31_ v56_3 = LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false);
+    bool v57_3 = false;
+    bool v58_3 = false;
+    LightbvhType31_ v59_3 = LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false);
+    LightbvhType31_ v60_3 = LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false);
+    LightbvhType31_ v61_3 = LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false);
+    LightbvhType31_ v62_3 = LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false);
+    float v63_3 = 0.0;
+    uint v64_3 = 0u;
+    uint v65_3 = 0u;
+    bool v66_3 = false;
+    uint v67_3 = 0u;
+    int v68_3 = 0;
+    uint v69_3 = 0u;
+    int v70_3 = 0;
+    uint v71_3 = 0u;
+    uint v72_3 = 0u;
+    uint v73_3 = 0u;
+    uint v74_3 = 0u;
+    bool v75_3 = false;
+    uint v76_3 = 0u;
+    int v77_3 = 0;
+    uint v78_3 = 0u;
+    int v79_3 = 0;
+    uint v80_3 = 0u;
+    uint v81_3 = 0u;
+    uint v82_3 = 0u;
+    uint v83_3 = 0u;
+    bool v84_3 = false;
+    bool v85_3 = false;
+    bool v86_3 = false;
+    bool v87_3 = false;
+    float v88_3 = 0.0;
+    queries_3 = LightbvhType30_(LightbvhType29_(float[3](center_1.x, center_1.y, center_1.z), float[3](half_1.x, half_1.y, half_1.z), float[3](n_3.x, n_3.y, n_3.z)), uint[2](light_1, instance_1));
+    do {
+        uint _e142 = uint(lightbvh_nodes.list.length());
+        uint _e145 = uint(lightbvh_instances.list.length());
+        uint _e148 = uint(lightbvh_trails.list.length());
+        uint _e151 = lightbvh_tree.top;
+        uint _e154 = lightbvh_tree.root;
+        uint _e157 = lightbvh_tree.above;
+        uint _e160 = lightbvh_tree.places;
+        uint _e163 = lightbvh_tree.parts;
+        uint _e166 = lightbvh_tree.trail_words;
+        uint _e169 = lightbvh_tree.live;
+        uint _e172 = lightbvh_tree.lights;
+        uint _e175 = lightbvh_tree.depth;
+        LightbvhType30_ _e177 = queries_3;
+        bool _e183 = (_e169 > 0u);
+        uint _e184 = (_e183 ? _e177.member_1[1] : 4294967295u);
+        bool _e185 = (_e184 < _e145);
+        v2_3 = 0u;
+        v3_3 = true;
+        if (_e185) {
+            v1_3 = 0u;
+            if (_e183) {
+                uint _e188 = lightbvh_instances.list[_e184].first;
+                uint _e192 = lightbvh_instances.list[_e184].first_light;
+                v1_3 = ((_e177.member_1[0] - _e188) + _e192);
+            }
+            uint _e195 = v1_3;
+            v2_3 = _e195;
+            v3_3 = (_e183 ? false : true);
+        }
+        uint _e198 = v2_3;
+        bool _e200 = v3_3;
+        uint _e201 = (_e200 ? _e177.member_1[0] : _e198);
+        uint _e202 = (_e201 * _e166);
+        v4_3 = 0u;
+        if ((_e202 < _e148)) {
+            uint _e205 = lightbvh_trails.list[_e202];
+            v4_3 = _e205;
+        }
+        uint _e207 = v4_3;
+        v6_3 = 0u;
+        v7_3 = true;
+        if ((_e166 == 2u)) {
+            uint _e209 = (_e202 + 1u);
+            bool _e210 = (_e209 < _e148);
+            v5_3 = 0u;
+            if (_e210) {
+                uint _e212 = lightbvh_trails.list[_e209];
+                v5_3 = _e212;
+            }
+            uint _e214 = v5_3;
+            v6_3 = _e214;
+            v7_3 = (_e210 ? false : true);
+        }
+        uint _e217 = v6_3;
+        bool _e219 = v7_3;
+        uint _e220 = (_e219 ? 0u : _e217);
+        v8_3 = false;
+        v9_3 = LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u));
+        if (_e185) {
+            uint _e227 = (_e160 + _e184);
+            v10_3 = 4294967295u;
+            if ((_e227 < _e148)) {
+                uint _e230 = lightbvh_trails.list[_e227];
+                v10_3 = _e230;
+            }
+            uint _e232 = v10_3;
+            v13_3 = 0u;
+            v14_3 = true;
+            if ((_e232 != 4294967295u)) {
+                bool _e234 = (_e232 >= 2147483648u);
+                v12_3 = 0u;
+                if (_e234) {
+                    uint _e238 = (_e163 + ((_e232 - 2147483648u) + (_e207 & 7u)));
+                    v11_3 = 4294967295u;
+                    if ((_e238 < _e148)) {
+                        uint _e241 = lightbvh_trails.list[_e238];
+                        v11_3 = _e241;
+                    }
+                    uint _e243 = v11_3;
+                    v12_3 = _e243;
+                }
+                uint _e245 = v12_3;
+                v13_3 = _e245;
+                v14_3 = (_e234 ? false : true);
+            }
+            uint _e248 = v13_3;
+            bool _e250 = v14_3;
+            v15_3 = 0u;
+            v16_3 = LightbvhType23_(0u, 0u);
+            v17_3 = (_e250 ? _e232 : _e248);
+            bool loop_init_9 = true;
+            while(true) {
+                if (!loop_init_9) {
+                    v15_3 = v22_3;
+                    v16_3 = v23_3;
+                    v17_3 = v24_3;
+                    v26_3 = false;
+                    if (!(v25_3)) {
+                        break;
+                    }
+                }
+                loop_init_9 = false;
+                uint _e253 = v15_3;
+                LightbvhType23_ _e255 = v16_3;
+                uint _e257 = v17_3;
+                v27_3 = _e255;
+                v22_3 = 0u;
+                v23_3 = LightbvhType23_(0u, 0u);
+                v24_3 = 0u;
+                v25_3 = false;
+                if ((_e257 < 2147483648u)) {
+                    bool _e259 = (_e253 < 20u);
+                    v19_3 = 0u;
+                    v20_3 = LightbvhType23_(0u, 0u);
+                    v21_3 = 0u;
+                    if (_e259) {
+                        uint _e278 = (_e157 + (_e257 >> 3u));
+                        v18_3 = 4294967295u;
+                        if ((_e278 < _e148)) {
+                            uint _e281 = lightbvh_trails.list[_e278];
+                            v18_3 = _e281;
+                        }
+                        uint _e283 = v18_3;
+                        v19_3 = (_e253 + 1u);
+                        v20_3 = LightbvhType23_((((_e255.member << 3u) | ((_e257 & 7u) & 7u)) & 1073741823u), (((_e255.member_1 << 3u) | ((_e255.member >> 27u) & 7u)) & 1073741823u));
+                        v21_3 = _e283;
+                    }
+                    uint _e286 = v19_3;
+                    LightbvhType23_ _e288 = v20_3;
+                    uint _e290 = v21_3;
+                    v22_3 = _e286;
+                    v23_3 = _e288;
+                    v24_3 = _e290;
+                    v25_3 = _e259;
+                }
+                uint _e292 = v22_3;
+                LightbvhType23_ _e294 = v23_3;
+                uint _e296 = v24_3;
+                bool _e298 = v25_3;
+                continue;
+            }
+            bool _e301 = v26_3;
+            if (_e301) {
+                break;
+            }
+            LightbvhType23_ _e304 = v27_3;
+            v8_3 = _e301;
+            v9_3 = LightbvhType24_(_e304, LightbvhType23_(_e207, _e220));
+        }
+        bool _e222 = v8_3;
+        LightbvhType24_ _e224 = v9_3;
+        v28_3 = _e222;
+        v29_3 = _e224;
+        if (_e185) {
+        } else {
+            v28_3 = false;
+            v29_3 = LightbvhType24_(LightbvhType23_(_e207, _e220), LightbvhType23_(0u, 0u));
+        }
+        bool _e307 = v28_3;
+        LightbvhType24_ _e309 = v29_3;
+        bool _e311 = (_e175 == 0u);
+        LightbvhType31_ _e312 = LightbvhType31_(_e309, LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 1.0), 0u, (_e154 + _e151), 4294967295u, 4294967295u, 0u, 4194304u, 0u, _e177.member, _e175, _e311, true);
+        uint _e315 = (uint(21) - uint(findMSB(4128767u)));
+        uint _e317 = ((_e315 < 22u) ? _e315 : 22u);
+        uint _e318 = (_e317 & 31u);
+        LightbvhType31_ _e336 = LightbvhType31_(_e312.member, LightbvhType23_((4227858432u << _e318), 0u), _e312.member_2, _e312.member_3, _e312.member_4, _e312.member_5, _e312.member_6, _e312.member_7, _e312.member_8, _e312.member_9, _e312.member_10, _e312.member_11, _e312.member_12, _e312.member_13);
+        LightbvhType31_ _e353 = LightbvhType31_(_e336.member, _e336.member_1, _e336.member_2, _e336.member_3, _e336.member_4, _e336.member_5, _e336.member_6, _e336.member_7, (4128768u << _e318), _e336.member_9, _e336.member_10, _e336.member_11, _e336.member_12, _e336.member_13);
+        v30_3 = _e307;
+        v31_3 = LightbvhType31_(_e353.member, _e353.member_1, _e353.member_2, _e353.member_3, _e353.member_4, _e353.member_5, _e353.member_6, _e353.member_7, _e353.member_8, _e317, _e353.member_10, _e353.member_11, _e353.member_12, _e353.member_13);
+        v32_3 = _e311;
+        bool loop_init_10 = true;
+        while(true) {
+            if (!loop_init_10) {
+                v30_3 = v55_3;
+                v31_3 = v56_3;
+                v32_3 = v57_3;
+                v58_3 = v55_3;
+                if (!((v32_3 ? false : true))) {
+                    break;
+                }
+            }
+            loop_init_10 = false;
+            bool _e370 = v30_3;
+            LightbvhType31_ _e372 = v31_3;
+            bool _e374 = v32_3;
+            v59_3 = _e372;
+            v60_3 = _e372;
+            v61_3 = _e372;
+            v62_3 = _e372;
+            v55_3 = _e370;
+            v56_3 = LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false);
+            v57_3 = false;
+            if (_e374) {
+            } else {
+                bool _e376 = (_e372.member_4 < _e142);
+                uint _e377 = (_e376 ? _e372.member_4 : 0u);
+                if ((_e377 < _e142)) {
+                } else {
+                    v58_3 = true;
+                    break;
+                }
+                uint _e409 = lightbvh_nodes.list[_e377][0u][3u];
+                int _e412 = (int((_e409 & 255u)) - 127);
+                float _e422 = uintBitsToFloat((floatBitsToUint(_e372.member_10.member_1[0]) & 2147483647u));
+                float _e425 = uintBitsToFloat((floatBitsToUint(_e372.member_10.member_1[1]) & 2147483647u));
+                float _e428 = uintBitsToFloat((floatBitsToUint(_e372.member_10.member_1[2]) & 2147483647u));
+                float _e430 = ((_e422 > _e425) ? _e422 : _e425);
+                int _e438 = (int(((floatBitsToUint(((_e430 > _e428) ? _e430 : _e428)) >> uint(23)) & 255u)) - 127);
+                int _e440 = ((_e438 > _e412) ? _e438 : _e412);
+                float _e446 = (1.0 - (((_e372.member_10.member_2[0] * _e372.member_10.member_2[0]) + (_e372.member_10.member_2[1] * _e372.member_10.member_2[1])) + (_e372.member_10.member_2[2] * _e372.member_10.member_2[2])));
+                float _e448 = ((_e446 > 3.8146973e-6) ? _e446 : 3.8146973e-6);
+                float _e453 = uintBitsToFloat((1595932665u - (floatBitsToUint(_e448) >> uint(1))));
+                float _e460 = (0.5 * (_e448 * (_e453 * (0.70395225 * (2.3892446 - (_e448 * (_e453 * _e453)))))));
+                float _e462 = (0.0001 + _e460);
+                uint _e466 = lightbvh_nodes.list[_e377][0u][0u];
+                uint _e471 = lightbvh_nodes.list[_e377][0u][1u];
+                uint _e476 = lightbvh_nodes.list[_e377][0u][2u];
+                float _e478 = (uintBitsToFloat(_e466) - _e372.member_10.member[0]);
+                float _e479 = (uintBitsToFloat(_e471) - _e372.member_10.member[1]);
+                float _e480 = (uintBitsToFloat(_e476) - _e372.member_10.member[2]);
+                float _e483 = uintBitsToFloat((floatBitsToUint(_e478) & 2147483647u));
+                float _e486 = uintBitsToFloat((floatBitsToUint(_e479) & 2147483647u));
+                float _e489 = uintBitsToFloat((floatBitsToUint(_e480) & 2147483647u));
+                float _e491 = ((_e483 > _e486) ? _e483 : _e486);
+                int _e499 = (int(((floatBitsToUint(((_e491 > _e489) ? _e491 : _e489)) >> uint(23)) & 255u)) - 127);
+                int _e501 = ((_e499 > _e440) ? _e499 : _e440);
+                int _e502 = (_e412 - _e501);
+                int _e504 = ((_e502 < -40) ? -40 : _e502);
+                int _e505 = -(_e501);
+                int _e507 = ((_e505 < -126) ? -126 : _e505);
+                float _e514 = uintBitsToFloat((uint((((_e507 > 127) ? 127 : _e507) + 127)) << uint(23)));
+                int _e519 = ((_e504 < -126) ? -126 : _e504);
+                float _e526 = uintBitsToFloat((uint((((_e519 > 127) ? 127 : _e519) + 127)) << uint(23)));
+                float _e527 = (_e372.member_10.member_1[0] * _e514);
+                float _e528 = (_e372.member_10.member_1[1] * _e514);
+                float _e529 = (_e372.member_10.member_1[2] * _e514);
+                float _e532 = uintBitsToFloat((floatBitsToUint(_e372.member_10.member_2[0]) & 2147483647u));
+                float _e535 = uintBitsToFloat((floatBitsToUint(_e372.member_10.member_2[1]) & 2147483647u));
+                float _e538 = uintBitsToFloat((floatBitsToUint(_e372.member_10.member_2[2]) & 2147483647u));
+                float _e543 = (((_e527 * _e532) + (_e528 * _e535)) + (_e529 * _e538));
+                float _e550 = ((0.22222222 * (((_e527 * _e527) + (_e528 * _e528)) + (_e529 * _e529))) + 8.881784e-16);
+                float _e552 = (_e526 * 4.656613e-10);
+                float _e555 = (2.0 * 8.0);
+                float _e556 = (_e532 * _e555);
+                float _e557 = (_e535 * _e555);
+                float _e558 = (_e538 * _e555);
+                v0_3 = float[8](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+                v33_3 = LightbvhType23_(0u, 8u);
+                bool loop_init_11 = true;
+                while(true) {
+                    if (!loop_init_11) {
+                        v33_3 = v36_3;
+                        v38_3 = _e370;
+                        if (!((int(v37_3.member) != 0))) {
+                            break;
+                        }
+                    }
+                    loop_init_11 = false;
+                    LightbvhType23_ _e565 = v33_3;
+                    bool _e568 = (_e565.member < _e565.member_1);
+                    v34_3 = LightbvhType23_(0u, 0u);
+                    v35_3 = LightbvhType23_(0u, 0u);
+                    if (_e568) {
+                        v34_3 = LightbvhType23_((_e565.member + 1u), _e565.member_1);
+                        v35_3 = LightbvhType23_(1u, _e565.member);
+                    }
+                    LightbvhType23_ _e570 = v34_3;
+                    LightbvhType23_ _e572 = v35_3;
+                    v36_3 = _e570;
+                    v37_3 = _e572;
+                    if (_e568) {
+                    } else {
+                        v36_3 = _e565;
+                        v37_3 = LightbvhType23_(0u, LightbvhType23_(0u, 0u).member_1);
+                    }
+                    LightbvhType23_ _e582 = v36_3;
+                    LightbvhType23_ _e584 = v37_3;
+                    bool _e588 = (int(_e584.member) != 0);
+                    if (_e588) {
+                        bool _e589 = (_e584.member_1 < 8u);
+                        if (_e589) {
+                        } else {
+                            v38_3 = true;
+                            break;
+                        }
+                        uint _e593 = lightbvh_nodes.list[_e377][1u][_e584.member_1];
+                        if (_e589) {
+                        } else {
+                            v38_3 = true;
+                            break;
+                        }
+                        uint _e597 = lightbvh_nodes.list[_e377][2u][_e584.member_1];
+                        if (_e589) {
+                        } else {
+                            v38_3 = true;
+                            break;
+                        }
+                        uint _e601 = lightbvh_nodes.list[_e377][3u][_e584.member_1];
+                        if (_e589) {
+                        } else {
+                            v38_3 = true;
+                            break;
+                        }
+                        uint _e605 = lightbvh_nodes.list[_e377][4u][_e584.member_1];
+                        float _e621 = ((_e478 * _e514) + (float(int(_e593)) * _e552));
+                        float _e622 = ((_e479 * _e514) + (float(int((_e593 << 15u))) * _e552));
+                        float _e623 = ((_e480 * _e514) + (float(int(_e597)) * _e552));
+                        float _e628 = uintBitsToFloat((((_e605 << 20u) & 267386880u) + (floatBitsToUint(_e526) + 4043309056u)));
+                        float _e635 = float(int(_e601));
+                        float _e639 = float(int((_e601 << 8u)));
+                        float _e643 = float(int((_e601 << 16u)));
+                        float _e647 = (float(int((_e601 & 255u))) * 0.003921569);
+                        float _e664 = (_e628 * _e628);
+                        float _e665 = (1.0 + (float(int((_e597 << 15u))) * 4.656613e-10));
+                        float _e666 = (_e664 + _e550);
+                        float _e669 = ((_e664 * (_e665 * _e665)) + _e550);
+                        float _e674 = uintBitsToFloat((1595932665u - (floatBitsToUint(_e666) >> uint(1))));
+                        float _e679 = (_e674 * (0.70395225 * (2.3892446 - (_e666 * (_e674 * _e674)))));
+                        float _e680 = (_e666 * _e679);
+                        float _e685 = uintBitsToFloat((1595932665u - (floatBitsToUint(_e669) >> uint(1))));
+                        float _e693 = (((_e669 * (_e685 * (0.70395225 * (2.3892446 - (_e669 * (_e685 * _e685)))))) * _e679) - 1.0);
+                        float _e706 = (uintBitsToFloat((floatBitsToUint(_e621) & 2147483647u)) - _e527);
+                        float _e707 = (uintBitsToFloat((floatBitsToUint(_e622) & 2147483647u)) - _e528);
+                        float _e708 = (uintBitsToFloat((floatBitsToUint(_e623) & 2147483647u)) - _e529);
+                        float _e710 = ((_e706 > 0.0) ? _e706 : 0.0);
+                        float _e712 = ((_e707 > 0.0) ? _e707 : 0.0);
+                        float _e714 = ((_e708 > 0.0) ? _e708 : 0.0);
+                        float _e715 = (_e680 * _e680);
+                        float _e721 = ((((_e621 * _e621) + (_e622 * _e622)) + (_e623 * _e623)) + 8.881784e-16);
+                        float _e731 = (_e721 + (1.25 * _e715));
+                        float _e736 = uintBitsToFloat((1595932665u - (floatBitsToUint(_e731) >> uint(1))));
+                        float _e741 = (_e736 * (0.70395225 * (2.3892446 - (_e731 * (_e736 * _e736)))));
+                        float _e742 = (_e680 * _e741);
+                        float _e747 = ((((_e372.member_10.member_2[0] * 4.656613e-10) * _e635) + ((_e372.member_10.member_2[1] * 4.656613e-10) * _e639)) + ((_e372.member_10.member_2[2] * 4.656613e-10) * _e643));
+                        float _e752 = ((0.03162278 + _e460) + (_e742 * (1.0 + (_e693 * (_e747 * _e747)))));
+                        float _e758 = (((((_e372.member_10.member_2[0] + _e372.member_10.member_2[0]) * _e621) + ((_e372.member_10.member_2[1] + _e372.member_10.member_2[1]) * _e622)) + ((_e372.member_10.member_2[2] + _e372.member_10.member_2[2]) * _e623)) * _e741);
+                        float _e760 = (_e758 + (((((((_e556 + _e557) + _e558) + ((((_e556 * 4.656613e-10) * float(int(_e605))) + ((_e557 * 4.656613e-10) * float(int((_e605 << 8u))))) + ((_e558 * 4.656613e-10) * float(int((_e605 << 16u)))))) * _e628) + (_e543 + _e543)) * _e679) * _e742));
+                        float _e762 = ((_e760 > _e462) ? _e760 : _e462);
+                        float _e768 = (uintBitsToFloat((floatBitsToUint(_e758) & 2147483647u)) + _e752);
+                        float _e774 = (1.0 + _e693);
+                        float _e780 = ((((_e635 * _e621) + (_e639 * _e622)) + (_e643 * _e623)) * (-2.0 * 4.656613e-10));
+                        float _e783 = (_e680 * ((_e774 > _e647) ? _e774 : _e647));
+                        float _e785 = (_e721 - (2.5 * _e715));
+                        float _e787 = (0.25 * (_e780 * _e780));
+                        float _e793 = ((((_e785 > _e787) ? _e785 : _e787) + 8.881784e-16) + (1.25 * (_e783 * _e783)));
+                        float _e798 = uintBitsToFloat((1595932665u - (floatBitsToUint(_e793) >> uint(1))));
+                        float _e803 = (_e798 * (0.70395225 * (2.3892446 - (_e793 * (_e798 * _e798)))));
+                        float _e805 = ((_e680 * _e803) * _e774);
+                        float _e809 = ((0.03162278 + _e805) + (_e647 * (0.5 - _e805)));
+                        float _e810 = (_e780 * _e803);
+                        float _e814 = (uintBitsToFloat((floatBitsToUint(_e810) & 2147483647u)) + _e809);
+                        float _e823 = ((_e768 * _e814) * (((((_e710 * _e710) + (_e712 * _e712)) + (_e714 * _e714)) + 8.881784e-16) + (0.5 * _e715)));
+                        float _e826 = uintBitsToFloat((2129859015u - floatBitsToUint(_e823)));
+                        if (_e589) {
+                        } else {
+                            v38_3 = true;
+                            break;
+                        }
+                        v0_3[_e584.member_1] = ((uintBitsToFloat(((_e597 & 2047u) << 19u)) * (((((_e758 > 0.0) ? _e758 : 0.0) * _e768) + (_e752 * ((_e762 < _e752) ? _e762 : _e752))) * ((((_e810 > 0.0) ? _e810 : 0.0) * _e814) + (_e809 * _e809)))) * (_e826 * (2.0 - (_e823 * _e826))));
+                    }
+                    continue;
+                }
+                bool _e834 = v38_3;
+                v58_3 = _e834;
+                if (_e834) {
+                    break;
+                }
+                float _e835[8] = v0_3;
+                bool _e852 = (_e372.member_7 < 20u);
+                v39_3 = 0u;
+                if (_e852) {
+                    bool _e875 = (_e372.member_7 < 10u);
+                    v41_3 = _e372.member_7;
+                    if (_e875) {
+                    } else {
+                        v41_3 = (_e372.member_7 - 10u);
+                    }
+                    uint _e878 = v41_3;
+                    v39_3 = (((_e875 ? _e372.member.member.member : _e372.member.member.member_1) >> (((_e878 * 3u) & 31u) & 31u)) & 7u);
+                }
+                uint _e854 = v39_3;
+                v42_3 = _e854;
+                if (_e852) {
+                } else {
+                    uint _e859 = (_e372.member_7 - 20u);
+                    bool _e860 = (_e859 < 10u);
+                    v40_3 = _e859;
+                    if (_e860) {
+                    } else {
+                        v40_3 = (_e372.member_7 - 30u);
+                    }
+                    uint _e863 = v40_3;
+                    v42_3 = (((_e860 ? _e372.member.member_1.member : _e372.member.member_1.member_1) >> (((_e863 * 3u) & 31u) & 31u)) & 7u);
+                }
+                uint _e887 = v42_3;
+                uint _e892 = (0u - ((_e835[1] > 0.0) ? 1u : 0u));
+                uint _e893 = (1u & _e892);
+                uint _e897 = (0u - ((_e835[2] > 0.0) ? 1u : 0u));
+                uint _e900 = (_e893 ^ ((2u ^ _e893) & _e897));
+                uint _e904 = (0u - ((_e835[3] > 0.0) ? 1u : 0u));
+                uint _e907 = (_e900 ^ ((3u ^ _e900) & _e904));
+                uint _e911 = (0u - ((_e835[4] > 0.0) ? 1u : 0u));
+                uint _e914 = (_e907 ^ ((4u ^ _e907) & _e911));
+                uint _e918 = (0u - ((_e835[5] > 0.0) ? 1u : 0u));
+                uint _e921 = (_e914 ^ ((5u ^ _e914) & _e918));
+                uint _e925 = (0u - ((_e835[6] > 0.0) ? 1u : 0u));
+                uint _e928 = (_e921 ^ ((6u ^ _e921) & _e925));
+                uint _e932 = (0u - ((_e835[7] > 0.0) ? 1u : 0u));
+                uint _e935 = (_e928 ^ ((7u ^ _e928) & _e932));
+                float _e938 = ((((0.0 + _e835[0]) + _e835[4]) + ((0.0 + _e835[2]) + _e835[6])) + (((0.0 + _e835[1]) + _e835[5]) + ((0.0 + _e835[3]) + _e835[7])));
+                bool _e939 = (_e938 > 0.0);
+                float _e943 = (_e939 ? _e938 : 1.0);
+                uint _e944 = floatBitsToUint(_e943);
+                float _e949 = uintBitsToFloat(((_e944 & 2147483648u) | (2129859015u - (_e944 & 2147483647u))));
+                float _e952 = (_e949 * (2.0 - (_e943 * _e949)));
+                float _e956 = ((float(int(_e372.member_8)) * 0.9999695) * (_e952 * (2.0 - (_e943 * _e952))));
+                v43_3 = 2147483647;
+                if (_e372.member_13) {
+                } else {
+                    v43_3 = int((_e372.member_1.member >> 10u));
+                }
+                int _e959 = v43_3;
+                int _e965 = int((floatBitsToUint(((_e835[0] * _e956) + 8388608.0)) & 8388607u));
+                int _e972 = (((_e965 > 1) ? _e965 : 1) & int((0u - ((_e835[0] > 0.0) ? 1u : 0u))));
+                uint _e973 = uint(_e972);
+                uint _e974 = (_e973 & 4294967295u);
+                int _e976 = int((_e372.member_13 ? _e887 : _e935));
+                uint _e980 = (0u - (((_e972 <= _e959) && (0 < _e976)) ? 1u : 0u));
+                uint _e981 = (_e973 & _e980);
+                int _e987 = int((floatBitsToUint(((_e835[1] * _e956) + 8388608.0)) & 8388607u));
+                int _e992 = (_e972 + (((_e987 > 1) ? _e987 : 1) & int(_e892)));
+                uint _e993 = uint(_e992);
+                uint _e996 = (_e974 ^ ((_e993 ^ _e974) & _e980));
+                uint _e1001 = (0u - (((_e992 <= _e959) && (1 < _e976)) ? 1u : 0u));
+                uint _e1004 = (_e981 ^ ((_e993 ^ _e981) & _e1001));
+                int _e1011 = int((floatBitsToUint(((_e835[2] * _e956) + 8388608.0)) & 8388607u));
+                int _e1016 = (_e992 + (((_e1011 > 1) ? _e1011 : 1) & int(_e897)));
+                uint _e1017 = uint(_e1016);
+                uint _e1020 = (_e996 ^ ((_e1017 ^ _e996) & _e1001));
+                uint _e1025 = (0u - (((_e1016 <= _e959) && (2 < _e976)) ? 1u : 0u));
+                uint _e1028 = (_e1004 ^ ((_e1017 ^ _e1004) & _e1025));
+                int _e1035 = int((floatBitsToUint(((_e835[3] * _e956) + 8388608.0)) & 8388607u));
+                int _e1040 = (_e1016 + (((_e1035 > 1) ? _e1035 : 1) & int(_e904)));
+                uint _e1041 = uint(_e1040);
+                uint _e1044 = (_e1020 ^ ((_e1041 ^ _e1020) & _e1025));
+                uint _e1049 = (0u - (((_e1040 <= _e959) && (3 < _e976)) ? 1u : 0u));
+                uint _e1052 = (_e1028 ^ ((_e1041 ^ _e1028) & _e1049));
+                int _e1059 = int((floatBitsToUint(((_e835[4] * _e956) + 8388608.0)) & 8388607u));
+                int _e1064 = (_e1040 + (((_e1059 > 1) ? _e1059 : 1) & int(_e911)));
+                uint _e1065 = uint(_e1064);
+                uint _e1068 = (_e1044 ^ ((_e1065 ^ _e1044) & _e1049));
+                uint _e1073 = (0u - (((_e1064 <= _e959) && (4 < _e976)) ? 1u : 0u));
+                uint _e1076 = (_e1052 ^ ((_e1065 ^ _e1052) & _e1073));
+                int _e1083 = int((floatBitsToUint(((_e835[5] * _e956) + 8388608.0)) & 8388607u));
+                int _e1088 = (_e1064 + (((_e1083 > 1) ? _e1083 : 1) & int(_e918)));
+                uint _e1089 = uint(_e1088);
+                uint _e1092 = (_e1068 ^ ((_e1089 ^ _e1068) & _e1073));
+                uint _e1097 = (0u - (((_e1088 <= _e959) && (5 < _e976)) ? 1u : 0u));
+                uint _e1100 = (_e1076 ^ ((_e1089 ^ _e1076) & _e1097));
+                int _e1107 = int((floatBitsToUint(((_e835[6] * _e956) + 8388608.0)) & 8388607u));
+                int _e1112 = (_e1088 + (((_e1107 > 1) ? _e1107 : 1) & int(_e925)));
+                uint _e1113 = uint(_e1112);
+                uint _e1116 = (_e1092 ^ ((_e1113 ^ _e1092) & _e1097));
+                uint _e1121 = (0u - (((_e1112 <= _e959) && (6 < _e976)) ? 1u : 0u));
+                uint _e1124 = (_e1100 ^ ((_e1113 ^ _e1100) & _e1121));
+                int _e1131 = int((floatBitsToUint(((_e835[7] * _e956) + 8388608.0)) & 8388607u));
+                int _e1136 = (_e1112 + (((_e1131 > 1) ? _e1131 : 1) & int(_e932)));
+                uint _e1137 = uint(_e1136);
+                uint _e1140 = (_e1116 ^ ((_e1137 ^ _e1116) & _e1121));
+                uint _e1145 = (0u - (((_e1136 <= _e959) && (7 < _e976)) ? 1u : 0u));
+                uint _e1148 = (_e1124 ^ ((_e1137 ^ _e1124) & _e1145));
+                uint _e1151 = (_e372.member_13 ? _e887 : ((((((((_e980 & 1u) + (_e1001 & 1u)) + (_e1025 & 1u)) + (_e1049 & 1u)) + (_e1073 & 1u)) + (_e1097 & 1u)) + (_e1121 & 1u)) + (_e1145 & 1u)));
+                bool _e1156 = (_e1151 < 8u);
+                bool _e1157 = ((_e939 && (_e1140 > _e1148)) && _e1156);
+                uint _e1158 = (_e1156 ? _e1151 : 0u);
+                v44_3 = 0u;
+                if (_e1157) {
+                    v44_3 = (((_e1151 == _e935) ? _e372.member_8 : _e1140) - _e1148);
+                }
+                uint _e1162 = v44_3;
+                bool _e1163 = (_e1158 < 8u);
+                if (_e1163) {
+                } else {
+                    v58_3 = true;
+                    break;
+                }
+                uint _e1167 = lightbvh_nodes.list[_e377][1u][_e1158];
+                uint _e1168 = (_e1167 & 3u);
+                if (_e1163) {
+                } else {
+                    v58_3 = true;
+                    break;
+                }
+                uint _e1172 = lightbvh_nodes.list[_e377][5u][_e1158];
+                bool _e1176 = ((_e376 && (_e1162 > 0u)) && (_e1162 <= _e372.member_8));
+                uint _e1177 = (_e1176 ? _e1162 : 1u);
+                uint _e1179 = ((_e1177 - 1u) & 4194303u);
+                uint _e1185 = (((_e1179 == 0u) ? 32u : (uint(31) - uint(findMSB(_e1179)))) - 10u);
+                uint _e1187 = ((_e1185 < 22u) ? _e1185 : 22u);
+                uint _e1199 = (_e1187 & 31u);
+                LightbvhType31_ _e1220 = LightbvhType31_(_e372.member, LightbvhType23_((((_e372.member_1.member - ((_e1157 ? _e1148 : 0u) << 10u)) << _e1199) | ((_e372.member_1.member_1 >> uint(1)) >> ((31u - _e1187) & 31u))), (_e372.member_1.member_1 << _e1199)), _e372.member_2, _e372.member_3, _e372.member_4, _e372.member_5, _e372.member_6, _e372.member_7, _e372.member_8, _e372.member_9, _e372.member_10, _e372.member_11, _e372.member_12, _e372.member_13);
+                LightbvhType31_ _e1237 = LightbvhType31_(_e1220.member, _e1220.member_1, _e1220.member_2, _e1220.member_3, _e1220.member_4, _e1220.member_5, _e1220.member_6, _e1220.member_7, (_e1177 << _e1199), _e1220.member_9, _e1220.member_10, _e1220.member_11, _e1220.member_12, _e1220.member_13);
+                LightbvhType31_ _e1254 = LightbvhType31_(_e1237.member, _e1237.member_1, _e1237.member_2, _e1237.member_3, _e1237.member_4, _e1237.member_5, _e1237.member_6, _e1237.member_7, _e1237.member_8, (_e372.member_9 + _e1187), _e1237.member_10, _e1237.member_11, _e1237.member_12, _e1237.member_13);
+                uint _e1255 = (_e372.member_7 + 1u);
+                v45_3 = true;
+                if ((_e1255 == 20u)) {
+                } else {
+                    v45_3 = (_e1255 == 40u);
+                }
+                bool _e1259 = v45_3;
+                uint _e1260 = (_e1172 & 134217727u);
+                uint _e1264 = (_e1172 >> (uint(findLSB(134217728u)) & 31u));
+                bool _e1268 = (_e1260 < _e145);
+                bool _e1269 = (((_e1176 && (_e1168 == 3u)) && _e852) && _e1268);
+                bool _e1273 = ((_e1176 && (_e1168 == 1u)) && !(_e1259));
+                LightbvhType31_ _e1291 = LightbvhType31_(_e1254.member, _e1254.member_1, _e1254.member_2, _e1254.member_3, _e1254.member_4, ((_e1176 && (_e1168 == 2u)) ? _e1172 : 4294967295u), _e1254.member_6, _e1254.member_7, _e1254.member_8, _e1254.member_9, _e1254.member_10, _e1254.member_11, _e1254.member_12, _e1254.member_13);
+                uint _e1293 = (_e372.member_11 - 1u);
+                LightbvhType31_ _e1308 = LightbvhType31_(_e1291.member, _e1291.member_1, _e1291.member_2, _e1291.member_3, _e1291.member_4, _e1291.member_5, _e1291.member_6, _e1291.member_7, _e1291.member_8, _e1291.member_9, _e1291.member_10, _e1293, _e1291.member_12, _e1291.member_13);
+                bool _e1312 = (!((_e1269 || _e1273)) || (_e1293 == 0u));
+                LightbvhType31_ _e1327 = LightbvhType31_(_e1308.member, _e1308.member_1, _e1308.member_2, _e1308.member_3, _e1308.member_4, _e1308.member_5, _e1308.member_6, _e1308.member_7, _e1308.member_8, _e1308.member_9, _e1308.member_10, _e1308.member_11, _e1312, _e1308.member_13);
+                v46_3 = LightbvhType31_(LightbvhType24_(LightbvhType23_(0u, 0u), LightbvhType23_(0u, 0u)), LightbvhType23_(0u, 0u), LightbvhType25_(0.0, 0.0), 0u, 0u, 0u, 0u, 0u, 0u, 0u, LightbvhType29_(float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), 0u, false, false);
+                if (_e1269) {
+                    if (_e1268) {
+                    } else {
+                        v58_3 = true;
+                        break;
+                    }
+                    LightbvhType31_ _e1380 = LightbvhType31_(_e1327.member, _e1327.member_1, _e1327.member_2, _e1327.member_3, _e1327.member_4, _e1327.member_5, _e1260, _e1327.member_7, _e1327.member_8, _e1327.member_9, _e1327.member_10, _e1327.member_11, _e1327.member_12, _e1327.member_13);
+                    uint _e1383 = lightbvh_instances.list[_e1260].root;
+                    LightbvhType31_ _e1398 = LightbvhType31_(_e1380.member, _e1380.member_1, _e1380.member_2, _e1380.member_3, _e1383, _e1380.member_5, _e1380.member_6, _e1380.member_7, _e1380.member_8, _e1380.member_9, _e1380.member_10, _e1380.member_11, _e1380.member_12, _e1380.member_13);
+                    bool _e1399 = (_e1383 == 4294967295u);
+                    v48_3 = 4294967295u;
+                    if (_e1399) {
+                        uint _e1402 = lightbvh_instances.list[_e1260].first_light;
+                        v48_3 = _e1402;
+                    }
+                    uint _e1404 = v48_3;
+                    LightbvhType31_ _e1419 = LightbvhType31_(_e1398.member, _e1398.member_1, _e1398.member_2, _e1398.member_3, _e1398.member_4, _e1404, _e1398.member_6, _e1398.member_7, _e1398.member_8, _e1398.member_9, _e1398.member_10, _e1398.member_11, _e1398.member_12, _e1398.member_13);
+                    bool _e1420 = (_e1312 || _e1399);
+                    LightbvhType31_ _e1435 = LightbvhType31_(_e1419.member, _e1419.member_1, _e1419.member_2, _e1419.member_3, _e1419.member_4, _e1419.member_5, _e1419.member_6, _e1419.member_7, _e1419.member_8, _e1419.member_9, _e1419.member_10, _e1419.member_11, _e1420, _e1419.member_13);
+                    LightbvhType31_ _e1450 = LightbvhType31_(_e1435.member, _e1435.member_1, _e1435.member_2, _e1435.member_3, _e1435.member_4, _e1435.member_5, _e1435.member_6, 20u, _e1435.member_8, _e1435.member_9, _e1435.member_10, _e1435.member_11, _e1435.member_12, _e1435.member_13);
+                    v49_3 = _e1450;
+                    if ((_e1264 > 0u)) {
+                        uint _e1453 = ((_e1383 < _e142) ? _e1383 : 0u);
+                        if ((_e1453 < _e142)) {
+                        } else {
+                            v58_3 = true;
+                            break;
+                        }
+                        uint _e1456 = ((_e1264 - 1u) % 8u);
+                        bool _e1457 = (_e1456 < 8u);
+                        if (_e1457) {
+                        } else {
+                            v58_3 = true;
+                            break;
+                        }
+                        uint _e1461 = lightbvh_nodes.list[_e1453][1u][_e1456];
+                        uint _e1462 = (_e1461 & 3u);
+                        if (_e1457) {
+                        } else {
+                            v58_3 = true;
+                            break;
+                        }
+                        uint _e1466 = lightbvh_nodes.list[_e1453][5u][_e1456];
+                        LightbvhType31_ _e1481 = LightbvhType31_(_e1450.member, _e1450.member_1, _e1450.member_2, _e1450.member_3, _e1466, _e1450.member_5, _e1450.member_6, _e1450.member_7, _e1450.member_8, _e1450.member_9, _e1450.member_10, _e1450.member_11, _e1450.member_12, _e1450.member_13);
+                        LightbvhType31_ _e1498 = LightbvhType31_(_e1481.member, _e1481.member_1, _e1481.member_2, _e1481.member_3, _e1481.member_4, ((_e1462 == 2u) ? _e1466 : 4294967295u), _e1481.member_6, _e1481.member_7, _e1481.member_8, _e1481.member_9, _e1481.member_10, _e1481.member_11, _e1481.member_12, _e1481.member_13);
+                        LightbvhType31_ _e1515 = LightbvhType31_(_e1498.member, _e1498.member_1, _e1498.member_2, _e1498.member_3, _e1498.member_4, _e1498.member_5, _e1498.member_6, _e1498.member_7, _e1498.member_8, _e1498.member_9, _e1498.member_10, _e1498.member_11, (_e1420 || (_e1462 != 1u)), _e1498.member_13);
+                        v49_3 = LightbvhType31_(_e1515.member, _e1515.member_1, _e1515.member_2, _e1515.member_3, _e1515.member_4, _e1515.member_5, _e1515.member_6, 21u, _e1515.member_8, _e1515.member_9, _e1515.member_10, _e1515.member_11, _e1515.member_12, _e1515.member_13);
+                    }
+                    LightbvhType31_ _e1532 = v49_3;
+                    float _e1541 = lightbvh_instances.list[_e1260].translation[0u];
+                    float _e1545 = lightbvh_instances.list[_e1260].translation[1u];
+                    float _e1549 = lightbvh_instances.list[_e1260].translation[2u];
+                    float _e1550 = (_e177.member.member[0] - _e1541);
+                    float _e1551 = (_e177.member.member[1] - _e1545);
+                    float _e1552 = (_e177.member.member[2] - _e1549);
+                    float _e1557 = ((uintBitsToFloat((floatBitsToUint(_e1550) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1550);
+                    float _e1562 = ((uintBitsToFloat((floatBitsToUint(_e1551) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1551);
+                    float _e1567 = ((uintBitsToFloat((floatBitsToUint(_e1552) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1552);
+                    float _e1572 = lightbvh_instances.list[_e1260].inverse_[0u][0u];
+                    float _e1577 = lightbvh_instances.list[_e1260].inverse_[0u][1u];
+                    float _e1582 = lightbvh_instances.list[_e1260].inverse_[0u][2u];
+                    float _e1590 = lightbvh_instances.list[_e1260].inverse_[1u][0u];
+                    float _e1595 = lightbvh_instances.list[_e1260].inverse_[1u][1u];
+                    float _e1600 = lightbvh_instances.list[_e1260].inverse_[1u][2u];
+                    float _e1611 = lightbvh_instances.list[_e1260].inverse_[2u][0u];
+                    float _e1616 = lightbvh_instances.list[_e1260].inverse_[2u][1u];
+                    float _e1621 = lightbvh_instances.list[_e1260].inverse_[2u][2u];
+                    float _e1625 = (((_e1572 * _e1557) + (_e1590 * _e1562)) + (_e1611 * _e1567));
+                    float _e1626 = (((_e1577 * _e1557) + (_e1595 * _e1562)) + (_e1616 * _e1567));
+                    float _e1627 = (((_e1582 * _e1557) + (_e1600 * _e1562)) + (_e1621 * _e1567));
+                    float _e1635 = lightbvh_instances.list[_e1260].columns[0u][0u];
+                    float _e1640 = lightbvh_instances.list[_e1260].columns[0u][1u];
+                    float _e1645 = lightbvh_instances.list[_e1260].columns[0u][2u];
+                    float _e1650 = (((_e1635 * _e177.member.member_2[0]) + (_e1640 * _e177.member.member_2[1])) + (_e1645 * _e177.member.member_2[2]));
+                    float _e1655 = lightbvh_instances.list[_e1260].columns[1u][0u];
+                    float _e1660 = lightbvh_instances.list[_e1260].columns[1u][1u];
+                    float _e1665 = lightbvh_instances.list[_e1260].columns[1u][2u];
+                    float _e1670 = (((_e1655 * _e177.member.member_2[0]) + (_e1660 * _e177.member.member_2[1])) + (_e1665 * _e177.member.member_2[2]));
+                    float _e1675 = lightbvh_instances.list[_e1260].columns[2u][0u];
+                    float _e1680 = lightbvh_instances.list[_e1260].columns[2u][1u];
+                    float _e1685 = lightbvh_instances.list[_e1260].columns[2u][2u];
+                    float _e1690 = (((_e1675 * _e177.member.member_2[0]) + (_e1680 * _e177.member.member_2[1])) + (_e1685 * _e177.member.member_2[2]));
+                    float _e1695 = ((uintBitsToFloat((floatBitsToUint(_e1650) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1650);
+                    float _e1700 = ((uintBitsToFloat((floatBitsToUint(_e1670) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1670);
+                    float _e1705 = ((uintBitsToFloat((floatBitsToUint(_e1690) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1690);
+                    float _e1710 = (((_e1695 * _e1695) + (_e1700 * _e1700)) + (_e1705 * _e1705));
+                    float _e1711 = uintBitsToFloat(67108864u);
+                    v50_3 = 0.0;
+                    if ((_e1710 >= _e1711)) {
+                        float _e1717 = uintBitsToFloat((1597463007u - (floatBitsToUint(_e1710) >> uint(1))));
+                        float _e1718 = (0.5 * _e1710);
+                        float _e1722 = (_e1717 * (1.5 - ((_e1718 * _e1717) * _e1717)));
+                        v50_3 = (_e1722 * (1.5 - ((_e1718 * _e1722) * _e1722)));
+                    }
+                    float _e1728 = v50_3;
+                    float _e1729 = -(1.1529215e18);
+                    v51_3 = _e1729;
+                    if ((_e1625 < _e1729)) {
+                    } else {
+                        v51_3 = ((_e1625 > 1.1529215e18) ? 1.1529215e18 : _e1625);
+                    }
+                    float _e1734 = v51_3;
+                    v52_3 = _e1729;
+                    if ((_e1626 < _e1729)) {
+                    } else {
+                        v52_3 = ((_e1626 > 1.1529215e18) ? 1.1529215e18 : _e1626);
+                    }
+                    float _e1744 = v52_3;
+                    v53_3 = _e1729;
+                    if ((_e1627 < _e1729)) {
+                    } else {
+                        v53_3 = ((_e1627 > 1.1529215e18) ? 1.1529215e18 : _e1627);
+                    }
+                    float _e1754 = v53_3;
+                    float _e1761 = (_e1695 * _e1728);
+                    float _e1767 = (_e1700 * _e1728);
+                    float _e1773 = (_e1705 * _e1728);
+                    float _e1789 = ((uintBitsToFloat((floatBitsToUint(_e177.member.member_2[0]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e177.member.member_2[0]);
+                    float _e1794 = ((uintBitsToFloat((floatBitsToUint(_e177.member.member_2[1]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e177.member.member_2[1]);
+                    float _e1799 = ((uintBitsToFloat((floatBitsToUint(_e177.member.member_2[2]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e177.member.member_2[2]);
+                    float _e1804 = (((_e1789 * _e1789) + (_e1794 * _e1794)) + (_e1799 * _e1799));
+                    float _e1806 = ((_e1804 > _e1711) ? _e1804 : _e1711);
+                    float _e1811 = uintBitsToFloat((1597463007u - (floatBitsToUint(_e1806) >> uint(1))));
+                    float _e1812 = (0.5 * _e1806);
+                    float _e1816 = (_e1811 * (1.5 - ((_e1812 * _e1811) * _e1811)));
+                    float _e1821 = (_e1806 * (_e1816 * (1.5 - ((_e1812 * _e1816) * _e1816))));
+                    float _e1822 = (((uintBitsToFloat((floatBitsToUint(_e1761) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1761) * _e1821);
+                    float _e1823 = (((uintBitsToFloat((floatBitsToUint(_e1767) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1767) * _e1821);
+                    float _e1824 = (((uintBitsToFloat((floatBitsToUint(_e1773) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1773) * _e1821);
+                    float _e1850 = ((uintBitsToFloat((floatBitsToUint(_e177.member.member_1[0]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e177.member.member_1[0]);
+                    float _e1855 = ((uintBitsToFloat((floatBitsToUint(_e177.member.member_1[1]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e177.member.member_1[1]);
+                    float _e1860 = ((uintBitsToFloat((floatBitsToUint(_e177.member.member_1[2]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e177.member.member_1[2]);
+                    float _e1900 = (((uintBitsToFloat((floatBitsToUint(_e1572) & 2147483647u)) * _e1850) + (uintBitsToFloat((floatBitsToUint(_e1590) & 2147483647u)) * _e1855)) + (uintBitsToFloat((floatBitsToUint(_e1611) & 2147483647u)) * _e1860));
+                    float _e1901 = (((uintBitsToFloat((floatBitsToUint(_e1577) & 2147483647u)) * _e1850) + (uintBitsToFloat((floatBitsToUint(_e1595) & 2147483647u)) * _e1855)) + (uintBitsToFloat((floatBitsToUint(_e1616) & 2147483647u)) * _e1860));
+                    float _e1902 = (((uintBitsToFloat((floatBitsToUint(_e1582) & 2147483647u)) * _e1850) + (uintBitsToFloat((floatBitsToUint(_e1600) & 2147483647u)) * _e1855)) + (uintBitsToFloat((floatBitsToUint(_e1621) & 2147483647u)) * _e1860));
+                    float _e1904 = ((_e1900 < 1.1529215e18) ? _e1900 : 1.1529215e18);
+                    float _e1906 = ((_e1901 < 1.1529215e18) ? _e1901 : 1.1529215e18);
+                    float _e1908 = ((_e1902 < 1.1529215e18) ? _e1902 : 1.1529215e18);
+                    v46_3 = LightbvhType31_(_e1532.member, _e1532.member_1, _e1532.member_2, _e1532.member_3, _e1532.member_4, _e1532.member_5, _e1532.member_6, _e1532.member_7, _e1532.member_8, _e1532.member_9, LightbvhType29_(float[3](((uintBitsToFloat((floatBitsToUint(_e1734) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1734), ((uintBitsToFloat((floatBitsToUint(_e1744) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1744), ((uintBitsToFloat((floatBitsToUint(_e1754) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1754)), float[3](((uintBitsToFloat((floatBitsToUint(_e1904) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1904), ((uintBitsToFloat((floatBitsToUint(_e1906) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1906), ((uintBitsToFloat((floatBitsToUint(_e1908) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1908)), float[3](((uintBitsToFloat((floatBitsToUint(_e1822) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1822), ((uintBitsToFloat((floatBitsToUint(_e1823) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1823), ((uintBitsToFloat((floatBitsToUint(_e1824) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1824))), _e1532.member_11, _e1532.member_12, _e1532.member_13);
+                }
+                LightbvhType31_ _e1329 = v46_3;
+                v54_3 = _e1329;
+                if (_e1269) {
+                } else {
+                    v47_3 = _e372.member_4;
+                    if (_e1273) {
+                        v47_3 = (_e1172 + (_e852 ? _e151 : 0u));
+                    }
+                    uint _e1333 = v47_3;
+                    LightbvhType31_ _e1348 = LightbvhType31_(_e1327.member, _e1327.member_1, _e1327.member_2, _e1327.member_3, _e1333, _e1327.member_5, _e1327.member_6, _e1327.member_7, _e1327.member_8, _e1327.member_9, _e1327.member_10, _e1327.member_11, _e1327.member_12, _e1327.member_13);
+                    v54_3 = LightbvhType31_(_e1348.member, _e1348.member_1, _e1348.member_2, _e1348.member_3, _e1348.member_4, _e1348.member_5, _e1348.member_6, (_e372.member_7 + (_e1273 ? 1u : 0u)), _e1348.member_8, _e1348.member_9, _e1348.member_10, _e1348.member_11, _e1348.member_12, _e1348.member_13);
+                }
+                LightbvhType31_ _e1943 = v54_3;
+                v55_3 = _e834;
+                v56_3 = _e1943;
+                v57_3 = _e1943.member_12;
+            }
+            bool _e1946 = v55_3;
+            LightbvhType31_ _e1948 = v56_3;
+            bool _e1950 = v57_3;
+            continue;
+        }
+        bool _e1954 = v58_3;
+        if (_e1954) {
+            break;
+        }
+        LightbvhType31_ _e1956 = v59_3;
+        LightbvhType31_ _e1960 = v60_3;
+        v63_3 = 0.0;
+        if ((((_e1956.member_5 == _e201) && (_e1960.member_6 == _e184)) && (_e201 != 4294967295u))) {
+            LightbvhType31_ _e1967 = v61_3;
+            LightbvhType31_ _e1972 = v62_3;
+            int _e1978 = -(int((22u + ((_e1967.member_9 < 98u) ? _e1967.member_9 : 98u))));
+            int _e1980 = ((_e1978 < -126) ? -126 : _e1978);
+            v63_3 = (float(int(_e1972.member_8)) * uintBitsToFloat((uint((((_e1980 > 127) ? 127 : _e1980) + 127)) << uint(23))));
+        }
+        float _e1990 = v63_3;
+        v65_3 = 0u;
+        v66_3 = true;
+        if (_e183) {
+            v64_3 = 0u;
+            if (_e185) {
+                uint _e1993 = lightbvh_instances.list[_e184].count;
+                v64_3 = _e1993;
+            }
+            uint _e1995 = v64_3;
+            v65_3 = _e1995;
+            v66_3 = (_e185 ? false : true);
+        }
+        uint _e1998 = v65_3;
+        bool _e2000 = v66_3;
+        uint _e2005 = ((_e2000 ? _e172 : _e1998) & 2147483647u);
+        uint _e2010 = floatBitsToUint((float(65536) * uintBitsToFloat(880803840u)));
+        uint _e2011 = floatBitsToUint(float(int(((_e2005 > 0u) ? _e2005 : 1u))));
+        uint _e2016 = ((_e2010 >> uint(23)) & 255u);
+        uint _e2020 = (_e2010 & 8388607u);
+        uint _e2021 = (_e2020 | 8388608u);
+        uint _e2022 = (_e2011 & 8388607u);
+        uint _e2023 = (_e2022 | 8388608u);
+        bool _e2024 = (_e2021 < _e2023);
+        float _e2028 = uintBitsToFloat((_e2022 | 1065353216u));
+        uint _e2029 = floatBitsToUint(_e2028);
+        float _e2034 = uintBitsToFloat(((_e2029 & 2147483648u) | (2129859015u - (_e2029 & 2147483647u))));
+        float _e2037 = (_e2034 * (2.0 - (_e2028 * _e2034)));
+        float _e2040 = (_e2037 * (2.0 - (_e2028 * _e2037)));
+        float _e2044 = ((uintBitsToFloat((_e2020 | 1065353216u)) * _e2040) * (_e2024 ? 16777216.0 : 8388608.0));
+        float _e2045 = uintBitsToFloat(0u);
+        float _e2046 = uintBitsToFloat(1333788671u);
+        uint _e2051 = ((_e2044 > _e2046) ? 4294967295u : ((_e2044 < _e2045) ? 0u : uint(_e2044)));
+        int _e2057 = int(((_e2021 << uint(((_e2024 ? 24 : 23) & 31))) - (_e2051 * _e2023)));
+        float _e2062 = ((float((_e2057 >> uint(8))) * _e2040) * 3.0517578e-5);
+        float _e2063 = uintBitsToFloat(3472883712u);
+        float _e2064 = uintBitsToFloat(1325400063u);
+        int _e2071 = ((_e2062 == _e2062) ? ((_e2062 > _e2064) ? 2147483647 : ((_e2062 < _e2063) ? -2147483648 : int(_e2062))) : 0);
+        uint _e2073 = (_e2051 + uint(_e2071));
+        int _e2074 = int(_e2023);
+        int _e2076 = (_e2057 - (_e2071 * _e2074));
+        bool _e2077 = (_e2076 < 0);
+        v67_3 = _e2073;
+        if (_e2077) {
+            v67_3 = (_e2073 - 1u);
+        }
+        uint _e2080 = v67_3;
+        v68_3 = _e2076;
+        if (_e2077) {
+            v68_3 = (_e2076 + _e2074);
+        }
+        int _e2083 = v68_3;
+        bool _e2084 = (_e2083 >= _e2074);
+        v69_3 = _e2080;
+        if (_e2084) {
+            v69_3 = (_e2080 + 1u);
+        }
+        uint _e2087 = v69_3;
+        v70_3 = _e2083;
+        if (_e2084) {
+            v70_3 = (_e2083 - _e2074);
+        }
+        int _e2090 = v70_3;
+        v71_3 = _e2087;
+        if (((_e2090 * 2) > _e2074)) {
+            v71_3 = (_e2087 + 1u);
+        }
+        uint _e2095 = v71_3;
+        int _e2100 = ((int(_e2016) - int(((_e2011 >> uint(23)) & 255u))) + (_e2024 ? 126 : 127));
+        v74_3 = 0u;
+        v75_3 = true;
+        if ((_e2016 == 0u)) {
+        } else {
+            bool _e2102 = (_e2100 <= 0);
+            v73_3 = 0u;
+            if (_e2102) {
+            } else {
+                v72_3 = 2139095040u;
+                if ((_e2100 >= 255)) {
+                } else {
+                    v72_3 = ((uint(_e2100) << uint(23)) + (_e2095 & 8388607u));
+                }
+                uint _e2110 = v72_3;
+                v73_3 = _e2110;
+            }
+            uint _e2112 = v73_3;
+            v74_3 = _e2112;
+            v75_3 = _e2102;
+        }
+        uint _e2114 = v74_3;
+        bool _e2116 = v75_3;
+        uint _e2120 = (_e169 & 2147483647u);
+        uint _e2125 = floatBitsToUint(uintBitsToFloat((((_e2010 ^ _e2011) & 2147483648u) | (_e2116 ? 0u : _e2114))));
+        uint _e2126 = floatBitsToUint(float(int(((_e2120 > 0u) ? _e2120 : 1u))));
+        uint _e2131 = ((_e2125 >> uint(23)) & 255u);
+        uint _e2135 = (_e2125 & 8388607u);
+        uint _e2136 = (_e2135 | 8388608u);
+        uint _e2137 = (_e2126 & 8388607u);
+        uint _e2138 = (_e2137 | 8388608u);
+        bool _e2139 = (_e2136 < _e2138);
+        float _e2143 = uintBitsToFloat((_e2137 | 1065353216u));
+        uint _e2144 = floatBitsToUint(_e2143);
+        float _e2149 = uintBitsToFloat(((_e2144 & 2147483648u) | (2129859015u - (_e2144 & 2147483647u))));
+        float _e2152 = (_e2149 * (2.0 - (_e2143 * _e2149)));
+        float _e2155 = (_e2152 * (2.0 - (_e2143 * _e2152)));
+        float _e2159 = ((uintBitsToFloat((_e2135 | 1065353216u)) * _e2155) * (_e2139 ? 16777216.0 : 8388608.0));
+        uint _e2164 = ((_e2159 > _e2046) ? 4294967295u : ((_e2159 < _e2045) ? 0u : uint(_e2159)));
+        int _e2170 = int(((_e2136 << uint(((_e2139 ? 24 : 23) & 31))) - (_e2164 * _e2138)));
+        float _e2175 = ((float((_e2170 >> uint(8))) * _e2155) * 3.0517578e-5);
+        int _e2182 = ((_e2175 == _e2175) ? ((_e2175 > _e2064) ? 2147483647 : ((_e2175 < _e2063) ? -2147483648 : int(_e2175))) : 0);
+        uint _e2184 = (_e2164 + uint(_e2182));
+        int _e2185 = int(_e2138);
+        int _e2187 = (_e2170 - (_e2182 * _e2185));
+        bool _e2188 = (_e2187 < 0);
+        v76_3 = _e2184;
+        if (_e2188) {
+            v76_3 = (_e2184 - 1u);
+        }
+        uint _e2191 = v76_3;
+        v77_3 = _e2187;
+        if (_e2188) {
+            v77_3 = (_e2187 + _e2185);
+        }
+        int _e2194 = v77_3;
+        bool _e2195 = (_e2194 >= _e2185);
+        v78_3 = _e2191;
+        if (_e2195) {
+            v78_3 = (_e2191 + 1u);
+        }
+        uint _e2198 = v78_3;
+        v79_3 = _e2194;
+        if (_e2195) {
+            v79_3 = (_e2194 - _e2185);
+        }
+        int _e2201 = v79_3;
+        v80_3 = _e2198;
+        if (((_e2201 * 2) > _e2185)) {
+            v80_3 = (_e2198 + 1u);
+        }
+        uint _e2206 = v80_3;
+        int _e2211 = ((int(_e2131) - int(((_e2126 >> uint(23)) & 255u))) + (_e2139 ? 126 : 127));
+        v83_3 = 0u;
+        v84_3 = true;
+        if ((_e2131 == 0u)) {
+        } else {
+            bool _e2213 = (_e2211 <= 0);
+            v82_3 = 0u;
+            if (_e2213) {
+            } else {
+                v81_3 = 2139095040u;
+                if ((_e2211 >= 255)) {
+                } else {
+                    v81_3 = ((uint(_e2211) << uint(23)) + (_e2206 & 8388607u));
+                }
+                uint _e2221 = v81_3;
+                v82_3 = _e2221;
+            }
+            uint _e2223 = v82_3;
+            v83_3 = _e2223;
+            v84_3 = _e2213;
+        }
+        uint _e2225 = v83_3;
+        bool _e2227 = v84_3;
+        v85_3 = false;
+        if (_e183) {
+            v86_3 = false;
+            if (_e185) {
+                uint _e2236 = lightbvh_instances.list[_e184].first;
+                uint _e2240 = lightbvh_instances.list[_e184].count;
+                v86_3 = ((_e177.member_1[0] - _e2236) < _e2240);
+            }
+            bool _e2243 = v86_3;
+            v85_3 = _e2243;
+        }
+        bool _e2232 = v85_3;
+        v87_3 = _e2232;
+        if (_e183) {
+        } else {
+            v87_3 = (_e177.member_1[0] < _e172);
+        }
+        bool _e2245 = v87_3;
+        v88_3 = 0.0;
+        if (_e2245) {
+            v88_3 = (_e1990 + uintBitsToFloat((((_e2125 ^ _e2126) & 2147483648u) | (_e2227 ? 0u : _e2225))));
+        }
+        float _e2248 = v88_3;
+        results_3 = _e2248;
+        break;
+    } while(false);
+    float _e2339 = results_3;
+    return _e2339;
+}
+
+LightbvhLightPoint lightbvh_light_point(uint light_2, uint instance_2, vec2 numbers) {
+    LightbvhType19_ samples = LightbvhType19_(0u, 0u, 0.0);
+    float numbers_1[2] = float[2](0.0, 0.0);
+    LightbvhType38_ results_4 = LightbvhType38_(float[3](0.0, 0.0, 0.0), 0.0, float[3](0.0, 0.0, 0.0), 0u, float[3](0.0, 0.0, 0.0));
+    float v0_4 = 0.0;
+    float v1_4 = 0.0;
+    float v2_4 = 0.0;
+    float v3_4 = 0.0;
+    float v4_4 = 0.0;
+    float v5_4 = 0.0;
+    float v6_4 = 0.0;
+    float v7_4 = 0.0;
+    float v8_4 = 0.0;
+    float v9_4[3] = float[3](0.0, 0.0, 0.0);
+    float v10_4[3] = float[3](0.0, 0.0, 0.0);
+    float v11_4 = 0.0;
+    float v12_4 = 0.0;
+    float v13_4 = 0.0;
+    LightbvhLight v14_4 = LightbvhLight(float[3][3](float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), float[3](0.0, 0.0, 0.0), 0u, 0u);
+    LightbvhLight v15_4 = LightbvhLight(float[3][3](float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), float[3](0.0, 0.0, 0.0), 0u, 0u);
+    LightbvhLight v16_4 = LightbvhLight(float[3][3](float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), float[3](0.0, 0.0, 0.0), 0u, 0u);
+    uint v17_4 = 0u;
+    int v18_4 = 0;
+    int v19_4 = 0;
+    uint v20_4 = 0u;
+    uint v21_4 = 0u;
+    float v22_4 = 0.0;
+    uint v23_4 = 0u;
+    int v24_4 = 0;
+    uint v25_4 = 0u;
+    int v26_4 = 0;
+    uint v27_4 = 0u;
+    uint v28_4 = 0u;
+    uint v29_4 = 0u;
+    float v30_4 = 0.0;
+    float v31_4 = 0.0;
+    float v32_4[3] = float[3](0.0, 0.0, 0.0);
+    samples = LightbvhType19_(light_2, instance_2, 0.0);
     numbers_1 = float[2](numbers.x, numbers.y);
     do {
         uint _e77 = samples.member;
         uint _e80 = samples.member_1;
         uint _e82 = ((_e80 == 4294967295u) ? 0u : _e80);
-        v16_2 = LightbvhLight(float[3][3](float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), float[3](0.0, 0.0, 0.0), 4294967295u, 0u);
+        v16_4 = LightbvhLight(float[3][3](float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), float[3](0.0, 0.0, 0.0), 4294967295u, 0u);
         if ((_e82 < uint(lightbvh_instances.list.length()))) {
             LightbvhInstance _e86 = lightbvh_instances.list[_e82];
             uint _e88 = (_e77 - _e86.first);
             uint _e90 = (_e88 + _e86.first_light);
-            v15_2 = LightbvhLight(float[3][3](float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), float[3](0.0, 0.0, 0.0), 4294967295u, 0u);
+            v15_4 = LightbvhLight(float[3][3](float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), float[3](0.0, 0.0, 0.0), 4294967295u, 0u);
             if ((_e88 < _e86.count)) {
-                v14_2 = LightbvhLight(float[3][3](float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), float[3](0.0, 0.0, 0.0), 4294967295u, 0u);
+                v14_4 = LightbvhLight(float[3][3](float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0), float[3](0.0, 0.0, 0.0)), float[3](0.0, 0.0, 0.0), 4294967295u, 0u);
                 if ((_e90 < uint(lightbvh_lights.list.length()))) {
                     LightbvhLight _e96 = lightbvh_lights.list[_e90];
                     float _e115 = (_e86.columns[0][0] * _e96.p[0][0]);
@@ -2150,24 +4257,24 @@ LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, vec2 numb
                     float _e200 = (((((uintBitsToFloat((floatBitsToUint(_e116) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e116) + ((uintBitsToFloat((floatBitsToUint(_e128) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e128)) + ((uintBitsToFloat((floatBitsToUint(_e140) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e140)) + _e86.translation[1]);
                     float _e201 = (((((uintBitsToFloat((floatBitsToUint(_e117) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e117) + ((uintBitsToFloat((floatBitsToUint(_e129) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e129)) + ((uintBitsToFloat((floatBitsToUint(_e141) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e141)) + _e86.translation[2]);
                     float _e202 = -(1099511600000.0);
-                    v0_2 = _e202;
+                    v0_4 = _e202;
                     if ((_e199 < _e202)) {
                     } else {
-                        v0_2 = ((_e199 > 1099511600000.0) ? 1099511600000.0 : _e199);
+                        v0_4 = ((_e199 > 1099511600000.0) ? 1099511600000.0 : _e199);
                     }
-                    float _e207 = v0_2;
-                    v1_2 = _e202;
+                    float _e207 = v0_4;
+                    v1_4 = _e202;
                     if ((_e200 < _e202)) {
                     } else {
-                        v1_2 = ((_e200 > 1099511600000.0) ? 1099511600000.0 : _e200);
+                        v1_4 = ((_e200 > 1099511600000.0) ? 1099511600000.0 : _e200);
                     }
-                    float _e217 = v1_2;
-                    v2_2 = _e202;
+                    float _e217 = v1_4;
+                    v2_4 = _e202;
                     if ((_e201 < _e202)) {
                     } else {
-                        v2_2 = ((_e201 > 1099511600000.0) ? 1099511600000.0 : _e201);
+                        v2_4 = ((_e201 > 1099511600000.0) ? 1099511600000.0 : _e201);
                     }
-                    float _e227 = v2_2;
+                    float _e227 = v2_4;
                     float _e237 = (_e86.columns[0][0] * _e96.p[1][0]);
                     float _e238 = (_e86.columns[0][1] * _e96.p[1][0]);
                     float _e239 = (_e86.columns[0][2] * _e96.p[1][0]);
@@ -2180,24 +4287,24 @@ LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, vec2 numb
                     float _e297 = (((((uintBitsToFloat((floatBitsToUint(_e237) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e237) + ((uintBitsToFloat((floatBitsToUint(_e240) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e240)) + ((uintBitsToFloat((floatBitsToUint(_e243) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e243)) + _e86.translation[0]);
                     float _e298 = (((((uintBitsToFloat((floatBitsToUint(_e238) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e238) + ((uintBitsToFloat((floatBitsToUint(_e241) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e241)) + ((uintBitsToFloat((floatBitsToUint(_e244) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e244)) + _e86.translation[1]);
                     float _e299 = (((((uintBitsToFloat((floatBitsToUint(_e239) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e239) + ((uintBitsToFloat((floatBitsToUint(_e242) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e242)) + ((uintBitsToFloat((floatBitsToUint(_e245) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e245)) + _e86.translation[2]);
-                    v3_2 = _e202;
+                    v3_4 = _e202;
                     if ((_e297 < _e202)) {
                     } else {
-                        v3_2 = ((_e297 > 1099511600000.0) ? 1099511600000.0 : _e297);
+                        v3_4 = ((_e297 > 1099511600000.0) ? 1099511600000.0 : _e297);
                     }
-                    float _e304 = v3_2;
-                    v4_2 = _e202;
+                    float _e304 = v3_4;
+                    v4_4 = _e202;
                     if ((_e298 < _e202)) {
                     } else {
-                        v4_2 = ((_e298 > 1099511600000.0) ? 1099511600000.0 : _e298);
+                        v4_4 = ((_e298 > 1099511600000.0) ? 1099511600000.0 : _e298);
                     }
-                    float _e314 = v4_2;
-                    v5_2 = _e202;
+                    float _e314 = v4_4;
+                    v5_4 = _e202;
                     if ((_e299 < _e202)) {
                     } else {
-                        v5_2 = ((_e299 > 1099511600000.0) ? 1099511600000.0 : _e299);
+                        v5_4 = ((_e299 > 1099511600000.0) ? 1099511600000.0 : _e299);
                     }
-                    float _e324 = v5_2;
+                    float _e324 = v5_4;
                     float _e330[3] = float[3](((uintBitsToFloat((floatBitsToUint(_e304) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e304), ((uintBitsToFloat((floatBitsToUint(_e314) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e314), ((uintBitsToFloat((floatBitsToUint(_e324) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e324));
                     float _e334 = (_e86.columns[0][0] * _e96.p[2][0]);
                     float _e335 = (_e86.columns[0][1] * _e96.p[2][0]);
@@ -2211,36 +4318,36 @@ LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, vec2 numb
                     float _e394 = (((((uintBitsToFloat((floatBitsToUint(_e334) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e334) + ((uintBitsToFloat((floatBitsToUint(_e337) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e337)) + ((uintBitsToFloat((floatBitsToUint(_e340) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e340)) + _e86.translation[0]);
                     float _e395 = (((((uintBitsToFloat((floatBitsToUint(_e335) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e335) + ((uintBitsToFloat((floatBitsToUint(_e338) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e338)) + ((uintBitsToFloat((floatBitsToUint(_e341) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e341)) + _e86.translation[1]);
                     float _e396 = (((((uintBitsToFloat((floatBitsToUint(_e336) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e336) + ((uintBitsToFloat((floatBitsToUint(_e339) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e339)) + ((uintBitsToFloat((floatBitsToUint(_e342) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e342)) + _e86.translation[2]);
-                    v6_2 = _e202;
+                    v6_4 = _e202;
                     if ((_e394 < _e202)) {
                     } else {
-                        v6_2 = ((_e394 > 1099511600000.0) ? 1099511600000.0 : _e394);
+                        v6_4 = ((_e394 > 1099511600000.0) ? 1099511600000.0 : _e394);
                     }
-                    float _e401 = v6_2;
-                    v7_2 = _e202;
+                    float _e401 = v6_4;
+                    v7_4 = _e202;
                     if ((_e395 < _e202)) {
                     } else {
-                        v7_2 = ((_e395 > 1099511600000.0) ? 1099511600000.0 : _e395);
+                        v7_4 = ((_e395 > 1099511600000.0) ? 1099511600000.0 : _e395);
                     }
-                    float _e411 = v7_2;
-                    v8_2 = _e202;
+                    float _e411 = v7_4;
+                    v8_4 = _e202;
                     if ((_e396 < _e202)) {
                     } else {
-                        v8_2 = ((_e396 > 1099511600000.0) ? 1099511600000.0 : _e396);
+                        v8_4 = ((_e396 > 1099511600000.0) ? 1099511600000.0 : _e396);
                     }
-                    float _e421 = v8_2;
+                    float _e421 = v8_4;
                     float _e427[3] = float[3](((uintBitsToFloat((floatBitsToUint(_e401) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e401), ((uintBitsToFloat((floatBitsToUint(_e411) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e411), ((uintBitsToFloat((floatBitsToUint(_e421) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e421));
                     bool _e430 = ((_e86.mirrored & 1u) != 0u);
-                    v9_2 = _e330;
+                    v9_4 = _e330;
                     if (_e430) {
-                        v9_2 = _e427;
+                        v9_4 = _e427;
                     }
-                    float _e432[3] = v9_2;
-                    v10_2 = _e427;
+                    float _e432[3] = v9_4;
+                    v10_4 = _e427;
                     if (_e430) {
-                        v10_2 = _e330;
+                        v10_4 = _e330;
                     }
-                    float _e434[3] = v10_2;
+                    float _e434[3] = v10_4;
                     float _e436 = (_e96.p[1][0] - _e96.p[0][0]);
                     float _e437 = (_e96.p[1][1] - _e96.p[0][1]);
                     float _e438 = (_e96.p[1][2] - _e96.p[0][2]);
@@ -2275,35 +4382,35 @@ LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, vec2 numb
                     int _e530 = (int(((floatBitsToUint(((_e522 > _e520) ? _e522 : _e520)) >> uint(23)) & 255u)) - 127);
                     bool _e548 = (((((_e530 > -127) ? _e530 : -127) >= -100) && (_e486 > -127)) && ((((0.2126 * _e96.radiance[0]) + (0.7152 * _e96.radiance[1])) + (0.0722 * _e96.radiance[2])) > 0.0));
                     float _e551 = (_e96.radiance[0] * _e86.radiance[0]);
-                    v11_2 = 7.888609e-31;
+                    v11_4 = 7.888609e-31;
                     if ((_e551 < 7.888609e-31)) {
                     } else {
-                        v11_2 = ((_e551 > 1.2676506e30) ? 1.2676506e30 : _e551);
+                        v11_4 = ((_e551 > 1.2676506e30) ? 1.2676506e30 : _e551);
                     }
-                    float _e556 = v11_2;
+                    float _e556 = v11_4;
                     float _e564 = (_e96.radiance[1] * _e86.radiance[1]);
-                    v12_2 = 7.888609e-31;
+                    v12_4 = 7.888609e-31;
                     if ((_e564 < 7.888609e-31)) {
                     } else {
-                        v12_2 = ((_e564 > 1.2676506e30) ? 1.2676506e30 : _e564);
+                        v12_4 = ((_e564 > 1.2676506e30) ? 1.2676506e30 : _e564);
                     }
-                    float _e569 = v12_2;
+                    float _e569 = v12_4;
                     float _e577 = (_e96.radiance[2] * _e86.radiance[2]);
-                    v13_2 = 7.888609e-31;
+                    v13_4 = 7.888609e-31;
                     if ((_e577 < 7.888609e-31)) {
                     } else {
-                        v13_2 = ((_e577 > 1.2676506e30) ? 1.2676506e30 : _e577);
+                        v13_4 = ((_e577 > 1.2676506e30) ? 1.2676506e30 : _e577);
                     }
-                    float _e582 = v13_2;
-                    v14_2 = LightbvhLight(float[3][3](float[3](((uintBitsToFloat((floatBitsToUint(_e207) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e207), ((uintBitsToFloat((floatBitsToUint(_e217) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e217), ((uintBitsToFloat((floatBitsToUint(_e227) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e227)), _e432, _e434), float[3](((((_e96.radiance[0] > 0.0) && (_e86.radiance[0] > 0.0)) && _e548) ? _e556 : 0.0), ((((_e96.radiance[1] > 0.0) && (_e86.radiance[1] > 0.0)) && _e548) ? _e569 : 0.0), ((((_e96.radiance[2] > 0.0) && (_e86.radiance[2] > 0.0)) && _e548) ? _e582 : 0.0)), _e82, _e96.flags);
+                    float _e582 = v13_4;
+                    v14_4 = LightbvhLight(float[3][3](float[3](((uintBitsToFloat((floatBitsToUint(_e207) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e207), ((uintBitsToFloat((floatBitsToUint(_e217) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e217), ((uintBitsToFloat((floatBitsToUint(_e227) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e227)), _e432, _e434), float[3](((((_e96.radiance[0] > 0.0) && (_e86.radiance[0] > 0.0)) && _e548) ? _e556 : 0.0), ((((_e96.radiance[1] > 0.0) && (_e86.radiance[1] > 0.0)) && _e548) ? _e569 : 0.0), ((((_e96.radiance[2] > 0.0) && (_e86.radiance[2] > 0.0)) && _e548) ? _e582 : 0.0)), _e82, _e96.flags);
                 }
-                LightbvhLight _e592 = v14_2;
-                v15_2 = _e592;
+                LightbvhLight _e592 = v14_4;
+                v15_4 = _e592;
             }
-            LightbvhLight _e594 = v15_2;
-            v16_2 = _e594;
+            LightbvhLight _e594 = v15_4;
+            v16_4 = _e594;
         }
-        LightbvhLight _e596 = v16_2;
+        LightbvhLight _e596 = v16_4;
         float _e598[2] = numbers_1;
         float _e609 = (_e596.p[1][0] - _e596.p[0][0]);
         float _e610 = (_e596.p[1][1] - _e596.p[0][1]);
@@ -2370,39 +4477,39 @@ LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, vec2 numb
         uint _e807 = (_e785 + uint(((_e796 == _e796) ? ((_e796 > _e798) ? 2147483647 : ((_e796 < _e797) ? -2147483648 : int(_e796))) : 0)));
         int _e810 = int((_e788 - (_e807 * _e807)));
         bool _e811 = (_e810 < 0);
-        v17_2 = _e807;
+        v17_4 = _e807;
         if (_e811) {
-            v17_2 = (_e807 - 1u);
+            v17_4 = (_e807 - 1u);
         }
-        uint _e814 = v17_2;
-        v18_2 = _e810;
+        uint _e814 = v17_4;
+        v18_4 = _e810;
         if (_e811) {
-            v18_2 = (_e810 + ((2 * int(_e814)) + 1));
+            v18_4 = (_e810 + ((2 * int(_e814)) + 1));
         }
-        int _e820 = v18_2;
+        int _e820 = v18_4;
         int _e822 = (2 * int(_e814));
         bool _e823 = (_e820 > _e822);
-        v19_2 = _e820;
+        v19_4 = _e820;
         if (_e823) {
-            v19_2 = (_e820 - (_e822 + 1));
+            v19_4 = (_e820 - (_e822 + 1));
         }
-        int _e827 = v19_2;
-        v20_2 = _e814;
+        int _e827 = v19_4;
+        v20_4 = _e814;
         if (_e823) {
-            v20_2 = (_e814 + 1u);
+            v20_4 = (_e814 + 1u);
         }
-        uint _e830 = v20_2;
-        v21_2 = _e830;
+        uint _e830 = v20_4;
+        v21_4 = _e830;
         if ((_e827 > int(_e830))) {
-            v21_2 = (_e830 + 1u);
+            v21_4 = (_e830 + 1u);
         }
-        uint _e835 = v21_2;
-        v22_2 = 0.0;
+        uint _e835 = v21_4;
+        v22_4 = 0.0;
         if ((int(_e745) < 8388608)) {
         } else {
-            v22_2 = uintBitsToFloat((((((_e748 + 127u) - _e750) >> uint(1)) << uint(23)) + (_e835 - 8388608u)));
+            v22_4 = uintBitsToFloat((((((_e748 + 127u) - _e750) >> uint(1)) << uint(23)) + (_e835 - 8388608u)));
         }
-        float _e848 = v22_2;
+        float _e848 = v22_4;
         uint _e849 = floatBitsToUint(_e848);
         uint _e855 = (_e849 & 8388607u);
         uint _e856 = (_e855 | 8388608u);
@@ -2421,75 +4528,75 @@ LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, vec2 numb
         int _e902 = int(_e856);
         int _e904 = (_e887 - (_e899 * _e902));
         bool _e905 = (_e904 < 0);
-        v23_2 = _e901;
+        v23_4 = _e901;
         if (_e905) {
-            v23_2 = (_e901 - 1u);
+            v23_4 = (_e901 - 1u);
         }
-        uint _e908 = v23_2;
-        v24_2 = _e904;
+        uint _e908 = v23_4;
+        v24_4 = _e904;
         if (_e905) {
-            v24_2 = (_e904 + _e902);
+            v24_4 = (_e904 + _e902);
         }
-        int _e911 = v24_2;
+        int _e911 = v24_4;
         bool _e912 = (_e911 >= _e902);
-        v25_2 = _e908;
+        v25_4 = _e908;
         if (_e912) {
-            v25_2 = (_e908 + 1u);
+            v25_4 = (_e908 + 1u);
         }
-        uint _e915 = v25_2;
-        v26_2 = _e911;
+        uint _e915 = v25_4;
+        v26_4 = _e911;
         if (_e912) {
-            v26_2 = (_e911 - _e902);
+            v26_4 = (_e911 - _e902);
         }
-        int _e918 = v26_2;
-        v27_2 = _e915;
+        int _e918 = v26_4;
+        v27_4 = _e915;
         if (((_e918 * 2) > _e902)) {
-            v27_2 = (_e915 + 1u);
+            v27_4 = (_e915 + 1u);
         }
-        uint _e923 = v27_2;
+        uint _e923 = v27_4;
         int _e927 = ((127 - int(((_e849 >> uint(23)) & 255u))) + (_e857 ? 126 : 127));
         bool _e928 = (_e927 <= 0);
-        v29_2 = 0u;
+        v29_4 = 0u;
         if (_e928) {
         } else {
-            v28_2 = 2139095040u;
+            v28_4 = 2139095040u;
             if ((_e927 >= 255)) {
             } else {
-                v28_2 = ((uint(_e927) << uint(23)) + (_e923 & 8388607u));
+                v28_4 = ((uint(_e927) << uint(23)) + (_e923 & 8388607u));
             }
-            uint _e936 = v28_2;
-            v29_2 = _e936;
+            uint _e936 = v28_4;
+            v29_4 = _e936;
         }
-        uint _e938 = v29_2;
+        uint _e938 = v29_4;
         float _e941 = uintBitsToFloat((((1065353216u ^ _e849) & 2147483648u) | (_e928 ? 0u : _e938)));
         int _e945 = -(((_e710 + _e664) + _e664));
         int _e947 = ((_e945 < -126) ? -126 : _e945);
         float _e955 = ((_e941 + _e941) * uintBitsToFloat((uint((((_e947 > 127) ? 127 : _e947) + 127)) << uint(23))));
         bool _e959 = ((_e598[0] + _e598[1]) > 1.0);
-        v30_2 = _e598[0];
+        v30_4 = _e598[0];
         if (_e959) {
-            v30_2 = (1.0 - _e598[0]);
+            v30_4 = (1.0 - _e598[0]);
         }
-        float _e962 = v30_2;
-        v31_2 = _e598[1];
+        float _e962 = v30_4;
+        v31_4 = _e598[1];
         if (_e959) {
-            v31_2 = (1.0 - _e598[1]);
+            v31_4 = (1.0 - _e598[1]);
         }
-        float _e965 = v31_2;
+        float _e965 = v31_4;
         float _e966 = (_e609 * _e962);
         float _e967 = (_e610 * _e962);
         float _e968 = (_e611 * _e962);
         float _e987 = (_e617 * _e965);
         float _e988 = (_e618 * _e965);
         float _e989 = (_e619 * _e965);
-        v32_2 = float[3](0.0, 0.0, 0.0);
+        v32_4 = float[3](0.0, 0.0, 0.0);
         if (_e711) {
-            v32_2 = float[3]((_e731 * _e941), (_e734 * _e941), (_e739 * _e941));
+            v32_4 = float[3]((_e731 * _e941), (_e734 * _e941), (_e739 * _e941));
         }
-        float _e1019[3] = v32_2;
-        results_2 = LightbvhType34_(float[3](((_e596.p[0][0] + ((uintBitsToFloat((floatBitsToUint(_e966) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e966)) + ((uintBitsToFloat((floatBitsToUint(_e987) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e987)), ((_e596.p[0][1] + ((uintBitsToFloat((floatBitsToUint(_e967) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e967)) + ((uintBitsToFloat((floatBitsToUint(_e988) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e988)), ((_e596.p[0][2] + ((uintBitsToFloat((floatBitsToUint(_e968) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e968)) + ((uintBitsToFloat((floatBitsToUint(_e989) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e989))), (_e711 ? ((_e955 < 1.329228e36) ? _e955 : 1.329228e36) : 0.0), _e1019, _e596.flags, _e596.radiance);
+        float _e1019[3] = v32_4;
+        results_4 = LightbvhType38_(float[3](((_e596.p[0][0] + ((uintBitsToFloat((floatBitsToUint(_e966) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e966)) + ((uintBitsToFloat((floatBitsToUint(_e987) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e987)), ((_e596.p[0][1] + ((uintBitsToFloat((floatBitsToUint(_e967) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e967)) + ((uintBitsToFloat((floatBitsToUint(_e988) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e988)), ((_e596.p[0][2] + ((uintBitsToFloat((floatBitsToUint(_e968) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e968)) + ((uintBitsToFloat((floatBitsToUint(_e989) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e989))), (_e711 ? ((_e955 < 1.329228e36) ? _e955 : 1.329228e36) : 0.0), _e1019, _e596.flags, _e596.radiance);
         break;
     } while(false);
-    LightbvhType34_ _e1056 = results_2;
+    LightbvhType38_ _e1056 = results_4;
     return LightbvhLightPoint(vec3(_e1056.member[0], _e1056.member[1], _e1056.member[2]), _e1056.member_1, vec3(_e1056.member_2[0], _e1056.member_2[1], _e1056.member_2[2]), _e1056.member_3, vec3(_e1056.member_4[0], _e1056.member_4[1], _e1056.member_4[2]));
 }

@@ -89,6 +89,40 @@ struct LightbvhType27_ {
     LightbvhType26_ member_2;
 };
 
+struct LightbvhType29_ {
+    float member[3];
+    float member_1[3];
+    float member_2[3];
+};
+
+struct LightbvhType30_ {
+    LightbvhType29_ member;
+    uint member_1[2];
+};
+
+struct LightbvhType31_ {
+    LightbvhType24_ member;
+    LightbvhType23_ member_1;
+    LightbvhType25_ member_2;
+    uint member_3;
+    uint member_4;
+    uint member_5;
+    uint member_6;
+    uint member_7;
+    uint member_8;
+    uint member_9;
+    LightbvhType29_ member_10;
+    uint member_11;
+    bool member_12;
+    bool member_13;
+};
+
+struct LightbvhType32_ {
+    uint member;
+    uint member_1;
+    LightbvhType31_ member_2;
+};
+
 struct LightbvhLight {
     float p[3][3];
     float radiance[3];
@@ -96,7 +130,7 @@ struct LightbvhLight {
     uint flags;
 };
 
-struct LightbvhType34_ {
+struct LightbvhType38_ {
     float member[3];
     float member_1;
     float member_2[3];
@@ -120,6 +154,14 @@ LightbvhType23_ ConstructLightbvhType23_(uint arg0, uint arg1) {
     return ret;
 }
 
+LightbvhType19_ ConstructLightbvhType19_(uint arg0, uint arg1, float arg2) {
+    LightbvhType19_ ret = (LightbvhType19_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    ret.member_2 = arg2;
+    return ret;
+}
+
 LightbvhType24_ ConstructLightbvhType24_(LightbvhType23_ arg0, LightbvhType23_ arg1) {
     LightbvhType24_ ret = (LightbvhType24_)0;
     ret.member = arg0;
@@ -131,14 +173,6 @@ LightbvhType25_ ConstructLightbvhType25_(float arg0, float arg1) {
     LightbvhType25_ ret = (LightbvhType25_)0;
     ret.member = arg0;
     ret.member_1 = arg1;
-    return ret;
-}
-
-LightbvhType19_ ConstructLightbvhType19_(uint arg0, uint arg1, float arg2) {
-    LightbvhType19_ ret = (LightbvhType19_)0;
-    ret.member = arg0;
-    ret.member_1 = arg1;
-    ret.member_2 = arg2;
     return ret;
 }
 
@@ -169,14 +203,6 @@ LightbvhLight ConstructLightbvhLight(float arg0[3][3], float arg1[3], uint arg2,
     return ret;
 }
 
-LightbvhType27_ ZeroValueLightbvhType27_() {
-    return (LightbvhType27_)0;
-}
-
-uint ZeroValueuint() {
-    return (uint)0;
-}
-
 LightbvhType23_ ZeroValueLightbvhType23_() {
     return (LightbvhType23_)0;
 }
@@ -189,8 +215,24 @@ LightbvhType24_ ZeroValueLightbvhType24_() {
     return (LightbvhType24_)0;
 }
 
+uint ZeroValueuint() {
+    return (uint)0;
+}
+
+LightbvhType27_ ZeroValueLightbvhType27_() {
+    return (LightbvhType27_)0;
+}
+
 LightbvhType26_ ZeroValueLightbvhType26_() {
     return (LightbvhType26_)0;
+}
+
+LightbvhType32_ ZeroValueLightbvhType32_() {
+    return (LightbvhType32_)0;
+}
+
+LightbvhType31_ ZeroValueLightbvhType31_() {
+    return (LightbvhType31_)0;
 }
 
 cbuffer lightbvh_tree : register(b4) { LightbvhTree lightbvh_tree; }
@@ -688,28 +730,28 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
                     v72_ = true;
                     break;
                 }
-                uint _e606 = asuint(lightbvh_nodes.Load(0u*4+0u*32+_e577*192+0));
-                uint _e611 = asuint(lightbvh_nodes.Load(1u*4+0u*32+_e577*192+0));
-                uint _e616 = asuint(lightbvh_nodes.Load(2u*4+0u*32+_e577*192+0));
-                uint _e621 = asuint(lightbvh_nodes.Load(3u*4+0u*32+_e577*192+0));
-                int _e624 = asint(asuint(asint((_e621 & 255u))) - asuint(int(127)));
-                float _e625 = (asfloat(_e606) - _e571.member_2.member_2.member[0]);
-                float _e626 = (asfloat(_e611) - _e571.member_2.member_2.member[1]);
-                float _e627 = (asfloat(_e616) - _e571.member_2.member_2.member[2]);
-                float _e630 = asfloat((asuint(_e625) & 2147483647u));
-                float _e633 = asfloat((asuint(_e626) & 2147483647u));
-                float _e636 = asfloat((asuint(_e627) & 2147483647u));
-                float _e638 = ((_e630 > _e633) ? _e630 : _e633);
-                int _e646 = asint(asuint(asint(((asuint(((_e638 > _e636) ? _e638 : _e636)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
-                int _e648 = ((_e646 > _e624) ? _e646 : _e624);
-                int _e649 = asint(asuint(_e624) - asuint(_e648));
-                int _e651 = ((_e649 < int(-40)) ? int(-40) : _e649);
-                int _e652 = naga_neg(_e648);
-                int _e654 = ((_e652 < int(-126)) ? int(-126) : _e652);
-                float _e661 = asfloat((asuint(asint(asuint(((_e654 > int(127)) ? int(127) : _e654)) + asuint(int(127)))) << asuint(int(23))));
-                int _e666 = ((_e651 < int(-126)) ? int(-126) : _e651);
-                float _e673 = asfloat((asuint(asint(asuint(((_e666 > int(127)) ? int(127) : _e666)) + asuint(int(127)))) << asuint(int(23))));
-                float _e681 = (_e673 * 4.656613e-10);
+                uint _e606 = asuint(lightbvh_nodes.Load(3u*4+0u*32+_e577*192+0));
+                int _e609 = asint(asuint(asint((_e606 & 255u))) - asuint(int(127)));
+                uint _e620 = asuint(lightbvh_nodes.Load(0u*4+0u*32+_e577*192+0));
+                uint _e625 = asuint(lightbvh_nodes.Load(1u*4+0u*32+_e577*192+0));
+                uint _e630 = asuint(lightbvh_nodes.Load(2u*4+0u*32+_e577*192+0));
+                float _e632 = (asfloat(_e620) - _e571.member_2.member_2.member[0]);
+                float _e633 = (asfloat(_e625) - _e571.member_2.member_2.member[1]);
+                float _e634 = (asfloat(_e630) - _e571.member_2.member_2.member[2]);
+                float _e637 = asfloat((asuint(_e632) & 2147483647u));
+                float _e640 = asfloat((asuint(_e633) & 2147483647u));
+                float _e643 = asfloat((asuint(_e634) & 2147483647u));
+                float _e645 = ((_e637 > _e640) ? _e637 : _e640);
+                int _e653 = asint(asuint(asint(((asuint(((_e645 > _e643) ? _e645 : _e643)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
+                int _e655 = ((_e653 > _e609) ? _e653 : _e609);
+                int _e656 = asint(asuint(_e609) - asuint(_e655));
+                int _e658 = ((_e656 < int(-40)) ? int(-40) : _e656);
+                int _e659 = naga_neg(_e655);
+                int _e661 = ((_e659 < int(-126)) ? int(-126) : _e659);
+                float _e668 = asfloat((asuint(asint(asuint(((_e661 > int(127)) ? int(127) : _e661)) + asuint(int(127)))) << asuint(int(23))));
+                int _e673 = ((_e658 < int(-126)) ? int(-126) : _e658);
+                float _e680 = asfloat((asuint(asint(asuint(((_e673 > int(127)) ? int(127) : _e673)) + asuint(int(127)))) << asuint(int(23))));
+                float _e681 = (_e680 * 4.656613e-10);
                 float _e693 = (2.0 * 8.0);
                 float _e694 = (asfloat((asuint(_e571.member_2.member_2.member_1[0]) & 2147483647u)) * _e693);
                 float _e695 = (asfloat((asuint(_e571.member_2.member_2.member_1[1]) & 2147483647u)) * _e693);
@@ -775,10 +817,10 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
                             break;
                         }
                         uint _e743 = asuint(lightbvh_nodes.Load(_e722.member_1*4+4u*32+_e577*192+0));
-                        float _e759 = ((_e625 * _e661) + (float(asint(_e731)) * _e681));
-                        float _e760 = ((_e626 * _e661) + (float(asint((_e731 << asuint(15u)))) * _e681));
-                        float _e761 = ((_e627 * _e661) + (float(asint(_e735)) * _e681));
-                        float _e766 = asfloat((((_e743 << asuint(20u)) & 267386880u) + (asuint(_e673) + 4043309056u)));
+                        float _e759 = ((_e632 * _e668) + (float(asint(_e731)) * _e681));
+                        float _e760 = ((_e633 * _e668) + (float(asint((_e731 << asuint(15u)))) * _e681));
+                        float _e761 = ((_e634 * _e668) + (float(asint(_e735)) * _e681));
+                        float _e766 = asfloat((((_e743 << asuint(20u)) & 267386880u) + (asuint(_e680) + 4043309056u)));
                         float _e771 = (float(asint((_e735 << asuint(15u)))) * 4.656613e-10);
                         float _e773 = float(asint(_e739));
                         float _e777 = float(asint((_e739 << asuint(8u))));
@@ -1630,28 +1672,28 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
                     v58_1 = true;
                     break;
                 }
-                uint _e393 = asuint(lightbvh_nodes.Load(0u*4+0u*32+_e370*192+0));
-                uint _e398 = asuint(lightbvh_nodes.Load(1u*4+0u*32+_e370*192+0));
-                uint _e403 = asuint(lightbvh_nodes.Load(2u*4+0u*32+_e370*192+0));
-                uint _e408 = asuint(lightbvh_nodes.Load(3u*4+0u*32+_e370*192+0));
-                int _e411 = asint(asuint(asint((_e408 & 255u))) - asuint(int(127)));
-                float _e412 = (asfloat(_e393) - _e365.member_2.member[0]);
-                float _e413 = (asfloat(_e398) - _e365.member_2.member[1]);
-                float _e414 = (asfloat(_e403) - _e365.member_2.member[2]);
-                float _e417 = asfloat((asuint(_e412) & 2147483647u));
-                float _e420 = asfloat((asuint(_e413) & 2147483647u));
-                float _e423 = asfloat((asuint(_e414) & 2147483647u));
-                float _e425 = ((_e417 > _e420) ? _e417 : _e420);
-                int _e433 = asint(asuint(asint(((asuint(((_e425 > _e423) ? _e425 : _e423)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
-                int _e435 = ((_e433 > _e411) ? _e433 : _e411);
-                int _e436 = asint(asuint(_e411) - asuint(_e435));
-                int _e438 = ((_e436 < int(-40)) ? int(-40) : _e436);
-                int _e439 = naga_neg(_e435);
-                int _e441 = ((_e439 < int(-126)) ? int(-126) : _e439);
-                float _e448 = asfloat((asuint(asint(asuint(((_e441 > int(127)) ? int(127) : _e441)) + asuint(int(127)))) << asuint(int(23))));
-                int _e453 = ((_e438 < int(-126)) ? int(-126) : _e438);
-                float _e460 = asfloat((asuint(asint(asuint(((_e453 > int(127)) ? int(127) : _e453)) + asuint(int(127)))) << asuint(int(23))));
-                float _e468 = (_e460 * 4.656613e-10);
+                uint _e393 = asuint(lightbvh_nodes.Load(3u*4+0u*32+_e370*192+0));
+                int _e396 = asint(asuint(asint((_e393 & 255u))) - asuint(int(127)));
+                uint _e407 = asuint(lightbvh_nodes.Load(0u*4+0u*32+_e370*192+0));
+                uint _e412 = asuint(lightbvh_nodes.Load(1u*4+0u*32+_e370*192+0));
+                uint _e417 = asuint(lightbvh_nodes.Load(2u*4+0u*32+_e370*192+0));
+                float _e419 = (asfloat(_e407) - _e365.member_2.member[0]);
+                float _e420 = (asfloat(_e412) - _e365.member_2.member[1]);
+                float _e421 = (asfloat(_e417) - _e365.member_2.member[2]);
+                float _e424 = asfloat((asuint(_e419) & 2147483647u));
+                float _e427 = asfloat((asuint(_e420) & 2147483647u));
+                float _e430 = asfloat((asuint(_e421) & 2147483647u));
+                float _e432 = ((_e424 > _e427) ? _e424 : _e427);
+                int _e440 = asint(asuint(asint(((asuint(((_e432 > _e430) ? _e432 : _e430)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
+                int _e442 = ((_e440 > _e396) ? _e440 : _e396);
+                int _e443 = asint(asuint(_e396) - asuint(_e442));
+                int _e445 = ((_e443 < int(-40)) ? int(-40) : _e443);
+                int _e446 = naga_neg(_e442);
+                int _e448 = ((_e446 < int(-126)) ? int(-126) : _e446);
+                float _e455 = asfloat((asuint(asint(asuint(((_e448 > int(127)) ? int(127) : _e448)) + asuint(int(127)))) << asuint(int(23))));
+                int _e460 = ((_e445 < int(-126)) ? int(-126) : _e445);
+                float _e467 = asfloat((asuint(asint(asuint(((_e460 > int(127)) ? int(127) : _e460)) + asuint(int(127)))) << asuint(int(23))));
+                float _e468 = (_e467 * 4.656613e-10);
                 float _e480 = (2.0 * 8.0);
                 float _e481 = (asfloat((asuint(_e365.member_2.member_1[0]) & 2147483647u)) * _e480);
                 float _e482 = (asfloat((asuint(_e365.member_2.member_1[1]) & 2147483647u)) * _e480);
@@ -1717,10 +1759,10 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
                             break;
                         }
                         uint _e530 = asuint(lightbvh_nodes.Load(_e509.member_1*4+4u*32+_e370*192+0));
-                        float _e546 = ((_e412 * _e448) + (float(asint(_e518)) * _e468));
-                        float _e547 = ((_e413 * _e448) + (float(asint((_e518 << asuint(15u)))) * _e468));
-                        float _e548 = ((_e414 * _e448) + (float(asint(_e522)) * _e468));
-                        float _e553 = asfloat((((_e530 << asuint(20u)) & 267386880u) + (asuint(_e460) + 4043309056u)));
+                        float _e546 = ((_e419 * _e455) + (float(asint(_e518)) * _e468));
+                        float _e547 = ((_e420 * _e455) + (float(asint((_e518 << asuint(15u)))) * _e468));
+                        float _e548 = ((_e421 * _e455) + (float(asint(_e522)) * _e468));
+                        float _e553 = asfloat((((_e530 << asuint(20u)) & 267386880u) + (asuint(_e467) + 4043309056u)));
                         float _e558 = (float(asint((_e522 << asuint(15u)))) * 4.656613e-10);
                         float _e560 = float(asint(_e526));
                         float _e564 = float(asint((_e526 << asuint(8u))));
@@ -2267,14 +2309,2156 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
     return _e2065;
 }
 
+LightbvhType29_ ConstructLightbvhType29_(float arg0[3], float arg1[3], float arg2[3]) {
+    LightbvhType29_ ret = (LightbvhType29_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    ret.member_2 = arg2;
+    return ret;
+}
+
+LightbvhType30_ ConstructLightbvhType30_(LightbvhType29_ arg0, uint arg1[2]) {
+    LightbvhType30_ ret = (LightbvhType30_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    return ret;
+}
+
+LightbvhType31_ ConstructLightbvhType31_(LightbvhType24_ arg0, LightbvhType23_ arg1, LightbvhType25_ arg2, uint arg3, uint arg4, uint arg5, uint arg6, uint arg7, uint arg8, uint arg9, LightbvhType29_ arg10, uint arg11, bool arg12, bool arg13) {
+    LightbvhType31_ ret = (LightbvhType31_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    ret.member_2 = arg2;
+    ret.member_3 = arg3;
+    ret.member_4 = arg4;
+    ret.member_5 = arg5;
+    ret.member_6 = arg6;
+    ret.member_7 = arg7;
+    ret.member_8 = arg8;
+    ret.member_9 = arg9;
+    ret.member_10 = arg10;
+    ret.member_11 = arg11;
+    ret.member_12 = arg12;
+    ret.member_13 = arg13;
+    return ret;
+}
+
+LightbvhType32_ ConstructLightbvhType32_(uint arg0, uint arg1, LightbvhType31_ arg2) {
+    LightbvhType32_ ret = (LightbvhType32_)0;
+    ret.member = arg0;
+    ret.member_1 = arg1;
+    ret.member_2 = arg2;
+    return ret;
+}
+
+LightbvhLightSample lightbvh_sample_cell(float3 center_, float3 half_, float3 n_2, uint2 number_1)
+{
+    LightbvhType30_ queries_2 = (LightbvhType30_)0;
+    LightbvhType19_ results_2 = (LightbvhType19_)0;
+    float v0_2[8] = (float[8])0;
+    uint v1_2 = (uint)0;
+    uint v2_2 = (uint)0;
+    uint v3_2 = (uint)0;
+    uint v4_2 = (uint)0;
+    uint v5_2 = (uint)0;
+    uint v6_2 = (uint)0;
+    uint v7_2 = (uint)0;
+    uint v8_2 = (uint)0;
+    uint v9_2 = (uint)0;
+    uint v10_2 = (uint)0;
+    uint v11_2 = (uint)0;
+    uint v12_2 = (uint)0;
+    bool v13_2 = (bool)0;
+    uint v14_2 = (uint)0;
+    uint v15_2 = (uint)0;
+    uint v16_2 = (uint)0;
+    bool v17_2 = (bool)0;
+    bool v18_2 = (bool)0;
+    LightbvhType24_ v19_2 = (LightbvhType24_)0;
+    uint v20_2 = (uint)0;
+    uint v21_2 = (uint)0;
+    uint v22_2 = (uint)0;
+    uint v23_2 = (uint)0;
+    bool v24_2 = (bool)0;
+    uint v25_2 = (uint)0;
+    LightbvhType23_ v26_2 = (LightbvhType23_)0;
+    uint v27_2 = (uint)0;
+    uint v28_2 = (uint)0;
+    uint v29_2 = (uint)0;
+    LightbvhType23_ v30_2 = (LightbvhType23_)0;
+    uint v31_2 = (uint)0;
+    uint v32_2 = (uint)0;
+    LightbvhType23_ v33_2 = (LightbvhType23_)0;
+    uint v34_2 = (uint)0;
+    bool v35_2 = (bool)0;
+    bool v36_2 = (bool)0;
+    LightbvhType23_ v37_2 = (LightbvhType23_)0;
+    bool v38_2 = (bool)0;
+    LightbvhType24_ v39_2 = (LightbvhType24_)0;
+    bool v40_2 = (bool)0;
+    LightbvhType24_ v41_2 = (LightbvhType24_)0;
+    uint v42_2 = (uint)0;
+    uint v43_2 = (uint)0;
+    bool v44_2 = (bool)0;
+    LightbvhType32_ v45_2 = (LightbvhType32_)0;
+    bool v46_2 = (bool)0;
+    LightbvhType23_ v47_2 = (LightbvhType23_)0;
+    LightbvhType23_ v48_2 = (LightbvhType23_)0;
+    LightbvhType23_ v49_2 = (LightbvhType23_)0;
+    LightbvhType23_ v50_2 = (LightbvhType23_)0;
+    LightbvhType23_ v51_2 = (LightbvhType23_)0;
+    bool v52_2 = (bool)0;
+    uint v53_2 = (uint)0;
+    uint v54_2 = (uint)0;
+    uint v55_2 = (uint)0;
+    uint v56_2 = (uint)0;
+    int v57_2 = (int)0;
+    uint v58_2 = (uint)0;
+    bool v59_2 = (bool)0;
+    LightbvhType32_ v60_2 = (LightbvhType32_)0;
+    uint v61_2 = (uint)0;
+    uint v62_2 = (uint)0;
+    LightbvhType32_ v63_2 = (LightbvhType32_)0;
+    float v64_2 = (float)0;
+    float v65_2 = (float)0;
+    float v66_2 = (float)0;
+    float v67_2 = (float)0;
+    LightbvhType32_ v68_2 = (LightbvhType32_)0;
+    bool v69_2 = (bool)0;
+    LightbvhType32_ v70_2 = (LightbvhType32_)0;
+    bool v71_2 = (bool)0;
+    bool v72_2 = (bool)0;
+    LightbvhType32_ v73_2 = (LightbvhType32_)0;
+    LightbvhType32_ v74_2 = (LightbvhType32_)0;
+    LightbvhType32_ v75_2 = (LightbvhType32_)0;
+    LightbvhType32_ v76_2 = (LightbvhType32_)0;
+    uint v77_2 = (uint)0;
+    uint v78_2 = (uint)0;
+    LightbvhType32_ v79_2 = (LightbvhType32_)0;
+    LightbvhType32_ v80_2 = (LightbvhType32_)0;
+    float v81_2 = (float)0;
+    uint v82_2 = (uint)0;
+    uint v83_2 = (uint)0;
+    bool v84_2 = (bool)0;
+    uint v85_2 = (uint)0;
+    int v86_2 = (int)0;
+    uint v87_2 = (uint)0;
+    int v88_2 = (int)0;
+    uint v89_1 = (uint)0;
+    uint v90_1 = (uint)0;
+    uint v91_1 = (uint)0;
+    uint v92_1 = (uint)0;
+    bool v93_1 = (bool)0;
+    uint v94_1 = (uint)0;
+    int v95_1 = (int)0;
+    uint v96_1 = (uint)0;
+    int v97_1 = (int)0;
+    uint v98_1 = (uint)0;
+    uint v99_1 = (uint)0;
+    uint v100_1 = (uint)0;
+    uint v101_1 = (uint)0;
+    bool v102_1 = (bool)0;
+    LightbvhType19_ v103_1 = (LightbvhType19_)0;
+
+    queries_2 = ConstructLightbvhType30_(ConstructLightbvhType29_(Constructarray3_float_(center_.x, center_.y, center_.z), Constructarray3_float_(half_.x, half_.y, half_.z), Constructarray3_float_(n_2.x, n_2.y, n_2.z)), Constructarray2_uint_(number_1.x, number_1.y));
+    do {
+        uint _e148 = ((NagaBufferLength(lightbvh_nodes) - 0) / 192);
+        uint _e151 = ((NagaBufferLength(lightbvh_instances) - 0) / 136);
+        uint _e154 = ((NagaBufferLength(lightbvh_trails) - 0) / 4);
+        uint _e157 = lightbvh_tree.top;
+        uint _e160 = lightbvh_tree.root;
+        uint _e163 = lightbvh_tree.above;
+        uint _e166 = lightbvh_tree.places;
+        uint _e169 = lightbvh_tree.parts;
+        uint _e172 = lightbvh_tree.trail_words;
+        uint _e175 = lightbvh_tree.live;
+        uint _e178 = lightbvh_tree.lights;
+        uint _e181 = lightbvh_tree.depth;
+        LightbvhType30_ _e183 = queries_2;
+        v40_2 = false;
+        v41_2 = ConstructLightbvhType24_(ConstructLightbvhType23_(0u, 0u), ConstructLightbvhType23_(0u, 0u));
+        v42_2 = 4294967295u;
+        v43_2 = 4294967295u;
+        if (((_e183.member_1[0] >> asuint(10u)) < 65536u)) {
+            uint _e198 = ((_e183.member_1[0] << asuint(6u)) | ((_e183.member_1[1] >> asuint(int(1))) >> asuint(25u)));
+            uint _e200 = (_e183.member_1[1] << asuint(6u));
+            bool _e201 = (_e175 > 0u);
+            v1_2 = ZeroValueuint();
+            v2_2 = ZeroValueuint();
+            if (_e201) {
+                uint _e254 = (_e200 >> asuint(int(16)));
+                uint _e255 = (_e200 & 65535u);
+                uint _e257 = (_e175 >> asuint(int(16)));
+                uint _e258 = (_e175 & 65535u);
+                uint _e263 = ((_e254 * _e258) + ((_e255 * _e258) >> asuint(int(16))));
+                uint _e274 = (_e200 * _e175);
+                uint _e276 = (_e198 >> asuint(int(16)));
+                uint _e277 = (_e198 & 65535u);
+                uint _e282 = ((_e276 * _e258) + ((_e277 * _e258) >> asuint(int(16))));
+                uint _e293 = (_e198 * _e175);
+                uint _e294 = (_e293 + (((_e254 * _e257) + (_e263 >> asuint(int(16)))) + (((_e255 * _e257) + (_e263 & 65535u)) >> asuint(int(16)))));
+                uint _e297 = ((((_e276 * _e257) + (_e282 >> asuint(int(16)))) + (((_e277 * _e257) + (_e282 & 65535u)) >> asuint(int(16)))) + ((_e294 < _e293) ? 1u : 0u));
+                v7_2 = 4294967295u;
+                v8_2 = 4294967295u;
+                if ((_e297 < _e151)) {
+                    uint _e301 = asuint(lightbvh_instances.Load(20+_e297*136+0));
+                    v5_2 = 4294967295u;
+                    v6_2 = 4294967295u;
+                    if ((_e301 < _e151)) {
+                        uint _e305 = asuint(lightbvh_instances.Load(16+_e301*136+0));
+                        bool _e306 = (_e305 > 0u);
+                        v4_2 = 4294967295u;
+                        if (_e306) {
+                            uint _e309 = asuint(lightbvh_instances.Load(8+_e301*136+0));
+                            uint _e311 = (_e274 >> asuint(int(16)));
+                            uint _e312 = (_e274 & 65535u);
+                            uint _e314 = (_e305 >> asuint(int(16)));
+                            uint _e315 = (_e305 & 65535u);
+                            uint _e320 = ((_e311 * _e315) + ((_e312 * _e315) >> asuint(int(16))));
+                            uint _e332 = (_e294 >> asuint(int(16)));
+                            uint _e333 = (_e294 & 65535u);
+                            uint _e338 = ((_e332 * _e315) + ((_e333 * _e315) >> asuint(int(16))));
+                            uint _e349 = (_e294 * _e305);
+                            v4_2 = (_e309 + ((((_e332 * _e314) + (_e338 >> asuint(int(16)))) + (((_e333 * _e314) + (_e338 & 65535u)) >> asuint(int(16)))) + (((_e349 + (((_e311 * _e314) + (_e320 >> asuint(int(16)))) + (((_e312 * _e314) + (_e320 & 65535u)) >> asuint(int(16))))) < _e349) ? 1u : 0u)));
+                        }
+                        uint _e356 = v4_2;
+                        v5_2 = _e356;
+                        v6_2 = (_e306 ? _e301 : 4294967295u);
+                    }
+                    uint _e359 = v5_2;
+                    uint _e361 = v6_2;
+                    v7_2 = _e359;
+                    v8_2 = _e361;
+                }
+                uint _e363 = v7_2;
+                uint _e365 = v8_2;
+                v1_2 = _e363;
+                v2_2 = _e365;
+            }
+            uint _e203 = v1_2;
+            uint _e205 = v2_2;
+            v9_2 = _e203;
+            v10_2 = _e205;
+            if (_e201) {
+            } else {
+                v3_2 = 4294967295u;
+                if ((_e178 > 0u)) {
+                    uint _e208 = (_e200 >> asuint(int(16)));
+                    uint _e209 = (_e200 & 65535u);
+                    uint _e211 = (_e178 >> asuint(int(16)));
+                    uint _e212 = (_e178 & 65535u);
+                    uint _e217 = ((_e208 * _e212) + ((_e209 * _e212) >> asuint(int(16))));
+                    uint _e229 = (_e198 >> asuint(int(16)));
+                    uint _e230 = (_e198 & 65535u);
+                    uint _e235 = ((_e229 * _e212) + ((_e230 * _e212) >> asuint(int(16))));
+                    uint _e246 = (_e198 * _e178);
+                    v3_2 = ((((_e229 * _e211) + (_e235 >> asuint(int(16)))) + (((_e230 * _e211) + (_e235 & 65535u)) >> asuint(int(16)))) + (((_e246 + (((_e208 * _e211) + (_e217 >> asuint(int(16)))) + (((_e209 * _e211) + (_e217 & 65535u)) >> asuint(int(16))))) < _e246) ? 1u : 0u));
+                }
+                uint _e252 = v3_2;
+                v9_2 = _e252;
+                v10_2 = 4294967295u;
+            }
+            uint _e367 = v9_2;
+            uint _e369 = v10_2;
+            bool _e370 = (_e369 < _e151);
+            v12_2 = ZeroValueuint();
+            v13_2 = true;
+            if (_e370) {
+                v11_2 = ZeroValueuint();
+                if (_e201) {
+                    uint _e373 = asuint(lightbvh_instances.Load(8+_e369*136+0));
+                    uint _e377 = asuint(lightbvh_instances.Load(12+_e369*136+0));
+                    v11_2 = ((_e367 - _e373) + _e377);
+                }
+                uint _e380 = v11_2;
+                v12_2 = _e380;
+                v13_2 = (_e201 ? false : true);
+            }
+            uint _e383 = v12_2;
+            bool _e385 = v13_2;
+            uint _e387 = ((_e385 ? _e367 : _e383) * _e172);
+            v14_2 = 0u;
+            if ((_e387 < _e154)) {
+                uint _e390 = asuint(lightbvh_trails.Load(_e387*4+0));
+                v14_2 = _e390;
+            }
+            uint _e392 = v14_2;
+            v16_2 = ZeroValueuint();
+            v17_2 = true;
+            if ((_e172 == 2u)) {
+                uint _e394 = (_e387 + 1u);
+                bool _e395 = (_e394 < _e154);
+                v15_2 = ZeroValueuint();
+                if (_e395) {
+                    uint _e397 = asuint(lightbvh_trails.Load(_e394*4+0));
+                    v15_2 = _e397;
+                }
+                uint _e399 = v15_2;
+                v16_2 = _e399;
+                v17_2 = (_e395 ? false : true);
+            }
+            uint _e402 = v16_2;
+            bool _e404 = v17_2;
+            uint _e405 = (_e404 ? 0u : _e402);
+            v18_2 = ZeroValuebool();
+            v19_2 = ZeroValueLightbvhType24_();
+            if (_e370) {
+                uint _e412 = (_e166 + _e369);
+                v20_2 = 4294967295u;
+                if ((_e412 < _e154)) {
+                    uint _e415 = asuint(lightbvh_trails.Load(_e412*4+0));
+                    v20_2 = _e415;
+                }
+                uint _e417 = v20_2;
+                v23_2 = ZeroValueuint();
+                v24_2 = true;
+                if ((_e417 != 4294967295u)) {
+                    bool _e419 = (_e417 >= 2147483648u);
+                    v22_2 = ZeroValueuint();
+                    if (_e419) {
+                        uint _e423 = (_e169 + ((_e417 - 2147483648u) + (_e392 & 7u)));
+                        v21_2 = 4294967295u;
+                        if ((_e423 < _e154)) {
+                            uint _e426 = asuint(lightbvh_trails.Load(_e423*4+0));
+                            v21_2 = _e426;
+                        }
+                        uint _e428 = v21_2;
+                        v22_2 = _e428;
+                    }
+                    uint _e430 = v22_2;
+                    v23_2 = _e430;
+                    v24_2 = (_e419 ? false : true);
+                }
+                uint _e433 = v23_2;
+                bool _e435 = v24_2;
+                v25_2 = 0u;
+                v26_2 = ConstructLightbvhType23_(0u, 0u);
+                v27_2 = (_e435 ? _e417 : _e433);
+                uint2 loop_bound_6 = uint2(4294967295u, 4294967295u);
+                bool loop_init_6 = true;
+                while(true) {
+                    if (all(loop_bound_6 == uint2(0u, 0u))) { break; }
+                    loop_bound_6 -= uint2(loop_bound_6.y == 0u, 1u);
+                    if (!loop_init_6) {
+                        v25_2 = v32_2;
+                        v26_2 = v33_2;
+                        v27_2 = v34_2;
+                        v36_2 = false;
+                        if (!(v35_2)) {
+                            break;
+                        }
+                    }
+                    loop_init_6 = false;
+                    uint _e438 = v25_2;
+                    LightbvhType23_ _e440 = v26_2;
+                    uint _e442 = v27_2;
+                    v37_2 = _e440;
+                    v32_2 = ZeroValueuint();
+                    v33_2 = ZeroValueLightbvhType23_();
+                    v34_2 = ZeroValueuint();
+                    v35_2 = false;
+                    if ((_e442 < 2147483648u)) {
+                        bool _e444 = (_e438 < 20u);
+                        v29_2 = ZeroValueuint();
+                        v30_2 = ZeroValueLightbvhType23_();
+                        v31_2 = ZeroValueuint();
+                        if (_e444) {
+                            uint _e463 = (_e163 + (_e442 >> asuint(3u)));
+                            v28_2 = 4294967295u;
+                            if ((_e463 < _e154)) {
+                                uint _e466 = asuint(lightbvh_trails.Load(_e463*4+0));
+                                v28_2 = _e466;
+                            }
+                            uint _e468 = v28_2;
+                            v29_2 = (_e438 + 1u);
+                            v30_2 = ConstructLightbvhType23_((((_e440.member << asuint(3u)) | ((_e442 & 7u) & 7u)) & 1073741823u), (((_e440.member_1 << asuint(3u)) | ((_e440.member >> asuint(27u)) & 7u)) & 1073741823u));
+                            v31_2 = _e468;
+                        }
+                        uint _e471 = v29_2;
+                        LightbvhType23_ _e473 = v30_2;
+                        uint _e475 = v31_2;
+                        v32_2 = _e471;
+                        v33_2 = _e473;
+                        v34_2 = _e475;
+                        v35_2 = _e444;
+                    }
+                    uint _e477 = v32_2;
+                    LightbvhType23_ _e479 = v33_2;
+                    uint _e481 = v34_2;
+                    bool _e483 = v35_2;
+                    continue;
+                }
+                bool _e486 = v36_2;
+                if (_e486) {
+                    break;
+                }
+                LightbvhType23_ _e489 = v37_2;
+                v18_2 = _e486;
+                v19_2 = ConstructLightbvhType24_(_e489, ConstructLightbvhType23_(_e392, _e405));
+            }
+            bool _e407 = v18_2;
+            LightbvhType24_ _e409 = v19_2;
+            v38_2 = _e407;
+            v39_2 = _e409;
+            if (_e370) {
+            } else {
+                v38_2 = false;
+                v39_2 = ConstructLightbvhType24_(ConstructLightbvhType23_(_e392, _e405), ConstructLightbvhType23_(0u, 0u));
+            }
+            bool _e492 = v38_2;
+            LightbvhType24_ _e494 = v39_2;
+            v40_2 = _e492;
+            v41_2 = _e494;
+            v42_2 = _e369;
+            v43_2 = _e367;
+        }
+        bool _e496 = v40_2;
+        LightbvhType24_ _e498 = v41_2;
+        uint _e500 = v42_2;
+        uint _e502 = v43_2;
+        bool _e505 = (_e181 == 0u);
+        LightbvhType31_ _e507 = ConstructLightbvhType31_(_e498, ConstructLightbvhType23_(_e183.member_1[0], _e183.member_1[1]), ConstructLightbvhType25_(0.0, 1.0), 0u, (_e160 + _e157), 4294967295u, 4294967295u, 0u, 4194304u, 0u, _e183.member, _e181, _e505, (_e502 != 4294967295u));
+        uint _e510 = (asuint(int(21)) - firstbithigh(4128767u));
+        uint _e512 = ((_e510 < 22u) ? _e510 : 22u);
+        uint _e520 = (_e512 & 31u);
+        LightbvhType31_ _e541 = ConstructLightbvhType31_(_e507.member, ConstructLightbvhType23_((((_e183.member_1[0] - 67108864u) << asuint(_e520)) | ((_e183.member_1[1] >> asuint(int(1))) >> asuint(((31u - _e512) & 31u)))), (_e183.member_1[1] << asuint(_e520))), _e507.member_2, _e507.member_3, _e507.member_4, _e507.member_5, _e507.member_6, _e507.member_7, _e507.member_8, _e507.member_9, _e507.member_10, _e507.member_11, _e507.member_12, _e507.member_13);
+        LightbvhType31_ _e558 = ConstructLightbvhType31_(_e541.member, _e541.member_1, _e541.member_2, _e541.member_3, _e541.member_4, _e541.member_5, _e541.member_6, _e541.member_7, (4128768u << asuint(_e520)), _e541.member_9, _e541.member_10, _e541.member_11, _e541.member_12, _e541.member_13);
+        v44_2 = _e496;
+        v45_2 = ConstructLightbvhType32_(_e502, _e500, ConstructLightbvhType31_(_e558.member, _e558.member_1, _e558.member_2, _e558.member_3, _e558.member_4, _e558.member_5, _e558.member_6, _e558.member_7, _e558.member_8, _e512, _e558.member_10, _e558.member_11, _e558.member_12, _e558.member_13));
+        v46_2 = _e505;
+        uint2 loop_bound_7 = uint2(4294967295u, 4294967295u);
+        bool loop_init_7 = true;
+        while(true) {
+            if (all(loop_bound_7 == uint2(0u, 0u))) { break; }
+            loop_bound_7 -= uint2(loop_bound_7.y == 0u, 1u);
+            if (!loop_init_7) {
+                v44_2 = v69_2;
+                v45_2 = v70_2;
+                v46_2 = v71_2;
+                v72_2 = v69_2;
+                if (!((v46_2 ? false : true))) {
+                    break;
+                }
+            }
+            loop_init_7 = false;
+            bool _e576 = v44_2;
+            LightbvhType32_ _e578 = v45_2;
+            bool _e580 = v46_2;
+            v73_2 = _e578;
+            v74_2 = _e578;
+            v75_2 = _e578;
+            v76_2 = _e578;
+            v79_2 = _e578;
+            v80_2 = _e578;
+            v69_2 = _e576;
+            v70_2 = ZeroValueLightbvhType32_();
+            v71_2 = ZeroValuebool();
+            if (_e580) {
+            } else {
+                bool _e583 = (_e578.member_2.member_4 < _e148);
+                uint _e584 = (_e583 ? _e578.member_2.member_4 : 0u);
+                if ((_e584 < _e148)) {
+                } else {
+                    v72_2 = true;
+                    break;
+                }
+                uint _e625 = asuint(lightbvh_nodes.Load(3u*4+0u*32+_e584*192+0));
+                int _e628 = asint(asuint(asint((_e625 & 255u))) - asuint(int(127)));
+                float _e638 = asfloat((asuint(_e578.member_2.member_10.member_1[0]) & 2147483647u));
+                float _e641 = asfloat((asuint(_e578.member_2.member_10.member_1[1]) & 2147483647u));
+                float _e644 = asfloat((asuint(_e578.member_2.member_10.member_1[2]) & 2147483647u));
+                float _e646 = ((_e638 > _e641) ? _e638 : _e641);
+                int _e654 = asint(asuint(asint(((asuint(((_e646 > _e644) ? _e646 : _e644)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
+                int _e656 = ((_e654 > _e628) ? _e654 : _e628);
+                float _e662 = (1.0 - (((_e578.member_2.member_10.member_2[0] * _e578.member_2.member_10.member_2[0]) + (_e578.member_2.member_10.member_2[1] * _e578.member_2.member_10.member_2[1])) + (_e578.member_2.member_10.member_2[2] * _e578.member_2.member_10.member_2[2])));
+                float _e664 = ((_e662 > 3.8146973e-6) ? _e662 : 3.8146973e-6);
+                float _e669 = asfloat((1595932665u - (asuint(_e664) >> asuint(int(1)))));
+                float _e676 = (0.5 * (_e664 * (_e669 * (0.70395225 * (2.3892446 - (_e664 * (_e669 * _e669)))))));
+                float _e678 = (0.0001 + _e676);
+                uint _e682 = asuint(lightbvh_nodes.Load(0u*4+0u*32+_e584*192+0));
+                uint _e687 = asuint(lightbvh_nodes.Load(1u*4+0u*32+_e584*192+0));
+                uint _e692 = asuint(lightbvh_nodes.Load(2u*4+0u*32+_e584*192+0));
+                float _e694 = (asfloat(_e682) - _e578.member_2.member_10.member[0]);
+                float _e695 = (asfloat(_e687) - _e578.member_2.member_10.member[1]);
+                float _e696 = (asfloat(_e692) - _e578.member_2.member_10.member[2]);
+                float _e699 = asfloat((asuint(_e694) & 2147483647u));
+                float _e702 = asfloat((asuint(_e695) & 2147483647u));
+                float _e705 = asfloat((asuint(_e696) & 2147483647u));
+                float _e707 = ((_e699 > _e702) ? _e699 : _e702);
+                int _e715 = asint(asuint(asint(((asuint(((_e707 > _e705) ? _e707 : _e705)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
+                int _e717 = ((_e715 > _e656) ? _e715 : _e656);
+                int _e718 = asint(asuint(_e628) - asuint(_e717));
+                int _e720 = ((_e718 < int(-40)) ? int(-40) : _e718);
+                int _e721 = naga_neg(_e717);
+                int _e723 = ((_e721 < int(-126)) ? int(-126) : _e721);
+                float _e730 = asfloat((asuint(asint(asuint(((_e723 > int(127)) ? int(127) : _e723)) + asuint(int(127)))) << asuint(int(23))));
+                int _e735 = ((_e720 < int(-126)) ? int(-126) : _e720);
+                float _e742 = asfloat((asuint(asint(asuint(((_e735 > int(127)) ? int(127) : _e735)) + asuint(int(127)))) << asuint(int(23))));
+                float _e743 = (_e578.member_2.member_10.member_1[0] * _e730);
+                float _e744 = (_e578.member_2.member_10.member_1[1] * _e730);
+                float _e745 = (_e578.member_2.member_10.member_1[2] * _e730);
+                float _e748 = asfloat((asuint(_e578.member_2.member_10.member_2[0]) & 2147483647u));
+                float _e751 = asfloat((asuint(_e578.member_2.member_10.member_2[1]) & 2147483647u));
+                float _e754 = asfloat((asuint(_e578.member_2.member_10.member_2[2]) & 2147483647u));
+                float _e759 = (((_e743 * _e748) + (_e744 * _e751)) + (_e745 * _e754));
+                float _e766 = ((0.22222222 * (((_e743 * _e743) + (_e744 * _e744)) + (_e745 * _e745))) + 8.881784e-16);
+                float _e768 = (_e742 * 4.656613e-10);
+                float _e771 = (2.0 * 8.0);
+                float _e772 = (_e748 * _e771);
+                float _e773 = (_e751 * _e771);
+                float _e774 = (_e754 * _e771);
+                v0_2 = Constructarray8_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+                v47_2 = ConstructLightbvhType23_(0u, 8u);
+                uint2 loop_bound_8 = uint2(4294967295u, 4294967295u);
+                bool loop_init_8 = true;
+                while(true) {
+                    if (all(loop_bound_8 == uint2(0u, 0u))) { break; }
+                    loop_bound_8 -= uint2(loop_bound_8.y == 0u, 1u);
+                    if (!loop_init_8) {
+                        v47_2 = v50_2;
+                        v52_2 = _e576;
+                        if (!((asint(v51_2.member) != int(0)))) {
+                            break;
+                        }
+                    }
+                    loop_init_8 = false;
+                    LightbvhType23_ _e781 = v47_2;
+                    bool _e784 = (_e781.member < _e781.member_1);
+                    v48_2 = ZeroValueLightbvhType23_();
+                    v49_2 = ZeroValueLightbvhType23_();
+                    if (_e784) {
+                        v48_2 = ConstructLightbvhType23_((_e781.member + 1u), _e781.member_1);
+                        v49_2 = ConstructLightbvhType23_(1u, _e781.member);
+                    }
+                    LightbvhType23_ _e786 = v48_2;
+                    LightbvhType23_ _e788 = v49_2;
+                    v50_2 = _e786;
+                    v51_2 = _e788;
+                    if (_e784) {
+                    } else {
+                        v50_2 = _e781;
+                        v51_2 = ConstructLightbvhType23_(0u, ZeroValueLightbvhType23_().member_1);
+                    }
+                    LightbvhType23_ _e798 = v50_2;
+                    LightbvhType23_ _e800 = v51_2;
+                    bool _e804 = (asint(_e800.member) != int(0));
+                    if (_e804) {
+                        bool _e805 = (_e800.member_1 < 8u);
+                        if (_e805) {
+                        } else {
+                            v52_2 = true;
+                            break;
+                        }
+                        uint _e809 = asuint(lightbvh_nodes.Load(_e800.member_1*4+1u*32+_e584*192+0));
+                        if (_e805) {
+                        } else {
+                            v52_2 = true;
+                            break;
+                        }
+                        uint _e813 = asuint(lightbvh_nodes.Load(_e800.member_1*4+2u*32+_e584*192+0));
+                        if (_e805) {
+                        } else {
+                            v52_2 = true;
+                            break;
+                        }
+                        uint _e817 = asuint(lightbvh_nodes.Load(_e800.member_1*4+3u*32+_e584*192+0));
+                        if (_e805) {
+                        } else {
+                            v52_2 = true;
+                            break;
+                        }
+                        uint _e821 = asuint(lightbvh_nodes.Load(_e800.member_1*4+4u*32+_e584*192+0));
+                        float _e837 = ((_e694 * _e730) + (float(asint(_e809)) * _e768));
+                        float _e838 = ((_e695 * _e730) + (float(asint((_e809 << asuint(15u)))) * _e768));
+                        float _e839 = ((_e696 * _e730) + (float(asint(_e813)) * _e768));
+                        float _e844 = asfloat((((_e821 << asuint(20u)) & 267386880u) + (asuint(_e742) + 4043309056u)));
+                        float _e851 = float(asint(_e817));
+                        float _e855 = float(asint((_e817 << asuint(8u))));
+                        float _e859 = float(asint((_e817 << asuint(16u))));
+                        float _e863 = (float(asint((_e817 & 255u))) * 0.003921569);
+                        float _e880 = (_e844 * _e844);
+                        float _e881 = (1.0 + (float(asint((_e813 << asuint(15u)))) * 4.656613e-10));
+                        float _e882 = (_e880 + _e766);
+                        float _e885 = ((_e880 * (_e881 * _e881)) + _e766);
+                        float _e890 = asfloat((1595932665u - (asuint(_e882) >> asuint(int(1)))));
+                        float _e895 = (_e890 * (0.70395225 * (2.3892446 - (_e882 * (_e890 * _e890)))));
+                        float _e896 = (_e882 * _e895);
+                        float _e901 = asfloat((1595932665u - (asuint(_e885) >> asuint(int(1)))));
+                        float _e909 = (((_e885 * (_e901 * (0.70395225 * (2.3892446 - (_e885 * (_e901 * _e901)))))) * _e895) - 1.0);
+                        float _e922 = (asfloat((asuint(_e837) & 2147483647u)) - _e743);
+                        float _e923 = (asfloat((asuint(_e838) & 2147483647u)) - _e744);
+                        float _e924 = (asfloat((asuint(_e839) & 2147483647u)) - _e745);
+                        float _e926 = ((_e922 > 0.0) ? _e922 : 0.0);
+                        float _e928 = ((_e923 > 0.0) ? _e923 : 0.0);
+                        float _e930 = ((_e924 > 0.0) ? _e924 : 0.0);
+                        float _e931 = (_e896 * _e896);
+                        float _e937 = ((((_e837 * _e837) + (_e838 * _e838)) + (_e839 * _e839)) + 8.881784e-16);
+                        float _e947 = (_e937 + (1.25 * _e931));
+                        float _e952 = asfloat((1595932665u - (asuint(_e947) >> asuint(int(1)))));
+                        float _e957 = (_e952 * (0.70395225 * (2.3892446 - (_e947 * (_e952 * _e952)))));
+                        float _e958 = (_e896 * _e957);
+                        float _e963 = ((((_e578.member_2.member_10.member_2[0] * 4.656613e-10) * _e851) + ((_e578.member_2.member_10.member_2[1] * 4.656613e-10) * _e855)) + ((_e578.member_2.member_10.member_2[2] * 4.656613e-10) * _e859));
+                        float _e968 = ((0.03162278 + _e676) + (_e958 * (1.0 + (_e909 * (_e963 * _e963)))));
+                        float _e974 = (((((_e578.member_2.member_10.member_2[0] + _e578.member_2.member_10.member_2[0]) * _e837) + ((_e578.member_2.member_10.member_2[1] + _e578.member_2.member_10.member_2[1]) * _e838)) + ((_e578.member_2.member_10.member_2[2] + _e578.member_2.member_10.member_2[2]) * _e839)) * _e957);
+                        float _e976 = (_e974 + (((((((_e772 + _e773) + _e774) + ((((_e772 * 4.656613e-10) * float(asint(_e821))) + ((_e773 * 4.656613e-10) * float(asint((_e821 << asuint(8u)))))) + ((_e774 * 4.656613e-10) * float(asint((_e821 << asuint(16u))))))) * _e844) + (_e759 + _e759)) * _e895) * _e958));
+                        float _e978 = ((_e976 > _e678) ? _e976 : _e678);
+                        float _e984 = (asfloat((asuint(_e974) & 2147483647u)) + _e968);
+                        float _e990 = (1.0 + _e909);
+                        float _e996 = ((((_e851 * _e837) + (_e855 * _e838)) + (_e859 * _e839)) * (-2.0 * 4.656613e-10));
+                        float _e999 = (_e896 * ((_e990 > _e863) ? _e990 : _e863));
+                        float _e1001 = (_e937 - (2.5 * _e931));
+                        float _e1003 = (0.25 * (_e996 * _e996));
+                        float _e1009 = ((((_e1001 > _e1003) ? _e1001 : _e1003) + 8.881784e-16) + (1.25 * (_e999 * _e999)));
+                        float _e1014 = asfloat((1595932665u - (asuint(_e1009) >> asuint(int(1)))));
+                        float _e1019 = (_e1014 * (0.70395225 * (2.3892446 - (_e1009 * (_e1014 * _e1014)))));
+                        float _e1021 = ((_e896 * _e1019) * _e990);
+                        float _e1025 = ((0.03162278 + _e1021) + (_e863 * (0.5 - _e1021)));
+                        float _e1026 = (_e996 * _e1019);
+                        float _e1030 = (asfloat((asuint(_e1026) & 2147483647u)) + _e1025);
+                        float _e1039 = ((_e984 * _e1030) * (((((_e926 * _e926) + (_e928 * _e928)) + (_e930 * _e930)) + 8.881784e-16) + (0.5 * _e931)));
+                        float _e1042 = asfloat((2129859015u - asuint(_e1039)));
+                        if (_e805) {
+                        } else {
+                            v52_2 = true;
+                            break;
+                        }
+                        v0_2[min(uint(_e800.member_1), 7u)] = ((asfloat(((_e813 & 2047u) << asuint(19u))) * (((((_e974 > 0.0) ? _e974 : 0.0) * _e984) + (_e968 * ((_e978 < _e968) ? _e978 : _e968))) * ((((_e1026 > 0.0) ? _e1026 : 0.0) * _e1030) + (_e1025 * _e1025)))) * (_e1042 * (2.0 - (_e1039 * _e1042))));
+                    }
+                    continue;
+                }
+                bool _e1050 = v52_2;
+                v72_2 = _e1050;
+                if (_e1050) {
+                    break;
+                }
+                float _e1051[8] = v0_2;
+                bool _e1073 = (_e578.member_2.member_7 < 20u);
+                v53_2 = ZeroValueuint();
+                if (_e1073) {
+                    bool _e1096 = (_e578.member_2.member_7 < 10u);
+                    v55_2 = _e578.member_2.member_7;
+                    if (_e1096) {
+                    } else {
+                        v55_2 = (_e578.member_2.member_7 - 10u);
+                    }
+                    uint _e1099 = v55_2;
+                    v53_2 = (((_e1096 ? _e578.member_2.member.member.member : _e578.member_2.member.member.member_1) >> asuint((((_e1099 * 3u) & 31u) & 31u))) & 7u);
+                }
+                uint _e1075 = v53_2;
+                v56_2 = _e1075;
+                if (_e1073) {
+                } else {
+                    uint _e1080 = (_e578.member_2.member_7 - 20u);
+                    bool _e1081 = (_e1080 < 10u);
+                    v54_2 = _e1080;
+                    if (_e1081) {
+                    } else {
+                        v54_2 = (_e578.member_2.member_7 - 30u);
+                    }
+                    uint _e1084 = v54_2;
+                    v56_2 = (((_e1081 ? _e578.member_2.member.member_1.member : _e578.member_2.member.member_1.member_1) >> asuint((((_e1084 * 3u) & 31u) & 31u))) & 7u);
+                }
+                uint _e1108 = v56_2;
+                uint _e1113 = (0u - ((_e1051[1] > 0.0) ? 1u : 0u));
+                uint _e1114 = (1u & _e1113);
+                uint _e1118 = (0u - ((_e1051[2] > 0.0) ? 1u : 0u));
+                uint _e1121 = (_e1114 ^ ((2u ^ _e1114) & _e1118));
+                uint _e1125 = (0u - ((_e1051[3] > 0.0) ? 1u : 0u));
+                uint _e1128 = (_e1121 ^ ((3u ^ _e1121) & _e1125));
+                uint _e1132 = (0u - ((_e1051[4] > 0.0) ? 1u : 0u));
+                uint _e1135 = (_e1128 ^ ((4u ^ _e1128) & _e1132));
+                uint _e1139 = (0u - ((_e1051[5] > 0.0) ? 1u : 0u));
+                uint _e1142 = (_e1135 ^ ((5u ^ _e1135) & _e1139));
+                uint _e1146 = (0u - ((_e1051[6] > 0.0) ? 1u : 0u));
+                uint _e1149 = (_e1142 ^ ((6u ^ _e1142) & _e1146));
+                uint _e1153 = (0u - ((_e1051[7] > 0.0) ? 1u : 0u));
+                uint _e1156 = (_e1149 ^ ((7u ^ _e1149) & _e1153));
+                float _e1159 = ((((0.0 + _e1051[0]) + _e1051[4]) + ((0.0 + _e1051[2]) + _e1051[6])) + (((0.0 + _e1051[1]) + _e1051[5]) + ((0.0 + _e1051[3]) + _e1051[7])));
+                bool _e1160 = (_e1159 > 0.0);
+                float _e1164 = (_e1160 ? _e1159 : 1.0);
+                uint _e1165 = asuint(_e1164);
+                float _e1170 = asfloat(((_e1165 & 2147483648u) | (2129859015u - (_e1165 & 2147483647u))));
+                float _e1173 = (_e1170 * (2.0 - (_e1164 * _e1170)));
+                float _e1177 = ((float(asint(_e578.member_2.member_8)) * 0.9999695) * (_e1173 * (2.0 - (_e1164 * _e1173))));
+                v57_2 = int(2147483647);
+                if (_e578.member_2.member_13) {
+                } else {
+                    v57_2 = asint((_e578.member_2.member_1.member >> asuint(10u)));
+                }
+                int _e1180 = v57_2;
+                int _e1186 = asint((asuint(((_e1051[0] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1193 = (((_e1186 > int(1)) ? _e1186 : int(1)) & asint((0u - ((_e1051[0] > 0.0) ? 1u : 0u))));
+                uint _e1194 = asuint(_e1193);
+                uint _e1195 = (_e1194 & 4294967295u);
+                int _e1197 = asint((_e578.member_2.member_13 ? _e1108 : _e1156));
+                uint _e1201 = (0u - (((_e1193 <= _e1180) && (int(0) < _e1197)) ? 1u : 0u));
+                uint _e1202 = (_e1194 & _e1201);
+                int _e1208 = asint((asuint(((_e1051[1] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1213 = asint(asuint(_e1193) + asuint((((_e1208 > int(1)) ? _e1208 : int(1)) & asint(_e1113))));
+                uint _e1214 = asuint(_e1213);
+                uint _e1217 = (_e1195 ^ ((_e1214 ^ _e1195) & _e1201));
+                uint _e1222 = (0u - (((_e1213 <= _e1180) && (int(1) < _e1197)) ? 1u : 0u));
+                uint _e1225 = (_e1202 ^ ((_e1214 ^ _e1202) & _e1222));
+                int _e1232 = asint((asuint(((_e1051[2] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1237 = asint(asuint(_e1213) + asuint((((_e1232 > int(1)) ? _e1232 : int(1)) & asint(_e1118))));
+                uint _e1238 = asuint(_e1237);
+                uint _e1241 = (_e1217 ^ ((_e1238 ^ _e1217) & _e1222));
+                uint _e1246 = (0u - (((_e1237 <= _e1180) && (int(2) < _e1197)) ? 1u : 0u));
+                uint _e1249 = (_e1225 ^ ((_e1238 ^ _e1225) & _e1246));
+                int _e1256 = asint((asuint(((_e1051[3] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1261 = asint(asuint(_e1237) + asuint((((_e1256 > int(1)) ? _e1256 : int(1)) & asint(_e1125))));
+                uint _e1262 = asuint(_e1261);
+                uint _e1265 = (_e1241 ^ ((_e1262 ^ _e1241) & _e1246));
+                uint _e1270 = (0u - (((_e1261 <= _e1180) && (int(3) < _e1197)) ? 1u : 0u));
+                uint _e1273 = (_e1249 ^ ((_e1262 ^ _e1249) & _e1270));
+                int _e1280 = asint((asuint(((_e1051[4] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1285 = asint(asuint(_e1261) + asuint((((_e1280 > int(1)) ? _e1280 : int(1)) & asint(_e1132))));
+                uint _e1286 = asuint(_e1285);
+                uint _e1289 = (_e1265 ^ ((_e1286 ^ _e1265) & _e1270));
+                uint _e1294 = (0u - (((_e1285 <= _e1180) && (int(4) < _e1197)) ? 1u : 0u));
+                uint _e1297 = (_e1273 ^ ((_e1286 ^ _e1273) & _e1294));
+                int _e1304 = asint((asuint(((_e1051[5] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1309 = asint(asuint(_e1285) + asuint((((_e1304 > int(1)) ? _e1304 : int(1)) & asint(_e1139))));
+                uint _e1310 = asuint(_e1309);
+                uint _e1313 = (_e1289 ^ ((_e1310 ^ _e1289) & _e1294));
+                uint _e1318 = (0u - (((_e1309 <= _e1180) && (int(5) < _e1197)) ? 1u : 0u));
+                uint _e1321 = (_e1297 ^ ((_e1310 ^ _e1297) & _e1318));
+                int _e1328 = asint((asuint(((_e1051[6] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1333 = asint(asuint(_e1309) + asuint((((_e1328 > int(1)) ? _e1328 : int(1)) & asint(_e1146))));
+                uint _e1334 = asuint(_e1333);
+                uint _e1337 = (_e1313 ^ ((_e1334 ^ _e1313) & _e1318));
+                uint _e1342 = (0u - (((_e1333 <= _e1180) && (int(6) < _e1197)) ? 1u : 0u));
+                uint _e1345 = (_e1321 ^ ((_e1334 ^ _e1321) & _e1342));
+                int _e1352 = asint((asuint(((_e1051[7] * _e1177) + 8388608.0)) & 8388607u));
+                int _e1357 = asint(asuint(_e1333) + asuint((((_e1352 > int(1)) ? _e1352 : int(1)) & asint(_e1153))));
+                uint _e1358 = asuint(_e1357);
+                uint _e1361 = (_e1337 ^ ((_e1358 ^ _e1337) & _e1342));
+                uint _e1366 = (0u - (((_e1357 <= _e1180) && (int(7) < _e1197)) ? 1u : 0u));
+                uint _e1369 = (_e1345 ^ ((_e1358 ^ _e1345) & _e1366));
+                uint _e1372 = (_e578.member_2.member_13 ? _e1108 : ((((((((_e1201 & 1u) + (_e1222 & 1u)) + (_e1246 & 1u)) + (_e1270 & 1u)) + (_e1294 & 1u)) + (_e1318 & 1u)) + (_e1342 & 1u)) + (_e1366 & 1u)));
+                bool _e1377 = (_e1372 < 8u);
+                bool _e1378 = ((_e1160 && (_e1361 > _e1369)) && _e1377);
+                uint _e1379 = (_e1377 ? _e1372 : 0u);
+                v58_2 = 0u;
+                if (_e1378) {
+                    v58_2 = (((_e1372 == _e1156) ? _e578.member_2.member_8 : _e1361) - _e1369);
+                }
+                uint _e1383 = v58_2;
+                bool _e1384 = (_e1379 < 8u);
+                if (_e1384) {
+                } else {
+                    v72_2 = true;
+                    break;
+                }
+                uint _e1388 = asuint(lightbvh_nodes.Load(_e1379*4+1u*32+_e584*192+0));
+                uint _e1389 = (_e1388 & 3u);
+                if (_e1384) {
+                } else {
+                    v72_2 = true;
+                    break;
+                }
+                uint _e1393 = asuint(lightbvh_nodes.Load(_e1379*4+5u*32+_e584*192+0));
+                bool _e1397 = ((_e583 && (_e1383 > 0u)) && (_e1383 <= _e578.member_2.member_8));
+                uint _e1398 = (_e1397 ? _e1383 : 1u);
+                uint _e1400 = ((_e1398 - 1u) & 4194303u);
+                uint _e1406 = (((_e1400 == 0u) ? 32u : (asuint(int(31)) - firstbithigh(_e1400))) - 10u);
+                uint _e1408 = ((_e1406 < 22u) ? _e1406 : 22u);
+                uint _e1421 = (_e1408 & 31u);
+                LightbvhType32_ _e1446 = ConstructLightbvhType32_(_e578.member, _e578.member_1, ConstructLightbvhType31_(_e578.member_2.member, ConstructLightbvhType23_((((_e578.member_2.member_1.member - ((_e1378 ? _e1369 : 0u) << asuint(10u))) << asuint(_e1421)) | ((_e578.member_2.member_1.member_1 >> asuint(int(1))) >> asuint(((31u - _e1408) & 31u)))), (_e578.member_2.member_1.member_1 << asuint(_e1421))), _e578.member_2.member_2, _e578.member_2.member_3, _e578.member_2.member_4, _e578.member_2.member_5, _e578.member_2.member_6, _e578.member_2.member_7, _e578.member_2.member_8, _e578.member_2.member_9, _e578.member_2.member_10, _e578.member_2.member_11, _e578.member_2.member_12, _e578.member_2.member_13));
+                LightbvhType32_ _e1467 = ConstructLightbvhType32_(_e1446.member, _e1446.member_1, ConstructLightbvhType31_(_e1446.member_2.member, _e1446.member_2.member_1, _e1446.member_2.member_2, _e1446.member_2.member_3, _e1446.member_2.member_4, _e1446.member_2.member_5, _e1446.member_2.member_6, _e1446.member_2.member_7, (_e1398 << asuint(_e1421)), _e1446.member_2.member_9, _e1446.member_2.member_10, _e1446.member_2.member_11, _e1446.member_2.member_12, _e1446.member_2.member_13));
+                LightbvhType32_ _e1489 = ConstructLightbvhType32_(_e1467.member, _e1467.member_1, ConstructLightbvhType31_(_e1467.member_2.member, _e1467.member_2.member_1, _e1467.member_2.member_2, _e1467.member_2.member_3, _e1467.member_2.member_4, _e1467.member_2.member_5, _e1467.member_2.member_6, _e1467.member_2.member_7, _e1467.member_2.member_8, (_e578.member_2.member_9 + _e1408), _e1467.member_2.member_10, _e1467.member_2.member_11, _e1467.member_2.member_12, _e1467.member_2.member_13));
+                uint _e1490 = (_e578.member_2.member_7 + 1u);
+                v59_2 = true;
+                if ((_e1490 == 20u)) {
+                } else {
+                    v59_2 = (_e1490 == 40u);
+                }
+                bool _e1494 = v59_2;
+                uint _e1495 = (_e1393 & 134217727u);
+                uint _e1499 = (_e1393 >> asuint((firstbitlow(134217728u) & 31u)));
+                bool _e1503 = (_e1495 < _e151);
+                bool _e1504 = (((_e1397 && (_e1389 == 3u)) && _e1073) && _e1503);
+                bool _e1508 = ((_e1397 && (_e1389 == 1u)) && !(_e1494));
+                LightbvhType32_ _e1530 = ConstructLightbvhType32_(_e1489.member, _e1489.member_1, ConstructLightbvhType31_(_e1489.member_2.member, _e1489.member_2.member_1, _e1489.member_2.member_2, _e1489.member_2.member_3, _e1489.member_2.member_4, ((_e1397 && (_e1389 == 2u)) ? _e1393 : 4294967295u), _e1489.member_2.member_6, _e1489.member_2.member_7, _e1489.member_2.member_8, _e1489.member_2.member_9, _e1489.member_2.member_10, _e1489.member_2.member_11, _e1489.member_2.member_12, _e1489.member_2.member_13));
+                uint _e1533 = (_e578.member_2.member_11 - 1u);
+                LightbvhType32_ _e1552 = ConstructLightbvhType32_(_e1530.member, _e1530.member_1, ConstructLightbvhType31_(_e1530.member_2.member, _e1530.member_2.member_1, _e1530.member_2.member_2, _e1530.member_2.member_3, _e1530.member_2.member_4, _e1530.member_2.member_5, _e1530.member_2.member_6, _e1530.member_2.member_7, _e1530.member_2.member_8, _e1530.member_2.member_9, _e1530.member_2.member_10, _e1533, _e1530.member_2.member_12, _e1530.member_2.member_13));
+                bool _e1556 = (!((_e1504 || _e1508)) || (_e1533 == 0u));
+                LightbvhType32_ _e1575 = ConstructLightbvhType32_(_e1552.member, _e1552.member_1, ConstructLightbvhType31_(_e1552.member_2.member, _e1552.member_2.member_1, _e1552.member_2.member_2, _e1552.member_2.member_3, _e1552.member_2.member_4, _e1552.member_2.member_5, _e1552.member_2.member_6, _e1552.member_2.member_7, _e1552.member_2.member_8, _e1552.member_2.member_9, _e1552.member_2.member_10, _e1552.member_2.member_11, _e1556, _e1552.member_2.member_13));
+                v60_2 = ZeroValueLightbvhType32_();
+                if (_e1504) {
+                    if (_e1503) {
+                    } else {
+                        v72_2 = true;
+                        break;
+                    }
+                    LightbvhType32_ _e1640 = ConstructLightbvhType32_(_e1575.member, _e1575.member_1, ConstructLightbvhType31_(_e1575.member_2.member, _e1575.member_2.member_1, _e1575.member_2.member_2, _e1575.member_2.member_3, _e1575.member_2.member_4, _e1575.member_2.member_5, _e1495, _e1575.member_2.member_7, _e1575.member_2.member_8, _e1575.member_2.member_9, _e1575.member_2.member_10, _e1575.member_2.member_11, _e1575.member_2.member_12, _e1575.member_2.member_13));
+                    uint _e1643 = asuint(lightbvh_instances.Load(0+_e1495*136+0));
+                    LightbvhType32_ _e1662 = ConstructLightbvhType32_(_e1640.member, _e1640.member_1, ConstructLightbvhType31_(_e1640.member_2.member, _e1640.member_2.member_1, _e1640.member_2.member_2, _e1640.member_2.member_3, _e1643, _e1640.member_2.member_5, _e1640.member_2.member_6, _e1640.member_2.member_7, _e1640.member_2.member_8, _e1640.member_2.member_9, _e1640.member_2.member_10, _e1640.member_2.member_11, _e1640.member_2.member_12, _e1640.member_2.member_13));
+                    bool _e1663 = (_e1643 == 4294967295u);
+                    v62_2 = 4294967295u;
+                    if (_e1663) {
+                        uint _e1666 = asuint(lightbvh_instances.Load(12+_e1495*136+0));
+                        v62_2 = _e1666;
+                    }
+                    uint _e1668 = v62_2;
+                    LightbvhType32_ _e1687 = ConstructLightbvhType32_(_e1662.member, _e1662.member_1, ConstructLightbvhType31_(_e1662.member_2.member, _e1662.member_2.member_1, _e1662.member_2.member_2, _e1662.member_2.member_3, _e1662.member_2.member_4, _e1668, _e1662.member_2.member_6, _e1662.member_2.member_7, _e1662.member_2.member_8, _e1662.member_2.member_9, _e1662.member_2.member_10, _e1662.member_2.member_11, _e1662.member_2.member_12, _e1662.member_2.member_13));
+                    bool _e1688 = (_e1556 || _e1663);
+                    LightbvhType32_ _e1707 = ConstructLightbvhType32_(_e1687.member, _e1687.member_1, ConstructLightbvhType31_(_e1687.member_2.member, _e1687.member_2.member_1, _e1687.member_2.member_2, _e1687.member_2.member_3, _e1687.member_2.member_4, _e1687.member_2.member_5, _e1687.member_2.member_6, _e1687.member_2.member_7, _e1687.member_2.member_8, _e1687.member_2.member_9, _e1687.member_2.member_10, _e1687.member_2.member_11, _e1688, _e1687.member_2.member_13));
+                    LightbvhType32_ _e1726 = ConstructLightbvhType32_(_e1707.member, _e1707.member_1, ConstructLightbvhType31_(_e1707.member_2.member, _e1707.member_2.member_1, _e1707.member_2.member_2, _e1707.member_2.member_3, _e1707.member_2.member_4, _e1707.member_2.member_5, _e1707.member_2.member_6, 20u, _e1707.member_2.member_8, _e1707.member_2.member_9, _e1707.member_2.member_10, _e1707.member_2.member_11, _e1707.member_2.member_12, _e1707.member_2.member_13));
+                    v63_2 = _e1726;
+                    if ((_e1499 > 0u)) {
+                        uint _e1729 = ((_e1643 < _e148) ? _e1643 : 0u);
+                        if ((_e1729 < _e148)) {
+                        } else {
+                            v72_2 = true;
+                            break;
+                        }
+                        uint _e1732 = naga_mod((_e1499 - 1u), 8u);
+                        bool _e1733 = (_e1732 < 8u);
+                        if (_e1733) {
+                        } else {
+                            v72_2 = true;
+                            break;
+                        }
+                        uint _e1737 = asuint(lightbvh_nodes.Load(_e1732*4+1u*32+_e1729*192+0));
+                        uint _e1738 = (_e1737 & 3u);
+                        if (_e1733) {
+                        } else {
+                            v72_2 = true;
+                            break;
+                        }
+                        uint _e1742 = asuint(lightbvh_nodes.Load(_e1732*4+5u*32+_e1729*192+0));
+                        LightbvhType32_ _e1761 = ConstructLightbvhType32_(_e1726.member, _e1726.member_1, ConstructLightbvhType31_(_e1726.member_2.member, _e1726.member_2.member_1, _e1726.member_2.member_2, _e1726.member_2.member_3, _e1742, _e1726.member_2.member_5, _e1726.member_2.member_6, _e1726.member_2.member_7, _e1726.member_2.member_8, _e1726.member_2.member_9, _e1726.member_2.member_10, _e1726.member_2.member_11, _e1726.member_2.member_12, _e1726.member_2.member_13));
+                        LightbvhType32_ _e1782 = ConstructLightbvhType32_(_e1761.member, _e1761.member_1, ConstructLightbvhType31_(_e1761.member_2.member, _e1761.member_2.member_1, _e1761.member_2.member_2, _e1761.member_2.member_3, _e1761.member_2.member_4, ((_e1738 == 2u) ? _e1742 : 4294967295u), _e1761.member_2.member_6, _e1761.member_2.member_7, _e1761.member_2.member_8, _e1761.member_2.member_9, _e1761.member_2.member_10, _e1761.member_2.member_11, _e1761.member_2.member_12, _e1761.member_2.member_13));
+                        LightbvhType32_ _e1803 = ConstructLightbvhType32_(_e1782.member, _e1782.member_1, ConstructLightbvhType31_(_e1782.member_2.member, _e1782.member_2.member_1, _e1782.member_2.member_2, _e1782.member_2.member_3, _e1782.member_2.member_4, _e1782.member_2.member_5, _e1782.member_2.member_6, _e1782.member_2.member_7, _e1782.member_2.member_8, _e1782.member_2.member_9, _e1782.member_2.member_10, _e1782.member_2.member_11, (_e1688 || (_e1738 != 1u)), _e1782.member_2.member_13));
+                        v63_2 = ConstructLightbvhType32_(_e1803.member, _e1803.member_1, ConstructLightbvhType31_(_e1803.member_2.member, _e1803.member_2.member_1, _e1803.member_2.member_2, _e1803.member_2.member_3, _e1803.member_2.member_4, _e1803.member_2.member_5, _e1803.member_2.member_6, 21u, _e1803.member_2.member_8, _e1803.member_2.member_9, _e1803.member_2.member_10, _e1803.member_2.member_11, _e1803.member_2.member_12, _e1803.member_2.member_13));
+                    }
+                    LightbvhType32_ _e1824 = v63_2;
+                    float _e1833 = asfloat(lightbvh_instances.Load(0u*4+60+_e1495*136+0));
+                    float _e1837 = asfloat(lightbvh_instances.Load(1u*4+60+_e1495*136+0));
+                    float _e1841 = asfloat(lightbvh_instances.Load(2u*4+60+_e1495*136+0));
+                    float _e1842 = (_e183.member.member[0] - _e1833);
+                    float _e1843 = (_e183.member.member[1] - _e1837);
+                    float _e1844 = (_e183.member.member[2] - _e1841);
+                    float _e1849 = ((asfloat((asuint(_e1842) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1842);
+                    float _e1854 = ((asfloat((asuint(_e1843) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1843);
+                    float _e1859 = ((asfloat((asuint(_e1844) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1844);
+                    float _e1864 = asfloat(lightbvh_instances.Load(0u*4+0u*12+72+_e1495*136+0));
+                    float _e1869 = asfloat(lightbvh_instances.Load(1u*4+0u*12+72+_e1495*136+0));
+                    float _e1874 = asfloat(lightbvh_instances.Load(2u*4+0u*12+72+_e1495*136+0));
+                    float _e1882 = asfloat(lightbvh_instances.Load(0u*4+1u*12+72+_e1495*136+0));
+                    float _e1887 = asfloat(lightbvh_instances.Load(1u*4+1u*12+72+_e1495*136+0));
+                    float _e1892 = asfloat(lightbvh_instances.Load(2u*4+1u*12+72+_e1495*136+0));
+                    float _e1903 = asfloat(lightbvh_instances.Load(0u*4+2u*12+72+_e1495*136+0));
+                    float _e1908 = asfloat(lightbvh_instances.Load(1u*4+2u*12+72+_e1495*136+0));
+                    float _e1913 = asfloat(lightbvh_instances.Load(2u*4+2u*12+72+_e1495*136+0));
+                    float _e1917 = (((_e1864 * _e1849) + (_e1882 * _e1854)) + (_e1903 * _e1859));
+                    float _e1918 = (((_e1869 * _e1849) + (_e1887 * _e1854)) + (_e1908 * _e1859));
+                    float _e1919 = (((_e1874 * _e1849) + (_e1892 * _e1854)) + (_e1913 * _e1859));
+                    float _e1927 = asfloat(lightbvh_instances.Load(0u*4+0u*12+24+_e1495*136+0));
+                    float _e1932 = asfloat(lightbvh_instances.Load(1u*4+0u*12+24+_e1495*136+0));
+                    float _e1937 = asfloat(lightbvh_instances.Load(2u*4+0u*12+24+_e1495*136+0));
+                    float _e1942 = (((_e1927 * _e183.member.member_2[0]) + (_e1932 * _e183.member.member_2[1])) + (_e1937 * _e183.member.member_2[2]));
+                    float _e1947 = asfloat(lightbvh_instances.Load(0u*4+1u*12+24+_e1495*136+0));
+                    float _e1952 = asfloat(lightbvh_instances.Load(1u*4+1u*12+24+_e1495*136+0));
+                    float _e1957 = asfloat(lightbvh_instances.Load(2u*4+1u*12+24+_e1495*136+0));
+                    float _e1962 = (((_e1947 * _e183.member.member_2[0]) + (_e1952 * _e183.member.member_2[1])) + (_e1957 * _e183.member.member_2[2]));
+                    float _e1967 = asfloat(lightbvh_instances.Load(0u*4+2u*12+24+_e1495*136+0));
+                    float _e1972 = asfloat(lightbvh_instances.Load(1u*4+2u*12+24+_e1495*136+0));
+                    float _e1977 = asfloat(lightbvh_instances.Load(2u*4+2u*12+24+_e1495*136+0));
+                    float _e1982 = (((_e1967 * _e183.member.member_2[0]) + (_e1972 * _e183.member.member_2[1])) + (_e1977 * _e183.member.member_2[2]));
+                    float _e1987 = ((asfloat((asuint(_e1942) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1942);
+                    float _e1992 = ((asfloat((asuint(_e1962) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1962);
+                    float _e1997 = ((asfloat((asuint(_e1982) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1982);
+                    float _e2002 = (((_e1987 * _e1987) + (_e1992 * _e1992)) + (_e1997 * _e1997));
+                    float _e2003 = asfloat(67108864u);
+                    v64_2 = 0.0;
+                    if ((_e2002 >= _e2003)) {
+                        float _e2009 = asfloat((1597463007u - (asuint(_e2002) >> asuint(int(1)))));
+                        float _e2010 = (0.5 * _e2002);
+                        float _e2014 = (_e2009 * (1.5 - ((_e2010 * _e2009) * _e2009)));
+                        v64_2 = (_e2014 * (1.5 - ((_e2010 * _e2014) * _e2014)));
+                    }
+                    float _e2020 = v64_2;
+                    float _e2021 = -(1.1529215e18);
+                    v65_2 = _e2021;
+                    if ((_e1917 < _e2021)) {
+                    } else {
+                        v65_2 = ((_e1917 > 1.1529215e18) ? 1.1529215e18 : _e1917);
+                    }
+                    float _e2026 = v65_2;
+                    v66_2 = _e2021;
+                    if ((_e1918 < _e2021)) {
+                    } else {
+                        v66_2 = ((_e1918 > 1.1529215e18) ? 1.1529215e18 : _e1918);
+                    }
+                    float _e2036 = v66_2;
+                    v67_2 = _e2021;
+                    if ((_e1919 < _e2021)) {
+                    } else {
+                        v67_2 = ((_e1919 > 1.1529215e18) ? 1.1529215e18 : _e1919);
+                    }
+                    float _e2046 = v67_2;
+                    float _e2053 = (_e1987 * _e2020);
+                    float _e2059 = (_e1992 * _e2020);
+                    float _e2065 = (_e1997 * _e2020);
+                    float _e2081 = ((asfloat((asuint(_e183.member.member_2[0]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e183.member.member_2[0]);
+                    float _e2086 = ((asfloat((asuint(_e183.member.member_2[1]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e183.member.member_2[1]);
+                    float _e2091 = ((asfloat((asuint(_e183.member.member_2[2]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e183.member.member_2[2]);
+                    float _e2096 = (((_e2081 * _e2081) + (_e2086 * _e2086)) + (_e2091 * _e2091));
+                    float _e2098 = ((_e2096 > _e2003) ? _e2096 : _e2003);
+                    float _e2103 = asfloat((1597463007u - (asuint(_e2098) >> asuint(int(1)))));
+                    float _e2104 = (0.5 * _e2098);
+                    float _e2108 = (_e2103 * (1.5 - ((_e2104 * _e2103) * _e2103)));
+                    float _e2113 = (_e2098 * (_e2108 * (1.5 - ((_e2104 * _e2108) * _e2108))));
+                    float _e2114 = (((asfloat((asuint(_e2053) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2053) * _e2113);
+                    float _e2115 = (((asfloat((asuint(_e2059) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2059) * _e2113);
+                    float _e2116 = (((asfloat((asuint(_e2065) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2065) * _e2113);
+                    float _e2142 = ((asfloat((asuint(_e183.member.member_1[0]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e183.member.member_1[0]);
+                    float _e2147 = ((asfloat((asuint(_e183.member.member_1[1]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e183.member.member_1[1]);
+                    float _e2152 = ((asfloat((asuint(_e183.member.member_1[2]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e183.member.member_1[2]);
+                    float _e2192 = (((asfloat((asuint(_e1864) & 2147483647u)) * _e2142) + (asfloat((asuint(_e1882) & 2147483647u)) * _e2147)) + (asfloat((asuint(_e1903) & 2147483647u)) * _e2152));
+                    float _e2193 = (((asfloat((asuint(_e1869) & 2147483647u)) * _e2142) + (asfloat((asuint(_e1887) & 2147483647u)) * _e2147)) + (asfloat((asuint(_e1908) & 2147483647u)) * _e2152));
+                    float _e2194 = (((asfloat((asuint(_e1874) & 2147483647u)) * _e2142) + (asfloat((asuint(_e1892) & 2147483647u)) * _e2147)) + (asfloat((asuint(_e1913) & 2147483647u)) * _e2152));
+                    float _e2196 = ((_e2192 < 1.1529215e18) ? _e2192 : 1.1529215e18);
+                    float _e2198 = ((_e2193 < 1.1529215e18) ? _e2193 : 1.1529215e18);
+                    float _e2200 = ((_e2194 < 1.1529215e18) ? _e2194 : 1.1529215e18);
+                    v60_2 = ConstructLightbvhType32_(_e1824.member, _e1824.member_1, ConstructLightbvhType31_(_e1824.member_2.member, _e1824.member_2.member_1, _e1824.member_2.member_2, _e1824.member_2.member_3, _e1824.member_2.member_4, _e1824.member_2.member_5, _e1824.member_2.member_6, _e1824.member_2.member_7, _e1824.member_2.member_8, _e1824.member_2.member_9, ConstructLightbvhType29_(Constructarray3_float_(((asfloat((asuint(_e2026) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2026), ((asfloat((asuint(_e2036) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2036), ((asfloat((asuint(_e2046) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2046)), Constructarray3_float_(((asfloat((asuint(_e2196) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2196), ((asfloat((asuint(_e2198) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2198), ((asfloat((asuint(_e2200) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2200)), Constructarray3_float_(((asfloat((asuint(_e2114) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2114), ((asfloat((asuint(_e2115) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2115), ((asfloat((asuint(_e2116) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e2116))), _e1824.member_2.member_11, _e1824.member_2.member_12, _e1824.member_2.member_13));
+                }
+                LightbvhType32_ _e1577 = v60_2;
+                v68_2 = _e1577;
+                if (_e1504) {
+                } else {
+                    v61_2 = _e578.member_2.member_4;
+                    if (_e1508) {
+                        v61_2 = (_e1393 + (_e1073 ? _e157 : 0u));
+                    }
+                    uint _e1581 = v61_2;
+                    LightbvhType32_ _e1600 = ConstructLightbvhType32_(_e1575.member, _e1575.member_1, ConstructLightbvhType31_(_e1575.member_2.member, _e1575.member_2.member_1, _e1575.member_2.member_2, _e1575.member_2.member_3, _e1581, _e1575.member_2.member_5, _e1575.member_2.member_6, _e1575.member_2.member_7, _e1575.member_2.member_8, _e1575.member_2.member_9, _e1575.member_2.member_10, _e1575.member_2.member_11, _e1575.member_2.member_12, _e1575.member_2.member_13));
+                    v68_2 = ConstructLightbvhType32_(_e1600.member, _e1600.member_1, ConstructLightbvhType31_(_e1600.member_2.member, _e1600.member_2.member_1, _e1600.member_2.member_2, _e1600.member_2.member_3, _e1600.member_2.member_4, _e1600.member_2.member_5, _e1600.member_2.member_6, (_e578.member_2.member_7 + (_e1508 ? 1u : 0u)), _e1600.member_2.member_8, _e1600.member_2.member_9, _e1600.member_2.member_10, _e1600.member_2.member_11, _e1600.member_2.member_12, _e1600.member_2.member_13));
+                }
+                LightbvhType32_ _e2239 = v68_2;
+                v69_2 = _e1050;
+                v70_2 = _e2239;
+                v71_2 = _e2239.member_2.member_12;
+            }
+            bool _e2243 = v69_2;
+            LightbvhType32_ _e2245 = v70_2;
+            bool _e2247 = v71_2;
+            continue;
+        }
+        bool _e2251 = v72_2;
+        if (_e2251) {
+            break;
+        }
+        LightbvhType32_ _e2253 = v73_2;
+        bool _e2255 = (_e2253.member != 4294967295u);
+        LightbvhType32_ _e2257 = v74_2;
+        LightbvhType32_ _e2263 = v75_2;
+        LightbvhType32_ _e2267 = v76_2;
+        bool _e2271 = ((_e2257.member_2.member_5 != 4294967295u) && (!(_e2255) || (_e2263.member_2.member_6 == _e2267.member_1)));
+        uint _e2272 = (_e2255 ? _e2267.member_1 : _e2263.member_2.member_6);
+        v78_2 = _e2253.member;
+        if (_e2255) {
+        } else {
+            v77_2 = _e2257.member_2.member_5;
+            if ((_e2263.member_2.member_6 < _e151)) {
+                uint _e2276 = asuint(lightbvh_instances.Load(12+_e2263.member_2.member_6*136+0));
+                uint _e2280 = asuint(lightbvh_instances.Load(8+_e2263.member_2.member_6*136+0));
+                v77_2 = ((_e2257.member_2.member_5 - _e2276) + _e2280);
+            }
+            uint _e2283 = v77_2;
+            v78_2 = _e2283;
+        }
+        uint _e2285 = v78_2;
+        v81_2 = 0.0;
+        if (_e2271) {
+            LightbvhType32_ _e2287 = v79_2;
+            LightbvhType32_ _e2293 = v80_2;
+            int _e2300 = naga_neg(asint((22u + ((_e2287.member_2.member_9 < 98u) ? _e2287.member_2.member_9 : 98u))));
+            int _e2302 = ((_e2300 < int(-126)) ? int(-126) : _e2300);
+            v81_2 = (float(asint(_e2293.member_2.member_8)) * asfloat((asuint(asint(asuint(((_e2302 > int(127)) ? int(127) : _e2302)) + asuint(int(127)))) << asuint(int(23)))));
+        }
+        float _e2312 = v81_2;
+        v83_2 = ZeroValueuint();
+        v84_2 = true;
+        if ((_e175 > 0u)) {
+            bool _e2314 = (_e2272 < _e151);
+            v82_2 = ZeroValueuint();
+            if (_e2314) {
+                uint _e2317 = asuint(lightbvh_instances.Load(16+_e2272*136+0));
+                v82_2 = _e2317;
+            }
+            uint _e2319 = v82_2;
+            v83_2 = _e2319;
+            v84_2 = (_e2314 ? false : true);
+        }
+        uint _e2322 = v83_2;
+        bool _e2324 = v84_2;
+        uint _e2329 = ((_e2324 ? _e178 : _e2322) & 2147483647u);
+        uint _e2334 = asuint((float(int(65536)) * asfloat(880803840u)));
+        uint _e2335 = asuint(float(asint(((_e2329 > 0u) ? _e2329 : 1u))));
+        uint _e2340 = ((_e2334 >> asuint(int(23))) & 255u);
+        uint _e2344 = (_e2334 & 8388607u);
+        uint _e2345 = (_e2344 | 8388608u);
+        uint _e2346 = (_e2335 & 8388607u);
+        uint _e2347 = (_e2346 | 8388608u);
+        bool _e2348 = (_e2345 < _e2347);
+        float _e2352 = asfloat((_e2346 | 1065353216u));
+        uint _e2353 = asuint(_e2352);
+        float _e2358 = asfloat(((_e2353 & 2147483648u) | (2129859015u - (_e2353 & 2147483647u))));
+        float _e2361 = (_e2358 * (2.0 - (_e2352 * _e2358)));
+        float _e2364 = (_e2361 * (2.0 - (_e2352 * _e2361)));
+        float _e2368 = ((asfloat((_e2344 | 1065353216u)) * _e2364) * (_e2348 ? 16777216.0 : 8388608.0));
+        float _e2369 = asfloat(0u);
+        float _e2370 = asfloat(1333788671u);
+        uint _e2375 = ((_e2368 > _e2370) ? 4294967295u : ((_e2368 < _e2369) ? 0u : naga_f2u32(_e2368)));
+        int _e2381 = asint(((_e2345 << asuint(((_e2348 ? int(24) : int(23)) & int(31)))) - (_e2375 * _e2347)));
+        float _e2386 = ((float((_e2381 >> asuint(int(8)))) * _e2364) * 3.0517578e-5);
+        float _e2387 = asfloat(3472883712u);
+        float _e2388 = asfloat(1325400063u);
+        int _e2395 = ((_e2386 == _e2386) ? ((_e2386 > _e2388) ? int(2147483647) : ((_e2386 < _e2387) ? int(-2147483647 - 1) : naga_f2i32(_e2386))) : int(0));
+        uint _e2397 = (_e2375 + asuint(_e2395));
+        int _e2398 = asint(_e2347);
+        int _e2400 = asint(asuint(_e2381) - asuint(asint(asuint(_e2395) * asuint(_e2398))));
+        bool _e2401 = (_e2400 < int(0));
+        v85_2 = _e2397;
+        if (_e2401) {
+            v85_2 = (_e2397 - 1u);
+        }
+        uint _e2404 = v85_2;
+        v86_2 = _e2400;
+        if (_e2401) {
+            v86_2 = asint(asuint(_e2400) + asuint(_e2398));
+        }
+        int _e2407 = v86_2;
+        bool _e2408 = (_e2407 >= _e2398);
+        v87_2 = _e2404;
+        if (_e2408) {
+            v87_2 = (_e2404 + 1u);
+        }
+        uint _e2411 = v87_2;
+        v88_2 = _e2407;
+        if (_e2408) {
+            v88_2 = asint(asuint(_e2407) - asuint(_e2398));
+        }
+        int _e2414 = v88_2;
+        v89_1 = _e2411;
+        if ((asint(asuint(_e2414) * asuint(int(2))) > _e2398)) {
+            v89_1 = (_e2411 + 1u);
+        }
+        uint _e2419 = v89_1;
+        int _e2424 = asint(asuint(asint(asuint(asint(_e2340)) - asuint(asint(((_e2335 >> asuint(int(23))) & 255u))))) + asuint((_e2348 ? int(126) : int(127))));
+        v92_1 = ZeroValueuint();
+        v93_1 = true;
+        if ((_e2340 == 0u)) {
+        } else {
+            bool _e2426 = (_e2424 <= int(0));
+            v91_1 = ZeroValueuint();
+            if (_e2426) {
+            } else {
+                v90_1 = 2139095040u;
+                if ((_e2424 >= int(255))) {
+                } else {
+                    v90_1 = ((asuint(_e2424) << asuint(int(23))) + (_e2419 & 8388607u));
+                }
+                uint _e2434 = v90_1;
+                v91_1 = _e2434;
+            }
+            uint _e2436 = v91_1;
+            v92_1 = _e2436;
+            v93_1 = _e2426;
+        }
+        uint _e2438 = v92_1;
+        bool _e2440 = v93_1;
+        uint _e2444 = (_e175 & 2147483647u);
+        uint _e2449 = asuint(asfloat((((_e2334 ^ _e2335) & 2147483648u) | (_e2440 ? 0u : _e2438))));
+        uint _e2450 = asuint(float(asint(((_e2444 > 0u) ? _e2444 : 1u))));
+        uint _e2455 = ((_e2449 >> asuint(int(23))) & 255u);
+        uint _e2459 = (_e2449 & 8388607u);
+        uint _e2460 = (_e2459 | 8388608u);
+        uint _e2461 = (_e2450 & 8388607u);
+        uint _e2462 = (_e2461 | 8388608u);
+        bool _e2463 = (_e2460 < _e2462);
+        float _e2467 = asfloat((_e2461 | 1065353216u));
+        uint _e2468 = asuint(_e2467);
+        float _e2473 = asfloat(((_e2468 & 2147483648u) | (2129859015u - (_e2468 & 2147483647u))));
+        float _e2476 = (_e2473 * (2.0 - (_e2467 * _e2473)));
+        float _e2479 = (_e2476 * (2.0 - (_e2467 * _e2476)));
+        float _e2483 = ((asfloat((_e2459 | 1065353216u)) * _e2479) * (_e2463 ? 16777216.0 : 8388608.0));
+        uint _e2488 = ((_e2483 > _e2370) ? 4294967295u : ((_e2483 < _e2369) ? 0u : naga_f2u32(_e2483)));
+        int _e2494 = asint(((_e2460 << asuint(((_e2463 ? int(24) : int(23)) & int(31)))) - (_e2488 * _e2462)));
+        float _e2499 = ((float((_e2494 >> asuint(int(8)))) * _e2479) * 3.0517578e-5);
+        int _e2506 = ((_e2499 == _e2499) ? ((_e2499 > _e2388) ? int(2147483647) : ((_e2499 < _e2387) ? int(-2147483647 - 1) : naga_f2i32(_e2499))) : int(0));
+        uint _e2508 = (_e2488 + asuint(_e2506));
+        int _e2509 = asint(_e2462);
+        int _e2511 = asint(asuint(_e2494) - asuint(asint(asuint(_e2506) * asuint(_e2509))));
+        bool _e2512 = (_e2511 < int(0));
+        v94_1 = _e2508;
+        if (_e2512) {
+            v94_1 = (_e2508 - 1u);
+        }
+        uint _e2515 = v94_1;
+        v95_1 = _e2511;
+        if (_e2512) {
+            v95_1 = asint(asuint(_e2511) + asuint(_e2509));
+        }
+        int _e2518 = v95_1;
+        bool _e2519 = (_e2518 >= _e2509);
+        v96_1 = _e2515;
+        if (_e2519) {
+            v96_1 = (_e2515 + 1u);
+        }
+        uint _e2522 = v96_1;
+        v97_1 = _e2518;
+        if (_e2519) {
+            v97_1 = asint(asuint(_e2518) - asuint(_e2509));
+        }
+        int _e2525 = v97_1;
+        v98_1 = _e2522;
+        if ((asint(asuint(_e2525) * asuint(int(2))) > _e2509)) {
+            v98_1 = (_e2522 + 1u);
+        }
+        uint _e2530 = v98_1;
+        int _e2535 = asint(asuint(asint(asuint(asint(_e2455)) - asuint(asint(((_e2450 >> asuint(int(23))) & 255u))))) + asuint((_e2463 ? int(126) : int(127))));
+        v101_1 = ZeroValueuint();
+        v102_1 = true;
+        if ((_e2455 == 0u)) {
+        } else {
+            bool _e2537 = (_e2535 <= int(0));
+            v100_1 = ZeroValueuint();
+            if (_e2537) {
+            } else {
+                v99_1 = 2139095040u;
+                if ((_e2535 >= int(255))) {
+                } else {
+                    v99_1 = ((asuint(_e2535) << asuint(int(23))) + (_e2530 & 8388607u));
+                }
+                uint _e2545 = v99_1;
+                v100_1 = _e2545;
+            }
+            uint _e2547 = v100_1;
+            v101_1 = _e2547;
+            v102_1 = _e2537;
+        }
+        uint _e2549 = v101_1;
+        bool _e2551 = v102_1;
+        v103_1 = ConstructLightbvhType19_(4294967295u, 4294967295u, 0.0);
+        if ((_e2255 || _e2271)) {
+            v103_1 = ConstructLightbvhType19_(_e2285, _e2272, (_e2312 + asfloat((((_e2449 ^ _e2450) & 2147483648u) | (_e2551 ? 0u : _e2549)))));
+        }
+        LightbvhType19_ _e2559 = v103_1;
+        results_2 = _e2559;
+        break;
+    } while(false);
+    LightbvhType19_ _e2665 = results_2;
+    const LightbvhLightSample lightbvhlightsample_1 = ConstructLightbvhLightSample(_e2665.member, _e2665.member_1, _e2665.member_2);
+    return lightbvhlightsample_1;
+}
+
+float lightbvh_pmf_cell(float3 center_1, float3 half_1, float3 n_3, uint light_1, uint instance_1)
+{
+    LightbvhType30_ queries_3 = (LightbvhType30_)0;
+    float results_3 = (float)0;
+    float v0_3[8] = (float[8])0;
+    uint v1_3 = (uint)0;
+    uint v2_3 = (uint)0;
+    bool v3_3 = (bool)0;
+    uint v4_3 = (uint)0;
+    uint v5_3 = (uint)0;
+    uint v6_3 = (uint)0;
+    bool v7_3 = (bool)0;
+    bool v8_3 = (bool)0;
+    LightbvhType24_ v9_3 = (LightbvhType24_)0;
+    uint v10_3 = (uint)0;
+    uint v11_3 = (uint)0;
+    uint v12_3 = (uint)0;
+    uint v13_3 = (uint)0;
+    bool v14_3 = (bool)0;
+    uint v15_3 = (uint)0;
+    LightbvhType23_ v16_3 = (LightbvhType23_)0;
+    uint v17_3 = (uint)0;
+    uint v18_3 = (uint)0;
+    uint v19_3 = (uint)0;
+    LightbvhType23_ v20_3 = (LightbvhType23_)0;
+    uint v21_3 = (uint)0;
+    uint v22_3 = (uint)0;
+    LightbvhType23_ v23_3 = (LightbvhType23_)0;
+    uint v24_3 = (uint)0;
+    bool v25_3 = (bool)0;
+    bool v26_3 = (bool)0;
+    LightbvhType23_ v27_3 = (LightbvhType23_)0;
+    bool v28_3 = (bool)0;
+    LightbvhType24_ v29_3 = (LightbvhType24_)0;
+    bool v30_3 = (bool)0;
+    LightbvhType31_ v31_3 = (LightbvhType31_)0;
+    bool v32_3 = (bool)0;
+    LightbvhType23_ v33_3 = (LightbvhType23_)0;
+    LightbvhType23_ v34_3 = (LightbvhType23_)0;
+    LightbvhType23_ v35_3 = (LightbvhType23_)0;
+    LightbvhType23_ v36_3 = (LightbvhType23_)0;
+    LightbvhType23_ v37_3 = (LightbvhType23_)0;
+    bool v38_3 = (bool)0;
+    uint v39_3 = (uint)0;
+    uint v40_3 = (uint)0;
+    uint v41_3 = (uint)0;
+    uint v42_3 = (uint)0;
+    int v43_3 = (int)0;
+    uint v44_3 = (uint)0;
+    bool v45_3 = (bool)0;
+    LightbvhType31_ v46_3 = (LightbvhType31_)0;
+    uint v47_3 = (uint)0;
+    uint v48_3 = (uint)0;
+    LightbvhType31_ v49_3 = (LightbvhType31_)0;
+    float v50_3 = (float)0;
+    float v51_3 = (float)0;
+    float v52_3 = (float)0;
+    float v53_3 = (float)0;
+    LightbvhType31_ v54_3 = (LightbvhType31_)0;
+    bool v55_3 = (bool)0;
+    LightbvhType31_ v56_3 = (LightbvhType31_)0;
+    bool v57_3 = (bool)0;
+    bool v58_3 = (bool)0;
+    LightbvhType31_ v59_3 = (LightbvhType31_)0;
+    LightbvhType31_ v60_3 = (LightbvhType31_)0;
+    LightbvhType31_ v61_3 = (LightbvhType31_)0;
+    LightbvhType31_ v62_3 = (LightbvhType31_)0;
+    float v63_3 = (float)0;
+    uint v64_3 = (uint)0;
+    uint v65_3 = (uint)0;
+    bool v66_3 = (bool)0;
+    uint v67_3 = (uint)0;
+    int v68_3 = (int)0;
+    uint v69_3 = (uint)0;
+    int v70_3 = (int)0;
+    uint v71_3 = (uint)0;
+    uint v72_3 = (uint)0;
+    uint v73_3 = (uint)0;
+    uint v74_3 = (uint)0;
+    bool v75_3 = (bool)0;
+    uint v76_3 = (uint)0;
+    int v77_3 = (int)0;
+    uint v78_3 = (uint)0;
+    int v79_3 = (int)0;
+    uint v80_3 = (uint)0;
+    uint v81_3 = (uint)0;
+    uint v82_3 = (uint)0;
+    uint v83_3 = (uint)0;
+    bool v84_3 = (bool)0;
+    bool v85_3 = (bool)0;
+    bool v86_3 = (bool)0;
+    bool v87_3 = (bool)0;
+    float v88_3 = (float)0;
+
+    queries_3 = ConstructLightbvhType30_(ConstructLightbvhType29_(Constructarray3_float_(center_1.x, center_1.y, center_1.z), Constructarray3_float_(half_1.x, half_1.y, half_1.z), Constructarray3_float_(n_3.x, n_3.y, n_3.z)), Constructarray2_uint_(light_1, instance_1));
+    do {
+        uint _e142 = ((NagaBufferLength(lightbvh_nodes) - 0) / 192);
+        uint _e145 = ((NagaBufferLength(lightbvh_instances) - 0) / 136);
+        uint _e148 = ((NagaBufferLength(lightbvh_trails) - 0) / 4);
+        uint _e151 = lightbvh_tree.top;
+        uint _e154 = lightbvh_tree.root;
+        uint _e157 = lightbvh_tree.above;
+        uint _e160 = lightbvh_tree.places;
+        uint _e163 = lightbvh_tree.parts;
+        uint _e166 = lightbvh_tree.trail_words;
+        uint _e169 = lightbvh_tree.live;
+        uint _e172 = lightbvh_tree.lights;
+        uint _e175 = lightbvh_tree.depth;
+        LightbvhType30_ _e177 = queries_3;
+        bool _e183 = (_e169 > 0u);
+        uint _e184 = (_e183 ? _e177.member_1[1] : 4294967295u);
+        bool _e185 = (_e184 < _e145);
+        v2_3 = ZeroValueuint();
+        v3_3 = true;
+        if (_e185) {
+            v1_3 = ZeroValueuint();
+            if (_e183) {
+                uint _e188 = asuint(lightbvh_instances.Load(8+_e184*136+0));
+                uint _e192 = asuint(lightbvh_instances.Load(12+_e184*136+0));
+                v1_3 = ((_e177.member_1[0] - _e188) + _e192);
+            }
+            uint _e195 = v1_3;
+            v2_3 = _e195;
+            v3_3 = (_e183 ? false : true);
+        }
+        uint _e198 = v2_3;
+        bool _e200 = v3_3;
+        uint _e201 = (_e200 ? _e177.member_1[0] : _e198);
+        uint _e202 = (_e201 * _e166);
+        v4_3 = 0u;
+        if ((_e202 < _e148)) {
+            uint _e205 = asuint(lightbvh_trails.Load(_e202*4+0));
+            v4_3 = _e205;
+        }
+        uint _e207 = v4_3;
+        v6_3 = ZeroValueuint();
+        v7_3 = true;
+        if ((_e166 == 2u)) {
+            uint _e209 = (_e202 + 1u);
+            bool _e210 = (_e209 < _e148);
+            v5_3 = ZeroValueuint();
+            if (_e210) {
+                uint _e212 = asuint(lightbvh_trails.Load(_e209*4+0));
+                v5_3 = _e212;
+            }
+            uint _e214 = v5_3;
+            v6_3 = _e214;
+            v7_3 = (_e210 ? false : true);
+        }
+        uint _e217 = v6_3;
+        bool _e219 = v7_3;
+        uint _e220 = (_e219 ? 0u : _e217);
+        v8_3 = ZeroValuebool();
+        v9_3 = ZeroValueLightbvhType24_();
+        if (_e185) {
+            uint _e227 = (_e160 + _e184);
+            v10_3 = 4294967295u;
+            if ((_e227 < _e148)) {
+                uint _e230 = asuint(lightbvh_trails.Load(_e227*4+0));
+                v10_3 = _e230;
+            }
+            uint _e232 = v10_3;
+            v13_3 = ZeroValueuint();
+            v14_3 = true;
+            if ((_e232 != 4294967295u)) {
+                bool _e234 = (_e232 >= 2147483648u);
+                v12_3 = ZeroValueuint();
+                if (_e234) {
+                    uint _e238 = (_e163 + ((_e232 - 2147483648u) + (_e207 & 7u)));
+                    v11_3 = 4294967295u;
+                    if ((_e238 < _e148)) {
+                        uint _e241 = asuint(lightbvh_trails.Load(_e238*4+0));
+                        v11_3 = _e241;
+                    }
+                    uint _e243 = v11_3;
+                    v12_3 = _e243;
+                }
+                uint _e245 = v12_3;
+                v13_3 = _e245;
+                v14_3 = (_e234 ? false : true);
+            }
+            uint _e248 = v13_3;
+            bool _e250 = v14_3;
+            v15_3 = 0u;
+            v16_3 = ConstructLightbvhType23_(0u, 0u);
+            v17_3 = (_e250 ? _e232 : _e248);
+            uint2 loop_bound_9 = uint2(4294967295u, 4294967295u);
+            bool loop_init_9 = true;
+            while(true) {
+                if (all(loop_bound_9 == uint2(0u, 0u))) { break; }
+                loop_bound_9 -= uint2(loop_bound_9.y == 0u, 1u);
+                if (!loop_init_9) {
+                    v15_3 = v22_3;
+                    v16_3 = v23_3;
+                    v17_3 = v24_3;
+                    v26_3 = false;
+                    if (!(v25_3)) {
+                        break;
+                    }
+                }
+                loop_init_9 = false;
+                uint _e253 = v15_3;
+                LightbvhType23_ _e255 = v16_3;
+                uint _e257 = v17_3;
+                v27_3 = _e255;
+                v22_3 = ZeroValueuint();
+                v23_3 = ZeroValueLightbvhType23_();
+                v24_3 = ZeroValueuint();
+                v25_3 = false;
+                if ((_e257 < 2147483648u)) {
+                    bool _e259 = (_e253 < 20u);
+                    v19_3 = ZeroValueuint();
+                    v20_3 = ZeroValueLightbvhType23_();
+                    v21_3 = ZeroValueuint();
+                    if (_e259) {
+                        uint _e278 = (_e157 + (_e257 >> asuint(3u)));
+                        v18_3 = 4294967295u;
+                        if ((_e278 < _e148)) {
+                            uint _e281 = asuint(lightbvh_trails.Load(_e278*4+0));
+                            v18_3 = _e281;
+                        }
+                        uint _e283 = v18_3;
+                        v19_3 = (_e253 + 1u);
+                        v20_3 = ConstructLightbvhType23_((((_e255.member << asuint(3u)) | ((_e257 & 7u) & 7u)) & 1073741823u), (((_e255.member_1 << asuint(3u)) | ((_e255.member >> asuint(27u)) & 7u)) & 1073741823u));
+                        v21_3 = _e283;
+                    }
+                    uint _e286 = v19_3;
+                    LightbvhType23_ _e288 = v20_3;
+                    uint _e290 = v21_3;
+                    v22_3 = _e286;
+                    v23_3 = _e288;
+                    v24_3 = _e290;
+                    v25_3 = _e259;
+                }
+                uint _e292 = v22_3;
+                LightbvhType23_ _e294 = v23_3;
+                uint _e296 = v24_3;
+                bool _e298 = v25_3;
+                continue;
+            }
+            bool _e301 = v26_3;
+            if (_e301) {
+                break;
+            }
+            LightbvhType23_ _e304 = v27_3;
+            v8_3 = _e301;
+            v9_3 = ConstructLightbvhType24_(_e304, ConstructLightbvhType23_(_e207, _e220));
+        }
+        bool _e222 = v8_3;
+        LightbvhType24_ _e224 = v9_3;
+        v28_3 = _e222;
+        v29_3 = _e224;
+        if (_e185) {
+        } else {
+            v28_3 = false;
+            v29_3 = ConstructLightbvhType24_(ConstructLightbvhType23_(_e207, _e220), ConstructLightbvhType23_(0u, 0u));
+        }
+        bool _e307 = v28_3;
+        LightbvhType24_ _e309 = v29_3;
+        bool _e311 = (_e175 == 0u);
+        LightbvhType31_ _e312 = ConstructLightbvhType31_(_e309, ConstructLightbvhType23_(0u, 0u), ConstructLightbvhType25_(0.0, 1.0), 0u, (_e154 + _e151), 4294967295u, 4294967295u, 0u, 4194304u, 0u, _e177.member, _e175, _e311, true);
+        uint _e315 = (asuint(int(21)) - firstbithigh(4128767u));
+        uint _e317 = ((_e315 < 22u) ? _e315 : 22u);
+        uint _e318 = (_e317 & 31u);
+        LightbvhType31_ _e336 = ConstructLightbvhType31_(_e312.member, ConstructLightbvhType23_((4227858432u << asuint(_e318)), 0u), _e312.member_2, _e312.member_3, _e312.member_4, _e312.member_5, _e312.member_6, _e312.member_7, _e312.member_8, _e312.member_9, _e312.member_10, _e312.member_11, _e312.member_12, _e312.member_13);
+        LightbvhType31_ _e353 = ConstructLightbvhType31_(_e336.member, _e336.member_1, _e336.member_2, _e336.member_3, _e336.member_4, _e336.member_5, _e336.member_6, _e336.member_7, (4128768u << asuint(_e318)), _e336.member_9, _e336.member_10, _e336.member_11, _e336.member_12, _e336.member_13);
+        v30_3 = _e307;
+        v31_3 = ConstructLightbvhType31_(_e353.member, _e353.member_1, _e353.member_2, _e353.member_3, _e353.member_4, _e353.member_5, _e353.member_6, _e353.member_7, _e353.member_8, _e317, _e353.member_10, _e353.member_11, _e353.member_12, _e353.member_13);
+        v32_3 = _e311;
+        uint2 loop_bound_10 = uint2(4294967295u, 4294967295u);
+        bool loop_init_10 = true;
+        while(true) {
+            if (all(loop_bound_10 == uint2(0u, 0u))) { break; }
+            loop_bound_10 -= uint2(loop_bound_10.y == 0u, 1u);
+            if (!loop_init_10) {
+                v30_3 = v55_3;
+                v31_3 = v56_3;
+                v32_3 = v57_3;
+                v58_3 = v55_3;
+                if (!((v32_3 ? false : true))) {
+                    break;
+                }
+            }
+            loop_init_10 = false;
+            bool _e370 = v30_3;
+            LightbvhType31_ _e372 = v31_3;
+            bool _e374 = v32_3;
+            v59_3 = _e372;
+            v60_3 = _e372;
+            v61_3 = _e372;
+            v62_3 = _e372;
+            v55_3 = _e370;
+            v56_3 = ZeroValueLightbvhType31_();
+            v57_3 = ZeroValuebool();
+            if (_e374) {
+            } else {
+                bool _e376 = (_e372.member_4 < _e142);
+                uint _e377 = (_e376 ? _e372.member_4 : 0u);
+                if ((_e377 < _e142)) {
+                } else {
+                    v58_3 = true;
+                    break;
+                }
+                uint _e409 = asuint(lightbvh_nodes.Load(3u*4+0u*32+_e377*192+0));
+                int _e412 = asint(asuint(asint((_e409 & 255u))) - asuint(int(127)));
+                float _e422 = asfloat((asuint(_e372.member_10.member_1[0]) & 2147483647u));
+                float _e425 = asfloat((asuint(_e372.member_10.member_1[1]) & 2147483647u));
+                float _e428 = asfloat((asuint(_e372.member_10.member_1[2]) & 2147483647u));
+                float _e430 = ((_e422 > _e425) ? _e422 : _e425);
+                int _e438 = asint(asuint(asint(((asuint(((_e430 > _e428) ? _e430 : _e428)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
+                int _e440 = ((_e438 > _e412) ? _e438 : _e412);
+                float _e446 = (1.0 - (((_e372.member_10.member_2[0] * _e372.member_10.member_2[0]) + (_e372.member_10.member_2[1] * _e372.member_10.member_2[1])) + (_e372.member_10.member_2[2] * _e372.member_10.member_2[2])));
+                float _e448 = ((_e446 > 3.8146973e-6) ? _e446 : 3.8146973e-6);
+                float _e453 = asfloat((1595932665u - (asuint(_e448) >> asuint(int(1)))));
+                float _e460 = (0.5 * (_e448 * (_e453 * (0.70395225 * (2.3892446 - (_e448 * (_e453 * _e453)))))));
+                float _e462 = (0.0001 + _e460);
+                uint _e466 = asuint(lightbvh_nodes.Load(0u*4+0u*32+_e377*192+0));
+                uint _e471 = asuint(lightbvh_nodes.Load(1u*4+0u*32+_e377*192+0));
+                uint _e476 = asuint(lightbvh_nodes.Load(2u*4+0u*32+_e377*192+0));
+                float _e478 = (asfloat(_e466) - _e372.member_10.member[0]);
+                float _e479 = (asfloat(_e471) - _e372.member_10.member[1]);
+                float _e480 = (asfloat(_e476) - _e372.member_10.member[2]);
+                float _e483 = asfloat((asuint(_e478) & 2147483647u));
+                float _e486 = asfloat((asuint(_e479) & 2147483647u));
+                float _e489 = asfloat((asuint(_e480) & 2147483647u));
+                float _e491 = ((_e483 > _e486) ? _e483 : _e486);
+                int _e499 = asint(asuint(asint(((asuint(((_e491 > _e489) ? _e491 : _e489)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
+                int _e501 = ((_e499 > _e440) ? _e499 : _e440);
+                int _e502 = asint(asuint(_e412) - asuint(_e501));
+                int _e504 = ((_e502 < int(-40)) ? int(-40) : _e502);
+                int _e505 = naga_neg(_e501);
+                int _e507 = ((_e505 < int(-126)) ? int(-126) : _e505);
+                float _e514 = asfloat((asuint(asint(asuint(((_e507 > int(127)) ? int(127) : _e507)) + asuint(int(127)))) << asuint(int(23))));
+                int _e519 = ((_e504 < int(-126)) ? int(-126) : _e504);
+                float _e526 = asfloat((asuint(asint(asuint(((_e519 > int(127)) ? int(127) : _e519)) + asuint(int(127)))) << asuint(int(23))));
+                float _e527 = (_e372.member_10.member_1[0] * _e514);
+                float _e528 = (_e372.member_10.member_1[1] * _e514);
+                float _e529 = (_e372.member_10.member_1[2] * _e514);
+                float _e532 = asfloat((asuint(_e372.member_10.member_2[0]) & 2147483647u));
+                float _e535 = asfloat((asuint(_e372.member_10.member_2[1]) & 2147483647u));
+                float _e538 = asfloat((asuint(_e372.member_10.member_2[2]) & 2147483647u));
+                float _e543 = (((_e527 * _e532) + (_e528 * _e535)) + (_e529 * _e538));
+                float _e550 = ((0.22222222 * (((_e527 * _e527) + (_e528 * _e528)) + (_e529 * _e529))) + 8.881784e-16);
+                float _e552 = (_e526 * 4.656613e-10);
+                float _e555 = (2.0 * 8.0);
+                float _e556 = (_e532 * _e555);
+                float _e557 = (_e535 * _e555);
+                float _e558 = (_e538 * _e555);
+                v0_3 = Constructarray8_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+                v33_3 = ConstructLightbvhType23_(0u, 8u);
+                uint2 loop_bound_11 = uint2(4294967295u, 4294967295u);
+                bool loop_init_11 = true;
+                while(true) {
+                    if (all(loop_bound_11 == uint2(0u, 0u))) { break; }
+                    loop_bound_11 -= uint2(loop_bound_11.y == 0u, 1u);
+                    if (!loop_init_11) {
+                        v33_3 = v36_3;
+                        v38_3 = _e370;
+                        if (!((asint(v37_3.member) != int(0)))) {
+                            break;
+                        }
+                    }
+                    loop_init_11 = false;
+                    LightbvhType23_ _e565 = v33_3;
+                    bool _e568 = (_e565.member < _e565.member_1);
+                    v34_3 = ZeroValueLightbvhType23_();
+                    v35_3 = ZeroValueLightbvhType23_();
+                    if (_e568) {
+                        v34_3 = ConstructLightbvhType23_((_e565.member + 1u), _e565.member_1);
+                        v35_3 = ConstructLightbvhType23_(1u, _e565.member);
+                    }
+                    LightbvhType23_ _e570 = v34_3;
+                    LightbvhType23_ _e572 = v35_3;
+                    v36_3 = _e570;
+                    v37_3 = _e572;
+                    if (_e568) {
+                    } else {
+                        v36_3 = _e565;
+                        v37_3 = ConstructLightbvhType23_(0u, ZeroValueLightbvhType23_().member_1);
+                    }
+                    LightbvhType23_ _e582 = v36_3;
+                    LightbvhType23_ _e584 = v37_3;
+                    bool _e588 = (asint(_e584.member) != int(0));
+                    if (_e588) {
+                        bool _e589 = (_e584.member_1 < 8u);
+                        if (_e589) {
+                        } else {
+                            v38_3 = true;
+                            break;
+                        }
+                        uint _e593 = asuint(lightbvh_nodes.Load(_e584.member_1*4+1u*32+_e377*192+0));
+                        if (_e589) {
+                        } else {
+                            v38_3 = true;
+                            break;
+                        }
+                        uint _e597 = asuint(lightbvh_nodes.Load(_e584.member_1*4+2u*32+_e377*192+0));
+                        if (_e589) {
+                        } else {
+                            v38_3 = true;
+                            break;
+                        }
+                        uint _e601 = asuint(lightbvh_nodes.Load(_e584.member_1*4+3u*32+_e377*192+0));
+                        if (_e589) {
+                        } else {
+                            v38_3 = true;
+                            break;
+                        }
+                        uint _e605 = asuint(lightbvh_nodes.Load(_e584.member_1*4+4u*32+_e377*192+0));
+                        float _e621 = ((_e478 * _e514) + (float(asint(_e593)) * _e552));
+                        float _e622 = ((_e479 * _e514) + (float(asint((_e593 << asuint(15u)))) * _e552));
+                        float _e623 = ((_e480 * _e514) + (float(asint(_e597)) * _e552));
+                        float _e628 = asfloat((((_e605 << asuint(20u)) & 267386880u) + (asuint(_e526) + 4043309056u)));
+                        float _e635 = float(asint(_e601));
+                        float _e639 = float(asint((_e601 << asuint(8u))));
+                        float _e643 = float(asint((_e601 << asuint(16u))));
+                        float _e647 = (float(asint((_e601 & 255u))) * 0.003921569);
+                        float _e664 = (_e628 * _e628);
+                        float _e665 = (1.0 + (float(asint((_e597 << asuint(15u)))) * 4.656613e-10));
+                        float _e666 = (_e664 + _e550);
+                        float _e669 = ((_e664 * (_e665 * _e665)) + _e550);
+                        float _e674 = asfloat((1595932665u - (asuint(_e666) >> asuint(int(1)))));
+                        float _e679 = (_e674 * (0.70395225 * (2.3892446 - (_e666 * (_e674 * _e674)))));
+                        float _e680 = (_e666 * _e679);
+                        float _e685 = asfloat((1595932665u - (asuint(_e669) >> asuint(int(1)))));
+                        float _e693 = (((_e669 * (_e685 * (0.70395225 * (2.3892446 - (_e669 * (_e685 * _e685)))))) * _e679) - 1.0);
+                        float _e706 = (asfloat((asuint(_e621) & 2147483647u)) - _e527);
+                        float _e707 = (asfloat((asuint(_e622) & 2147483647u)) - _e528);
+                        float _e708 = (asfloat((asuint(_e623) & 2147483647u)) - _e529);
+                        float _e710 = ((_e706 > 0.0) ? _e706 : 0.0);
+                        float _e712 = ((_e707 > 0.0) ? _e707 : 0.0);
+                        float _e714 = ((_e708 > 0.0) ? _e708 : 0.0);
+                        float _e715 = (_e680 * _e680);
+                        float _e721 = ((((_e621 * _e621) + (_e622 * _e622)) + (_e623 * _e623)) + 8.881784e-16);
+                        float _e731 = (_e721 + (1.25 * _e715));
+                        float _e736 = asfloat((1595932665u - (asuint(_e731) >> asuint(int(1)))));
+                        float _e741 = (_e736 * (0.70395225 * (2.3892446 - (_e731 * (_e736 * _e736)))));
+                        float _e742 = (_e680 * _e741);
+                        float _e747 = ((((_e372.member_10.member_2[0] * 4.656613e-10) * _e635) + ((_e372.member_10.member_2[1] * 4.656613e-10) * _e639)) + ((_e372.member_10.member_2[2] * 4.656613e-10) * _e643));
+                        float _e752 = ((0.03162278 + _e460) + (_e742 * (1.0 + (_e693 * (_e747 * _e747)))));
+                        float _e758 = (((((_e372.member_10.member_2[0] + _e372.member_10.member_2[0]) * _e621) + ((_e372.member_10.member_2[1] + _e372.member_10.member_2[1]) * _e622)) + ((_e372.member_10.member_2[2] + _e372.member_10.member_2[2]) * _e623)) * _e741);
+                        float _e760 = (_e758 + (((((((_e556 + _e557) + _e558) + ((((_e556 * 4.656613e-10) * float(asint(_e605))) + ((_e557 * 4.656613e-10) * float(asint((_e605 << asuint(8u)))))) + ((_e558 * 4.656613e-10) * float(asint((_e605 << asuint(16u))))))) * _e628) + (_e543 + _e543)) * _e679) * _e742));
+                        float _e762 = ((_e760 > _e462) ? _e760 : _e462);
+                        float _e768 = (asfloat((asuint(_e758) & 2147483647u)) + _e752);
+                        float _e774 = (1.0 + _e693);
+                        float _e780 = ((((_e635 * _e621) + (_e639 * _e622)) + (_e643 * _e623)) * (-2.0 * 4.656613e-10));
+                        float _e783 = (_e680 * ((_e774 > _e647) ? _e774 : _e647));
+                        float _e785 = (_e721 - (2.5 * _e715));
+                        float _e787 = (0.25 * (_e780 * _e780));
+                        float _e793 = ((((_e785 > _e787) ? _e785 : _e787) + 8.881784e-16) + (1.25 * (_e783 * _e783)));
+                        float _e798 = asfloat((1595932665u - (asuint(_e793) >> asuint(int(1)))));
+                        float _e803 = (_e798 * (0.70395225 * (2.3892446 - (_e793 * (_e798 * _e798)))));
+                        float _e805 = ((_e680 * _e803) * _e774);
+                        float _e809 = ((0.03162278 + _e805) + (_e647 * (0.5 - _e805)));
+                        float _e810 = (_e780 * _e803);
+                        float _e814 = (asfloat((asuint(_e810) & 2147483647u)) + _e809);
+                        float _e823 = ((_e768 * _e814) * (((((_e710 * _e710) + (_e712 * _e712)) + (_e714 * _e714)) + 8.881784e-16) + (0.5 * _e715)));
+                        float _e826 = asfloat((2129859015u - asuint(_e823)));
+                        if (_e589) {
+                        } else {
+                            v38_3 = true;
+                            break;
+                        }
+                        v0_3[min(uint(_e584.member_1), 7u)] = ((asfloat(((_e597 & 2047u) << asuint(19u))) * (((((_e758 > 0.0) ? _e758 : 0.0) * _e768) + (_e752 * ((_e762 < _e752) ? _e762 : _e752))) * ((((_e810 > 0.0) ? _e810 : 0.0) * _e814) + (_e809 * _e809)))) * (_e826 * (2.0 - (_e823 * _e826))));
+                    }
+                    continue;
+                }
+                bool _e834 = v38_3;
+                v58_3 = _e834;
+                if (_e834) {
+                    break;
+                }
+                float _e835[8] = v0_3;
+                bool _e852 = (_e372.member_7 < 20u);
+                v39_3 = ZeroValueuint();
+                if (_e852) {
+                    bool _e875 = (_e372.member_7 < 10u);
+                    v41_3 = _e372.member_7;
+                    if (_e875) {
+                    } else {
+                        v41_3 = (_e372.member_7 - 10u);
+                    }
+                    uint _e878 = v41_3;
+                    v39_3 = (((_e875 ? _e372.member.member.member : _e372.member.member.member_1) >> asuint((((_e878 * 3u) & 31u) & 31u))) & 7u);
+                }
+                uint _e854 = v39_3;
+                v42_3 = _e854;
+                if (_e852) {
+                } else {
+                    uint _e859 = (_e372.member_7 - 20u);
+                    bool _e860 = (_e859 < 10u);
+                    v40_3 = _e859;
+                    if (_e860) {
+                    } else {
+                        v40_3 = (_e372.member_7 - 30u);
+                    }
+                    uint _e863 = v40_3;
+                    v42_3 = (((_e860 ? _e372.member.member_1.member : _e372.member.member_1.member_1) >> asuint((((_e863 * 3u) & 31u) & 31u))) & 7u);
+                }
+                uint _e887 = v42_3;
+                uint _e892 = (0u - ((_e835[1] > 0.0) ? 1u : 0u));
+                uint _e893 = (1u & _e892);
+                uint _e897 = (0u - ((_e835[2] > 0.0) ? 1u : 0u));
+                uint _e900 = (_e893 ^ ((2u ^ _e893) & _e897));
+                uint _e904 = (0u - ((_e835[3] > 0.0) ? 1u : 0u));
+                uint _e907 = (_e900 ^ ((3u ^ _e900) & _e904));
+                uint _e911 = (0u - ((_e835[4] > 0.0) ? 1u : 0u));
+                uint _e914 = (_e907 ^ ((4u ^ _e907) & _e911));
+                uint _e918 = (0u - ((_e835[5] > 0.0) ? 1u : 0u));
+                uint _e921 = (_e914 ^ ((5u ^ _e914) & _e918));
+                uint _e925 = (0u - ((_e835[6] > 0.0) ? 1u : 0u));
+                uint _e928 = (_e921 ^ ((6u ^ _e921) & _e925));
+                uint _e932 = (0u - ((_e835[7] > 0.0) ? 1u : 0u));
+                uint _e935 = (_e928 ^ ((7u ^ _e928) & _e932));
+                float _e938 = ((((0.0 + _e835[0]) + _e835[4]) + ((0.0 + _e835[2]) + _e835[6])) + (((0.0 + _e835[1]) + _e835[5]) + ((0.0 + _e835[3]) + _e835[7])));
+                bool _e939 = (_e938 > 0.0);
+                float _e943 = (_e939 ? _e938 : 1.0);
+                uint _e944 = asuint(_e943);
+                float _e949 = asfloat(((_e944 & 2147483648u) | (2129859015u - (_e944 & 2147483647u))));
+                float _e952 = (_e949 * (2.0 - (_e943 * _e949)));
+                float _e956 = ((float(asint(_e372.member_8)) * 0.9999695) * (_e952 * (2.0 - (_e943 * _e952))));
+                v43_3 = int(2147483647);
+                if (_e372.member_13) {
+                } else {
+                    v43_3 = asint((_e372.member_1.member >> asuint(10u)));
+                }
+                int _e959 = v43_3;
+                int _e965 = asint((asuint(((_e835[0] * _e956) + 8388608.0)) & 8388607u));
+                int _e972 = (((_e965 > int(1)) ? _e965 : int(1)) & asint((0u - ((_e835[0] > 0.0) ? 1u : 0u))));
+                uint _e973 = asuint(_e972);
+                uint _e974 = (_e973 & 4294967295u);
+                int _e976 = asint((_e372.member_13 ? _e887 : _e935));
+                uint _e980 = (0u - (((_e972 <= _e959) && (int(0) < _e976)) ? 1u : 0u));
+                uint _e981 = (_e973 & _e980);
+                int _e987 = asint((asuint(((_e835[1] * _e956) + 8388608.0)) & 8388607u));
+                int _e992 = asint(asuint(_e972) + asuint((((_e987 > int(1)) ? _e987 : int(1)) & asint(_e892))));
+                uint _e993 = asuint(_e992);
+                uint _e996 = (_e974 ^ ((_e993 ^ _e974) & _e980));
+                uint _e1001 = (0u - (((_e992 <= _e959) && (int(1) < _e976)) ? 1u : 0u));
+                uint _e1004 = (_e981 ^ ((_e993 ^ _e981) & _e1001));
+                int _e1011 = asint((asuint(((_e835[2] * _e956) + 8388608.0)) & 8388607u));
+                int _e1016 = asint(asuint(_e992) + asuint((((_e1011 > int(1)) ? _e1011 : int(1)) & asint(_e897))));
+                uint _e1017 = asuint(_e1016);
+                uint _e1020 = (_e996 ^ ((_e1017 ^ _e996) & _e1001));
+                uint _e1025 = (0u - (((_e1016 <= _e959) && (int(2) < _e976)) ? 1u : 0u));
+                uint _e1028 = (_e1004 ^ ((_e1017 ^ _e1004) & _e1025));
+                int _e1035 = asint((asuint(((_e835[3] * _e956) + 8388608.0)) & 8388607u));
+                int _e1040 = asint(asuint(_e1016) + asuint((((_e1035 > int(1)) ? _e1035 : int(1)) & asint(_e904))));
+                uint _e1041 = asuint(_e1040);
+                uint _e1044 = (_e1020 ^ ((_e1041 ^ _e1020) & _e1025));
+                uint _e1049 = (0u - (((_e1040 <= _e959) && (int(3) < _e976)) ? 1u : 0u));
+                uint _e1052 = (_e1028 ^ ((_e1041 ^ _e1028) & _e1049));
+                int _e1059 = asint((asuint(((_e835[4] * _e956) + 8388608.0)) & 8388607u));
+                int _e1064 = asint(asuint(_e1040) + asuint((((_e1059 > int(1)) ? _e1059 : int(1)) & asint(_e911))));
+                uint _e1065 = asuint(_e1064);
+                uint _e1068 = (_e1044 ^ ((_e1065 ^ _e1044) & _e1049));
+                uint _e1073 = (0u - (((_e1064 <= _e959) && (int(4) < _e976)) ? 1u : 0u));
+                uint _e1076 = (_e1052 ^ ((_e1065 ^ _e1052) & _e1073));
+                int _e1083 = asint((asuint(((_e835[5] * _e956) + 8388608.0)) & 8388607u));
+                int _e1088 = asint(asuint(_e1064) + asuint((((_e1083 > int(1)) ? _e1083 : int(1)) & asint(_e918))));
+                uint _e1089 = asuint(_e1088);
+                uint _e1092 = (_e1068 ^ ((_e1089 ^ _e1068) & _e1073));
+                uint _e1097 = (0u - (((_e1088 <= _e959) && (int(5) < _e976)) ? 1u : 0u));
+                uint _e1100 = (_e1076 ^ ((_e1089 ^ _e1076) & _e1097));
+                int _e1107 = asint((asuint(((_e835[6] * _e956) + 8388608.0)) & 8388607u));
+                int _e1112 = asint(asuint(_e1088) + asuint((((_e1107 > int(1)) ? _e1107 : int(1)) & asint(_e925))));
+                uint _e1113 = asuint(_e1112);
+                uint _e1116 = (_e1092 ^ ((_e1113 ^ _e1092) & _e1097));
+                uint _e1121 = (0u - (((_e1112 <= _e959) && (int(6) < _e976)) ? 1u : 0u));
+                uint _e1124 = (_e1100 ^ ((_e1113 ^ _e1100) & _e1121));
+                int _e1131 = asint((asuint(((_e835[7] * _e956) + 8388608.0)) & 8388607u));
+                int _e1136 = asint(asuint(_e1112) + asuint((((_e1131 > int(1)) ? _e1131 : int(1)) & asint(_e932))));
+                uint _e1137 = asuint(_e1136);
+                uint _e1140 = (_e1116 ^ ((_e1137 ^ _e1116) & _e1121));
+                uint _e1145 = (0u - (((_e1136 <= _e959) && (int(7) < _e976)) ? 1u : 0u));
+                uint _e1148 = (_e1124 ^ ((_e1137 ^ _e1124) & _e1145));
+                uint _e1151 = (_e372.member_13 ? _e887 : ((((((((_e980 & 1u) + (_e1001 & 1u)) + (_e1025 & 1u)) + (_e1049 & 1u)) + (_e1073 & 1u)) + (_e1097 & 1u)) + (_e1121 & 1u)) + (_e1145 & 1u)));
+                bool _e1156 = (_e1151 < 8u);
+                bool _e1157 = ((_e939 && (_e1140 > _e1148)) && _e1156);
+                uint _e1158 = (_e1156 ? _e1151 : 0u);
+                v44_3 = 0u;
+                if (_e1157) {
+                    v44_3 = (((_e1151 == _e935) ? _e372.member_8 : _e1140) - _e1148);
+                }
+                uint _e1162 = v44_3;
+                bool _e1163 = (_e1158 < 8u);
+                if (_e1163) {
+                } else {
+                    v58_3 = true;
+                    break;
+                }
+                uint _e1167 = asuint(lightbvh_nodes.Load(_e1158*4+1u*32+_e377*192+0));
+                uint _e1168 = (_e1167 & 3u);
+                if (_e1163) {
+                } else {
+                    v58_3 = true;
+                    break;
+                }
+                uint _e1172 = asuint(lightbvh_nodes.Load(_e1158*4+5u*32+_e377*192+0));
+                bool _e1176 = ((_e376 && (_e1162 > 0u)) && (_e1162 <= _e372.member_8));
+                uint _e1177 = (_e1176 ? _e1162 : 1u);
+                uint _e1179 = ((_e1177 - 1u) & 4194303u);
+                uint _e1185 = (((_e1179 == 0u) ? 32u : (asuint(int(31)) - firstbithigh(_e1179))) - 10u);
+                uint _e1187 = ((_e1185 < 22u) ? _e1185 : 22u);
+                uint _e1199 = (_e1187 & 31u);
+                LightbvhType31_ _e1220 = ConstructLightbvhType31_(_e372.member, ConstructLightbvhType23_((((_e372.member_1.member - ((_e1157 ? _e1148 : 0u) << asuint(10u))) << asuint(_e1199)) | ((_e372.member_1.member_1 >> asuint(int(1))) >> asuint(((31u - _e1187) & 31u)))), (_e372.member_1.member_1 << asuint(_e1199))), _e372.member_2, _e372.member_3, _e372.member_4, _e372.member_5, _e372.member_6, _e372.member_7, _e372.member_8, _e372.member_9, _e372.member_10, _e372.member_11, _e372.member_12, _e372.member_13);
+                LightbvhType31_ _e1237 = ConstructLightbvhType31_(_e1220.member, _e1220.member_1, _e1220.member_2, _e1220.member_3, _e1220.member_4, _e1220.member_5, _e1220.member_6, _e1220.member_7, (_e1177 << asuint(_e1199)), _e1220.member_9, _e1220.member_10, _e1220.member_11, _e1220.member_12, _e1220.member_13);
+                LightbvhType31_ _e1254 = ConstructLightbvhType31_(_e1237.member, _e1237.member_1, _e1237.member_2, _e1237.member_3, _e1237.member_4, _e1237.member_5, _e1237.member_6, _e1237.member_7, _e1237.member_8, (_e372.member_9 + _e1187), _e1237.member_10, _e1237.member_11, _e1237.member_12, _e1237.member_13);
+                uint _e1255 = (_e372.member_7 + 1u);
+                v45_3 = true;
+                if ((_e1255 == 20u)) {
+                } else {
+                    v45_3 = (_e1255 == 40u);
+                }
+                bool _e1259 = v45_3;
+                uint _e1260 = (_e1172 & 134217727u);
+                uint _e1264 = (_e1172 >> asuint((firstbitlow(134217728u) & 31u)));
+                bool _e1268 = (_e1260 < _e145);
+                bool _e1269 = (((_e1176 && (_e1168 == 3u)) && _e852) && _e1268);
+                bool _e1273 = ((_e1176 && (_e1168 == 1u)) && !(_e1259));
+                LightbvhType31_ _e1291 = ConstructLightbvhType31_(_e1254.member, _e1254.member_1, _e1254.member_2, _e1254.member_3, _e1254.member_4, ((_e1176 && (_e1168 == 2u)) ? _e1172 : 4294967295u), _e1254.member_6, _e1254.member_7, _e1254.member_8, _e1254.member_9, _e1254.member_10, _e1254.member_11, _e1254.member_12, _e1254.member_13);
+                uint _e1293 = (_e372.member_11 - 1u);
+                LightbvhType31_ _e1308 = ConstructLightbvhType31_(_e1291.member, _e1291.member_1, _e1291.member_2, _e1291.member_3, _e1291.member_4, _e1291.member_5, _e1291.member_6, _e1291.member_7, _e1291.member_8, _e1291.member_9, _e1291.member_10, _e1293, _e1291.member_12, _e1291.member_13);
+                bool _e1312 = (!((_e1269 || _e1273)) || (_e1293 == 0u));
+                LightbvhType31_ _e1327 = ConstructLightbvhType31_(_e1308.member, _e1308.member_1, _e1308.member_2, _e1308.member_3, _e1308.member_4, _e1308.member_5, _e1308.member_6, _e1308.member_7, _e1308.member_8, _e1308.member_9, _e1308.member_10, _e1308.member_11, _e1312, _e1308.member_13);
+                v46_3 = ZeroValueLightbvhType31_();
+                if (_e1269) {
+                    if (_e1268) {
+                    } else {
+                        v58_3 = true;
+                        break;
+                    }
+                    LightbvhType31_ _e1380 = ConstructLightbvhType31_(_e1327.member, _e1327.member_1, _e1327.member_2, _e1327.member_3, _e1327.member_4, _e1327.member_5, _e1260, _e1327.member_7, _e1327.member_8, _e1327.member_9, _e1327.member_10, _e1327.member_11, _e1327.member_12, _e1327.member_13);
+                    uint _e1383 = asuint(lightbvh_instances.Load(0+_e1260*136+0));
+                    LightbvhType31_ _e1398 = ConstructLightbvhType31_(_e1380.member, _e1380.member_1, _e1380.member_2, _e1380.member_3, _e1383, _e1380.member_5, _e1380.member_6, _e1380.member_7, _e1380.member_8, _e1380.member_9, _e1380.member_10, _e1380.member_11, _e1380.member_12, _e1380.member_13);
+                    bool _e1399 = (_e1383 == 4294967295u);
+                    v48_3 = 4294967295u;
+                    if (_e1399) {
+                        uint _e1402 = asuint(lightbvh_instances.Load(12+_e1260*136+0));
+                        v48_3 = _e1402;
+                    }
+                    uint _e1404 = v48_3;
+                    LightbvhType31_ _e1419 = ConstructLightbvhType31_(_e1398.member, _e1398.member_1, _e1398.member_2, _e1398.member_3, _e1398.member_4, _e1404, _e1398.member_6, _e1398.member_7, _e1398.member_8, _e1398.member_9, _e1398.member_10, _e1398.member_11, _e1398.member_12, _e1398.member_13);
+                    bool _e1420 = (_e1312 || _e1399);
+                    LightbvhType31_ _e1435 = ConstructLightbvhType31_(_e1419.member, _e1419.member_1, _e1419.member_2, _e1419.member_3, _e1419.member_4, _e1419.member_5, _e1419.member_6, _e1419.member_7, _e1419.member_8, _e1419.member_9, _e1419.member_10, _e1419.member_11, _e1420, _e1419.member_13);
+                    LightbvhType31_ _e1450 = ConstructLightbvhType31_(_e1435.member, _e1435.member_1, _e1435.member_2, _e1435.member_3, _e1435.member_4, _e1435.member_5, _e1435.member_6, 20u, _e1435.member_8, _e1435.member_9, _e1435.member_10, _e1435.member_11, _e1435.member_12, _e1435.member_13);
+                    v49_3 = _e1450;
+                    if ((_e1264 > 0u)) {
+                        uint _e1453 = ((_e1383 < _e142) ? _e1383 : 0u);
+                        if ((_e1453 < _e142)) {
+                        } else {
+                            v58_3 = true;
+                            break;
+                        }
+                        uint _e1456 = naga_mod((_e1264 - 1u), 8u);
+                        bool _e1457 = (_e1456 < 8u);
+                        if (_e1457) {
+                        } else {
+                            v58_3 = true;
+                            break;
+                        }
+                        uint _e1461 = asuint(lightbvh_nodes.Load(_e1456*4+1u*32+_e1453*192+0));
+                        uint _e1462 = (_e1461 & 3u);
+                        if (_e1457) {
+                        } else {
+                            v58_3 = true;
+                            break;
+                        }
+                        uint _e1466 = asuint(lightbvh_nodes.Load(_e1456*4+5u*32+_e1453*192+0));
+                        LightbvhType31_ _e1481 = ConstructLightbvhType31_(_e1450.member, _e1450.member_1, _e1450.member_2, _e1450.member_3, _e1466, _e1450.member_5, _e1450.member_6, _e1450.member_7, _e1450.member_8, _e1450.member_9, _e1450.member_10, _e1450.member_11, _e1450.member_12, _e1450.member_13);
+                        LightbvhType31_ _e1498 = ConstructLightbvhType31_(_e1481.member, _e1481.member_1, _e1481.member_2, _e1481.member_3, _e1481.member_4, ((_e1462 == 2u) ? _e1466 : 4294967295u), _e1481.member_6, _e1481.member_7, _e1481.member_8, _e1481.member_9, _e1481.member_10, _e1481.member_11, _e1481.member_12, _e1481.member_13);
+                        LightbvhType31_ _e1515 = ConstructLightbvhType31_(_e1498.member, _e1498.member_1, _e1498.member_2, _e1498.member_3, _e1498.member_4, _e1498.member_5, _e1498.member_6, _e1498.member_7, _e1498.member_8, _e1498.member_9, _e1498.member_10, _e1498.member_11, (_e1420 || (_e1462 != 1u)), _e1498.member_13);
+                        v49_3 = ConstructLightbvhType31_(_e1515.member, _e1515.member_1, _e1515.member_2, _e1515.member_3, _e1515.member_4, _e1515.member_5, _e1515.member_6, 21u, _e1515.member_8, _e1515.member_9, _e1515.member_10, _e1515.member_11, _e1515.member_12, _e1515.member_13);
+                    }
+                    LightbvhType31_ _e1532 = v49_3;
+                    float _e1541 = asfloat(lightbvh_instances.Load(0u*4+60+_e1260*136+0));
+                    float _e1545 = asfloat(lightbvh_instances.Load(1u*4+60+_e1260*136+0));
+                    float _e1549 = asfloat(lightbvh_instances.Load(2u*4+60+_e1260*136+0));
+                    float _e1550 = (_e177.member.member[0] - _e1541);
+                    float _e1551 = (_e177.member.member[1] - _e1545);
+                    float _e1552 = (_e177.member.member[2] - _e1549);
+                    float _e1557 = ((asfloat((asuint(_e1550) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1550);
+                    float _e1562 = ((asfloat((asuint(_e1551) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1551);
+                    float _e1567 = ((asfloat((asuint(_e1552) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1552);
+                    float _e1572 = asfloat(lightbvh_instances.Load(0u*4+0u*12+72+_e1260*136+0));
+                    float _e1577 = asfloat(lightbvh_instances.Load(1u*4+0u*12+72+_e1260*136+0));
+                    float _e1582 = asfloat(lightbvh_instances.Load(2u*4+0u*12+72+_e1260*136+0));
+                    float _e1590 = asfloat(lightbvh_instances.Load(0u*4+1u*12+72+_e1260*136+0));
+                    float _e1595 = asfloat(lightbvh_instances.Load(1u*4+1u*12+72+_e1260*136+0));
+                    float _e1600 = asfloat(lightbvh_instances.Load(2u*4+1u*12+72+_e1260*136+0));
+                    float _e1611 = asfloat(lightbvh_instances.Load(0u*4+2u*12+72+_e1260*136+0));
+                    float _e1616 = asfloat(lightbvh_instances.Load(1u*4+2u*12+72+_e1260*136+0));
+                    float _e1621 = asfloat(lightbvh_instances.Load(2u*4+2u*12+72+_e1260*136+0));
+                    float _e1625 = (((_e1572 * _e1557) + (_e1590 * _e1562)) + (_e1611 * _e1567));
+                    float _e1626 = (((_e1577 * _e1557) + (_e1595 * _e1562)) + (_e1616 * _e1567));
+                    float _e1627 = (((_e1582 * _e1557) + (_e1600 * _e1562)) + (_e1621 * _e1567));
+                    float _e1635 = asfloat(lightbvh_instances.Load(0u*4+0u*12+24+_e1260*136+0));
+                    float _e1640 = asfloat(lightbvh_instances.Load(1u*4+0u*12+24+_e1260*136+0));
+                    float _e1645 = asfloat(lightbvh_instances.Load(2u*4+0u*12+24+_e1260*136+0));
+                    float _e1650 = (((_e1635 * _e177.member.member_2[0]) + (_e1640 * _e177.member.member_2[1])) + (_e1645 * _e177.member.member_2[2]));
+                    float _e1655 = asfloat(lightbvh_instances.Load(0u*4+1u*12+24+_e1260*136+0));
+                    float _e1660 = asfloat(lightbvh_instances.Load(1u*4+1u*12+24+_e1260*136+0));
+                    float _e1665 = asfloat(lightbvh_instances.Load(2u*4+1u*12+24+_e1260*136+0));
+                    float _e1670 = (((_e1655 * _e177.member.member_2[0]) + (_e1660 * _e177.member.member_2[1])) + (_e1665 * _e177.member.member_2[2]));
+                    float _e1675 = asfloat(lightbvh_instances.Load(0u*4+2u*12+24+_e1260*136+0));
+                    float _e1680 = asfloat(lightbvh_instances.Load(1u*4+2u*12+24+_e1260*136+0));
+                    float _e1685 = asfloat(lightbvh_instances.Load(2u*4+2u*12+24+_e1260*136+0));
+                    float _e1690 = (((_e1675 * _e177.member.member_2[0]) + (_e1680 * _e177.member.member_2[1])) + (_e1685 * _e177.member.member_2[2]));
+                    float _e1695 = ((asfloat((asuint(_e1650) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1650);
+                    float _e1700 = ((asfloat((asuint(_e1670) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1670);
+                    float _e1705 = ((asfloat((asuint(_e1690) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1690);
+                    float _e1710 = (((_e1695 * _e1695) + (_e1700 * _e1700)) + (_e1705 * _e1705));
+                    float _e1711 = asfloat(67108864u);
+                    v50_3 = 0.0;
+                    if ((_e1710 >= _e1711)) {
+                        float _e1717 = asfloat((1597463007u - (asuint(_e1710) >> asuint(int(1)))));
+                        float _e1718 = (0.5 * _e1710);
+                        float _e1722 = (_e1717 * (1.5 - ((_e1718 * _e1717) * _e1717)));
+                        v50_3 = (_e1722 * (1.5 - ((_e1718 * _e1722) * _e1722)));
+                    }
+                    float _e1728 = v50_3;
+                    float _e1729 = -(1.1529215e18);
+                    v51_3 = _e1729;
+                    if ((_e1625 < _e1729)) {
+                    } else {
+                        v51_3 = ((_e1625 > 1.1529215e18) ? 1.1529215e18 : _e1625);
+                    }
+                    float _e1734 = v51_3;
+                    v52_3 = _e1729;
+                    if ((_e1626 < _e1729)) {
+                    } else {
+                        v52_3 = ((_e1626 > 1.1529215e18) ? 1.1529215e18 : _e1626);
+                    }
+                    float _e1744 = v52_3;
+                    v53_3 = _e1729;
+                    if ((_e1627 < _e1729)) {
+                    } else {
+                        v53_3 = ((_e1627 > 1.1529215e18) ? 1.1529215e18 : _e1627);
+                    }
+                    float _e1754 = v53_3;
+                    float _e1761 = (_e1695 * _e1728);
+                    float _e1767 = (_e1700 * _e1728);
+                    float _e1773 = (_e1705 * _e1728);
+                    float _e1789 = ((asfloat((asuint(_e177.member.member_2[0]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e177.member.member_2[0]);
+                    float _e1794 = ((asfloat((asuint(_e177.member.member_2[1]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e177.member.member_2[1]);
+                    float _e1799 = ((asfloat((asuint(_e177.member.member_2[2]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e177.member.member_2[2]);
+                    float _e1804 = (((_e1789 * _e1789) + (_e1794 * _e1794)) + (_e1799 * _e1799));
+                    float _e1806 = ((_e1804 > _e1711) ? _e1804 : _e1711);
+                    float _e1811 = asfloat((1597463007u - (asuint(_e1806) >> asuint(int(1)))));
+                    float _e1812 = (0.5 * _e1806);
+                    float _e1816 = (_e1811 * (1.5 - ((_e1812 * _e1811) * _e1811)));
+                    float _e1821 = (_e1806 * (_e1816 * (1.5 - ((_e1812 * _e1816) * _e1816))));
+                    float _e1822 = (((asfloat((asuint(_e1761) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1761) * _e1821);
+                    float _e1823 = (((asfloat((asuint(_e1767) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1767) * _e1821);
+                    float _e1824 = (((asfloat((asuint(_e1773) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1773) * _e1821);
+                    float _e1850 = ((asfloat((asuint(_e177.member.member_1[0]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e177.member.member_1[0]);
+                    float _e1855 = ((asfloat((asuint(_e177.member.member_1[1]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e177.member.member_1[1]);
+                    float _e1860 = ((asfloat((asuint(_e177.member.member_1[2]) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e177.member.member_1[2]);
+                    float _e1900 = (((asfloat((asuint(_e1572) & 2147483647u)) * _e1850) + (asfloat((asuint(_e1590) & 2147483647u)) * _e1855)) + (asfloat((asuint(_e1611) & 2147483647u)) * _e1860));
+                    float _e1901 = (((asfloat((asuint(_e1577) & 2147483647u)) * _e1850) + (asfloat((asuint(_e1595) & 2147483647u)) * _e1855)) + (asfloat((asuint(_e1616) & 2147483647u)) * _e1860));
+                    float _e1902 = (((asfloat((asuint(_e1582) & 2147483647u)) * _e1850) + (asfloat((asuint(_e1600) & 2147483647u)) * _e1855)) + (asfloat((asuint(_e1621) & 2147483647u)) * _e1860));
+                    float _e1904 = ((_e1900 < 1.1529215e18) ? _e1900 : 1.1529215e18);
+                    float _e1906 = ((_e1901 < 1.1529215e18) ? _e1901 : 1.1529215e18);
+                    float _e1908 = ((_e1902 < 1.1529215e18) ? _e1902 : 1.1529215e18);
+                    v46_3 = ConstructLightbvhType31_(_e1532.member, _e1532.member_1, _e1532.member_2, _e1532.member_3, _e1532.member_4, _e1532.member_5, _e1532.member_6, _e1532.member_7, _e1532.member_8, _e1532.member_9, ConstructLightbvhType29_(Constructarray3_float_(((asfloat((asuint(_e1734) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1734), ((asfloat((asuint(_e1744) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1744), ((asfloat((asuint(_e1754) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1754)), Constructarray3_float_(((asfloat((asuint(_e1904) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1904), ((asfloat((asuint(_e1906) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1906), ((asfloat((asuint(_e1908) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1908)), Constructarray3_float_(((asfloat((asuint(_e1822) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1822), ((asfloat((asuint(_e1823) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1823), ((asfloat((asuint(_e1824) & 2147483647u)) < 8.6736174e-19) ? 0.0 : _e1824))), _e1532.member_11, _e1532.member_12, _e1532.member_13);
+                }
+                LightbvhType31_ _e1329 = v46_3;
+                v54_3 = _e1329;
+                if (_e1269) {
+                } else {
+                    v47_3 = _e372.member_4;
+                    if (_e1273) {
+                        v47_3 = (_e1172 + (_e852 ? _e151 : 0u));
+                    }
+                    uint _e1333 = v47_3;
+                    LightbvhType31_ _e1348 = ConstructLightbvhType31_(_e1327.member, _e1327.member_1, _e1327.member_2, _e1327.member_3, _e1333, _e1327.member_5, _e1327.member_6, _e1327.member_7, _e1327.member_8, _e1327.member_9, _e1327.member_10, _e1327.member_11, _e1327.member_12, _e1327.member_13);
+                    v54_3 = ConstructLightbvhType31_(_e1348.member, _e1348.member_1, _e1348.member_2, _e1348.member_3, _e1348.member_4, _e1348.member_5, _e1348.member_6, (_e372.member_7 + (_e1273 ? 1u : 0u)), _e1348.member_8, _e1348.member_9, _e1348.member_10, _e1348.member_11, _e1348.member_12, _e1348.member_13);
+                }
+                LightbvhType31_ _e1943 = v54_3;
+                v55_3 = _e834;
+                v56_3 = _e1943;
+                v57_3 = _e1943.member_12;
+            }
+            bool _e1946 = v55_3;
+            LightbvhType31_ _e1948 = v56_3;
+            bool _e1950 = v57_3;
+            continue;
+        }
+        bool _e1954 = v58_3;
+        if (_e1954) {
+            break;
+        }
+        LightbvhType31_ _e1956 = v59_3;
+        LightbvhType31_ _e1960 = v60_3;
+        v63_3 = 0.0;
+        if ((((_e1956.member_5 == _e201) && (_e1960.member_6 == _e184)) && (_e201 != 4294967295u))) {
+            LightbvhType31_ _e1967 = v61_3;
+            LightbvhType31_ _e1972 = v62_3;
+            int _e1978 = naga_neg(asint((22u + ((_e1967.member_9 < 98u) ? _e1967.member_9 : 98u))));
+            int _e1980 = ((_e1978 < int(-126)) ? int(-126) : _e1978);
+            v63_3 = (float(asint(_e1972.member_8)) * asfloat((asuint(asint(asuint(((_e1980 > int(127)) ? int(127) : _e1980)) + asuint(int(127)))) << asuint(int(23)))));
+        }
+        float _e1990 = v63_3;
+        v65_3 = ZeroValueuint();
+        v66_3 = true;
+        if (_e183) {
+            v64_3 = ZeroValueuint();
+            if (_e185) {
+                uint _e1993 = asuint(lightbvh_instances.Load(16+_e184*136+0));
+                v64_3 = _e1993;
+            }
+            uint _e1995 = v64_3;
+            v65_3 = _e1995;
+            v66_3 = (_e185 ? false : true);
+        }
+        uint _e1998 = v65_3;
+        bool _e2000 = v66_3;
+        uint _e2005 = ((_e2000 ? _e172 : _e1998) & 2147483647u);
+        uint _e2010 = asuint((float(int(65536)) * asfloat(880803840u)));
+        uint _e2011 = asuint(float(asint(((_e2005 > 0u) ? _e2005 : 1u))));
+        uint _e2016 = ((_e2010 >> asuint(int(23))) & 255u);
+        uint _e2020 = (_e2010 & 8388607u);
+        uint _e2021 = (_e2020 | 8388608u);
+        uint _e2022 = (_e2011 & 8388607u);
+        uint _e2023 = (_e2022 | 8388608u);
+        bool _e2024 = (_e2021 < _e2023);
+        float _e2028 = asfloat((_e2022 | 1065353216u));
+        uint _e2029 = asuint(_e2028);
+        float _e2034 = asfloat(((_e2029 & 2147483648u) | (2129859015u - (_e2029 & 2147483647u))));
+        float _e2037 = (_e2034 * (2.0 - (_e2028 * _e2034)));
+        float _e2040 = (_e2037 * (2.0 - (_e2028 * _e2037)));
+        float _e2044 = ((asfloat((_e2020 | 1065353216u)) * _e2040) * (_e2024 ? 16777216.0 : 8388608.0));
+        float _e2045 = asfloat(0u);
+        float _e2046 = asfloat(1333788671u);
+        uint _e2051 = ((_e2044 > _e2046) ? 4294967295u : ((_e2044 < _e2045) ? 0u : naga_f2u32(_e2044)));
+        int _e2057 = asint(((_e2021 << asuint(((_e2024 ? int(24) : int(23)) & int(31)))) - (_e2051 * _e2023)));
+        float _e2062 = ((float((_e2057 >> asuint(int(8)))) * _e2040) * 3.0517578e-5);
+        float _e2063 = asfloat(3472883712u);
+        float _e2064 = asfloat(1325400063u);
+        int _e2071 = ((_e2062 == _e2062) ? ((_e2062 > _e2064) ? int(2147483647) : ((_e2062 < _e2063) ? int(-2147483647 - 1) : naga_f2i32(_e2062))) : int(0));
+        uint _e2073 = (_e2051 + asuint(_e2071));
+        int _e2074 = asint(_e2023);
+        int _e2076 = asint(asuint(_e2057) - asuint(asint(asuint(_e2071) * asuint(_e2074))));
+        bool _e2077 = (_e2076 < int(0));
+        v67_3 = _e2073;
+        if (_e2077) {
+            v67_3 = (_e2073 - 1u);
+        }
+        uint _e2080 = v67_3;
+        v68_3 = _e2076;
+        if (_e2077) {
+            v68_3 = asint(asuint(_e2076) + asuint(_e2074));
+        }
+        int _e2083 = v68_3;
+        bool _e2084 = (_e2083 >= _e2074);
+        v69_3 = _e2080;
+        if (_e2084) {
+            v69_3 = (_e2080 + 1u);
+        }
+        uint _e2087 = v69_3;
+        v70_3 = _e2083;
+        if (_e2084) {
+            v70_3 = asint(asuint(_e2083) - asuint(_e2074));
+        }
+        int _e2090 = v70_3;
+        v71_3 = _e2087;
+        if ((asint(asuint(_e2090) * asuint(int(2))) > _e2074)) {
+            v71_3 = (_e2087 + 1u);
+        }
+        uint _e2095 = v71_3;
+        int _e2100 = asint(asuint(asint(asuint(asint(_e2016)) - asuint(asint(((_e2011 >> asuint(int(23))) & 255u))))) + asuint((_e2024 ? int(126) : int(127))));
+        v74_3 = ZeroValueuint();
+        v75_3 = true;
+        if ((_e2016 == 0u)) {
+        } else {
+            bool _e2102 = (_e2100 <= int(0));
+            v73_3 = ZeroValueuint();
+            if (_e2102) {
+            } else {
+                v72_3 = 2139095040u;
+                if ((_e2100 >= int(255))) {
+                } else {
+                    v72_3 = ((asuint(_e2100) << asuint(int(23))) + (_e2095 & 8388607u));
+                }
+                uint _e2110 = v72_3;
+                v73_3 = _e2110;
+            }
+            uint _e2112 = v73_3;
+            v74_3 = _e2112;
+            v75_3 = _e2102;
+        }
+        uint _e2114 = v74_3;
+        bool _e2116 = v75_3;
+        uint _e2120 = (_e169 & 2147483647u);
+        uint _e2125 = asuint(asfloat((((_e2010 ^ _e2011) & 2147483648u) | (_e2116 ? 0u : _e2114))));
+        uint _e2126 = asuint(float(asint(((_e2120 > 0u) ? _e2120 : 1u))));
+        uint _e2131 = ((_e2125 >> asuint(int(23))) & 255u);
+        uint _e2135 = (_e2125 & 8388607u);
+        uint _e2136 = (_e2135 | 8388608u);
+        uint _e2137 = (_e2126 & 8388607u);
+        uint _e2138 = (_e2137 | 8388608u);
+        bool _e2139 = (_e2136 < _e2138);
+        float _e2143 = asfloat((_e2137 | 1065353216u));
+        uint _e2144 = asuint(_e2143);
+        float _e2149 = asfloat(((_e2144 & 2147483648u) | (2129859015u - (_e2144 & 2147483647u))));
+        float _e2152 = (_e2149 * (2.0 - (_e2143 * _e2149)));
+        float _e2155 = (_e2152 * (2.0 - (_e2143 * _e2152)));
+        float _e2159 = ((asfloat((_e2135 | 1065353216u)) * _e2155) * (_e2139 ? 16777216.0 : 8388608.0));
+        uint _e2164 = ((_e2159 > _e2046) ? 4294967295u : ((_e2159 < _e2045) ? 0u : naga_f2u32(_e2159)));
+        int _e2170 = asint(((_e2136 << asuint(((_e2139 ? int(24) : int(23)) & int(31)))) - (_e2164 * _e2138)));
+        float _e2175 = ((float((_e2170 >> asuint(int(8)))) * _e2155) * 3.0517578e-5);
+        int _e2182 = ((_e2175 == _e2175) ? ((_e2175 > _e2064) ? int(2147483647) : ((_e2175 < _e2063) ? int(-2147483647 - 1) : naga_f2i32(_e2175))) : int(0));
+        uint _e2184 = (_e2164 + asuint(_e2182));
+        int _e2185 = asint(_e2138);
+        int _e2187 = asint(asuint(_e2170) - asuint(asint(asuint(_e2182) * asuint(_e2185))));
+        bool _e2188 = (_e2187 < int(0));
+        v76_3 = _e2184;
+        if (_e2188) {
+            v76_3 = (_e2184 - 1u);
+        }
+        uint _e2191 = v76_3;
+        v77_3 = _e2187;
+        if (_e2188) {
+            v77_3 = asint(asuint(_e2187) + asuint(_e2185));
+        }
+        int _e2194 = v77_3;
+        bool _e2195 = (_e2194 >= _e2185);
+        v78_3 = _e2191;
+        if (_e2195) {
+            v78_3 = (_e2191 + 1u);
+        }
+        uint _e2198 = v78_3;
+        v79_3 = _e2194;
+        if (_e2195) {
+            v79_3 = asint(asuint(_e2194) - asuint(_e2185));
+        }
+        int _e2201 = v79_3;
+        v80_3 = _e2198;
+        if ((asint(asuint(_e2201) * asuint(int(2))) > _e2185)) {
+            v80_3 = (_e2198 + 1u);
+        }
+        uint _e2206 = v80_3;
+        int _e2211 = asint(asuint(asint(asuint(asint(_e2131)) - asuint(asint(((_e2126 >> asuint(int(23))) & 255u))))) + asuint((_e2139 ? int(126) : int(127))));
+        v83_3 = ZeroValueuint();
+        v84_3 = true;
+        if ((_e2131 == 0u)) {
+        } else {
+            bool _e2213 = (_e2211 <= int(0));
+            v82_3 = ZeroValueuint();
+            if (_e2213) {
+            } else {
+                v81_3 = 2139095040u;
+                if ((_e2211 >= int(255))) {
+                } else {
+                    v81_3 = ((asuint(_e2211) << asuint(int(23))) + (_e2206 & 8388607u));
+                }
+                uint _e2221 = v81_3;
+                v82_3 = _e2221;
+            }
+            uint _e2223 = v82_3;
+            v83_3 = _e2223;
+            v84_3 = _e2213;
+        }
+        uint _e2225 = v83_3;
+        bool _e2227 = v84_3;
+        v85_3 = ZeroValuebool();
+        if (_e183) {
+            v86_3 = false;
+            if (_e185) {
+                uint _e2236 = asuint(lightbvh_instances.Load(8+_e184*136+0));
+                uint _e2240 = asuint(lightbvh_instances.Load(16+_e184*136+0));
+                v86_3 = ((_e177.member_1[0] - _e2236) < _e2240);
+            }
+            bool _e2243 = v86_3;
+            v85_3 = _e2243;
+        }
+        bool _e2232 = v85_3;
+        v87_3 = _e2232;
+        if (_e183) {
+        } else {
+            v87_3 = (_e177.member_1[0] < _e172);
+        }
+        bool _e2245 = v87_3;
+        v88_3 = 0.0;
+        if (_e2245) {
+            v88_3 = (_e1990 + asfloat((((_e2125 ^ _e2126) & 2147483648u) | (_e2227 ? 0u : _e2225))));
+        }
+        float _e2248 = v88_3;
+        results_3 = _e2248;
+        break;
+    } while(false);
+    float _e2339 = results_3;
+    return _e2339;
+}
+
 typedef float ret_Constructarray2_float_[2];
 ret_Constructarray2_float_ Constructarray2_float_(float arg0, float arg1) {
     float ret[2] = { arg0, arg1 };
     return ret;
 }
 
-LightbvhType34_ ConstructLightbvhType34_(float arg0[3], float arg1, float arg2[3], uint arg3, float arg4[3]) {
-    LightbvhType34_ ret = (LightbvhType34_)0;
+LightbvhType38_ ConstructLightbvhType38_(float arg0[3], float arg1, float arg2[3], uint arg3, float arg4[3]) {
+    LightbvhType38_ ret = (LightbvhType38_)0;
     ret.member = arg0;
     ret.member_1 = arg1;
     ret.member_2 = arg2;
@@ -2316,59 +4500,59 @@ LightbvhInstance ConstructLightbvhInstance(uint arg0, uint arg1, uint arg2, uint
     return ret;
 }
 
-LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, float2 numbers)
+LightbvhLightPoint lightbvh_light_point(uint light_2, uint instance_2, float2 numbers)
 {
     LightbvhType19_ samples = (LightbvhType19_)0;
     float numbers_1[2] = (float[2])0;
-    LightbvhType34_ results_2 = (LightbvhType34_)0;
-    float v0_2 = (float)0;
-    float v1_2 = (float)0;
-    float v2_2 = (float)0;
-    float v3_2 = (float)0;
-    float v4_2 = (float)0;
-    float v5_2 = (float)0;
-    float v6_2 = (float)0;
-    float v7_2 = (float)0;
-    float v8_2 = (float)0;
-    float v9_2[3] = (float[3])0;
-    float v10_2[3] = (float[3])0;
-    float v11_2 = (float)0;
-    float v12_2 = (float)0;
-    float v13_2 = (float)0;
-    LightbvhLight v14_2 = (LightbvhLight)0;
-    LightbvhLight v15_2 = (LightbvhLight)0;
-    LightbvhLight v16_2 = (LightbvhLight)0;
-    uint v17_2 = (uint)0;
-    int v18_2 = (int)0;
-    int v19_2 = (int)0;
-    uint v20_2 = (uint)0;
-    uint v21_2 = (uint)0;
-    float v22_2 = (float)0;
-    uint v23_2 = (uint)0;
-    int v24_2 = (int)0;
-    uint v25_2 = (uint)0;
-    int v26_2 = (int)0;
-    uint v27_2 = (uint)0;
-    uint v28_2 = (uint)0;
-    uint v29_2 = (uint)0;
-    float v30_2 = (float)0;
-    float v31_2 = (float)0;
-    float v32_2[3] = (float[3])0;
+    LightbvhType38_ results_4 = (LightbvhType38_)0;
+    float v0_4 = (float)0;
+    float v1_4 = (float)0;
+    float v2_4 = (float)0;
+    float v3_4 = (float)0;
+    float v4_4 = (float)0;
+    float v5_4 = (float)0;
+    float v6_4 = (float)0;
+    float v7_4 = (float)0;
+    float v8_4 = (float)0;
+    float v9_4[3] = (float[3])0;
+    float v10_4[3] = (float[3])0;
+    float v11_4 = (float)0;
+    float v12_4 = (float)0;
+    float v13_4 = (float)0;
+    LightbvhLight v14_4 = (LightbvhLight)0;
+    LightbvhLight v15_4 = (LightbvhLight)0;
+    LightbvhLight v16_4 = (LightbvhLight)0;
+    uint v17_4 = (uint)0;
+    int v18_4 = (int)0;
+    int v19_4 = (int)0;
+    uint v20_4 = (uint)0;
+    uint v21_4 = (uint)0;
+    float v22_4 = (float)0;
+    uint v23_4 = (uint)0;
+    int v24_4 = (int)0;
+    uint v25_4 = (uint)0;
+    int v26_4 = (int)0;
+    uint v27_4 = (uint)0;
+    uint v28_4 = (uint)0;
+    uint v29_4 = (uint)0;
+    float v30_4 = (float)0;
+    float v31_4 = (float)0;
+    float v32_4[3] = (float[3])0;
 
-    samples = ConstructLightbvhType19_(light_1, instance_1, ZeroValuefloat());
+    samples = ConstructLightbvhType19_(light_2, instance_2, ZeroValuefloat());
     numbers_1 = Constructarray2_float_(numbers.x, numbers.y);
     do {
         uint _e77 = samples.member;
         uint _e80 = samples.member_1;
         uint _e82 = ((_e80 == 4294967295u) ? 0u : _e80);
-        v16_2 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0)), Constructarray3_float_(0.0, 0.0, 0.0), 4294967295u, 0u);
+        v16_4 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0)), Constructarray3_float_(0.0, 0.0, 0.0), 4294967295u, 0u);
         if ((_e82 < ((NagaBufferLength(lightbvh_instances) - 0) / 136))) {
             LightbvhInstance _e86 = ConstructLightbvhInstance(asuint(lightbvh_instances.Load(_e82*136+0+0)), asuint(lightbvh_instances.Load(_e82*136+0+4)), asuint(lightbvh_instances.Load(_e82*136+0+8)), asuint(lightbvh_instances.Load(_e82*136+0+12)), asuint(lightbvh_instances.Load(_e82*136+0+16)), asuint(lightbvh_instances.Load(_e82*136+0+20)), Constructarray3_array3_float__(Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+24+0+0)), asfloat(lightbvh_instances.Load(_e82*136+0+24+0+4)), asfloat(lightbvh_instances.Load(_e82*136+0+24+0+8))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+24+12+0)), asfloat(lightbvh_instances.Load(_e82*136+0+24+12+4)), asfloat(lightbvh_instances.Load(_e82*136+0+24+12+8))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+24+24+0)), asfloat(lightbvh_instances.Load(_e82*136+0+24+24+4)), asfloat(lightbvh_instances.Load(_e82*136+0+24+24+8)))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+60+0)), asfloat(lightbvh_instances.Load(_e82*136+0+60+4)), asfloat(lightbvh_instances.Load(_e82*136+0+60+8))), Constructarray3_array3_float__(Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+72+0+0)), asfloat(lightbvh_instances.Load(_e82*136+0+72+0+4)), asfloat(lightbvh_instances.Load(_e82*136+0+72+0+8))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+72+12+0)), asfloat(lightbvh_instances.Load(_e82*136+0+72+12+4)), asfloat(lightbvh_instances.Load(_e82*136+0+72+12+8))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+72+24+0)), asfloat(lightbvh_instances.Load(_e82*136+0+72+24+4)), asfloat(lightbvh_instances.Load(_e82*136+0+72+24+8)))), asfloat(lightbvh_instances.Load(_e82*136+0+108)), asfloat(lightbvh_instances.Load(_e82*136+0+112)), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+116+0)), asfloat(lightbvh_instances.Load(_e82*136+0+116+4)), asfloat(lightbvh_instances.Load(_e82*136+0+116+8))), asuint(lightbvh_instances.Load(_e82*136+0+128)), asuint(lightbvh_instances.Load(_e82*136+0+132)));
             uint _e88 = (_e77 - _e86.first);
             uint _e90 = (_e88 + _e86.first_light);
-            v15_2 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0)), Constructarray3_float_(0.0, 0.0, 0.0), 4294967295u, 0u);
+            v15_4 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0)), Constructarray3_float_(0.0, 0.0, 0.0), 4294967295u, 0u);
             if ((_e88 < _e86.count)) {
-                v14_2 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0)), Constructarray3_float_(0.0, 0.0, 0.0), 4294967295u, 0u);
+                v14_4 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0)), Constructarray3_float_(0.0, 0.0, 0.0), 4294967295u, 0u);
                 if ((_e90 < ((NagaBufferLength(lightbvh_lights) - 0) / 56))) {
                     LightbvhLight _e96 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(asfloat(lightbvh_lights.Load(_e90*56+0+0+0+0)), asfloat(lightbvh_lights.Load(_e90*56+0+0+0+4)), asfloat(lightbvh_lights.Load(_e90*56+0+0+0+8))), Constructarray3_float_(asfloat(lightbvh_lights.Load(_e90*56+0+0+12+0)), asfloat(lightbvh_lights.Load(_e90*56+0+0+12+4)), asfloat(lightbvh_lights.Load(_e90*56+0+0+12+8))), Constructarray3_float_(asfloat(lightbvh_lights.Load(_e90*56+0+0+24+0)), asfloat(lightbvh_lights.Load(_e90*56+0+0+24+4)), asfloat(lightbvh_lights.Load(_e90*56+0+0+24+8)))), Constructarray3_float_(asfloat(lightbvh_lights.Load(_e90*56+0+36+0)), asfloat(lightbvh_lights.Load(_e90*56+0+36+4)), asfloat(lightbvh_lights.Load(_e90*56+0+36+8))), asuint(lightbvh_lights.Load(_e90*56+0+48)), asuint(lightbvh_lights.Load(_e90*56+0+52)));
                     float _e115 = (_e86.columns[0][0] * _e96.p[0][0]);
@@ -2384,24 +4568,24 @@ LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, float2 nu
                     float _e200 = (((((asfloat((asuint(_e116) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e116) + ((asfloat((asuint(_e128) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e128)) + ((asfloat((asuint(_e140) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e140)) + _e86.translation[1]);
                     float _e201 = (((((asfloat((asuint(_e117) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e117) + ((asfloat((asuint(_e129) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e129)) + ((asfloat((asuint(_e141) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e141)) + _e86.translation[2]);
                     float _e202 = -(1099511600000.0);
-                    v0_2 = _e202;
+                    v0_4 = _e202;
                     if ((_e199 < _e202)) {
                     } else {
-                        v0_2 = ((_e199 > 1099511600000.0) ? 1099511600000.0 : _e199);
+                        v0_4 = ((_e199 > 1099511600000.0) ? 1099511600000.0 : _e199);
                     }
-                    float _e207 = v0_2;
-                    v1_2 = _e202;
+                    float _e207 = v0_4;
+                    v1_4 = _e202;
                     if ((_e200 < _e202)) {
                     } else {
-                        v1_2 = ((_e200 > 1099511600000.0) ? 1099511600000.0 : _e200);
+                        v1_4 = ((_e200 > 1099511600000.0) ? 1099511600000.0 : _e200);
                     }
-                    float _e217 = v1_2;
-                    v2_2 = _e202;
+                    float _e217 = v1_4;
+                    v2_4 = _e202;
                     if ((_e201 < _e202)) {
                     } else {
-                        v2_2 = ((_e201 > 1099511600000.0) ? 1099511600000.0 : _e201);
+                        v2_4 = ((_e201 > 1099511600000.0) ? 1099511600000.0 : _e201);
                     }
-                    float _e227 = v2_2;
+                    float _e227 = v2_4;
                     float _e237 = (_e86.columns[0][0] * _e96.p[1][0]);
                     float _e238 = (_e86.columns[0][1] * _e96.p[1][0]);
                     float _e239 = (_e86.columns[0][2] * _e96.p[1][0]);
@@ -2414,24 +4598,24 @@ LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, float2 nu
                     float _e297 = (((((asfloat((asuint(_e237) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e237) + ((asfloat((asuint(_e240) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e240)) + ((asfloat((asuint(_e243) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e243)) + _e86.translation[0]);
                     float _e298 = (((((asfloat((asuint(_e238) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e238) + ((asfloat((asuint(_e241) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e241)) + ((asfloat((asuint(_e244) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e244)) + _e86.translation[1]);
                     float _e299 = (((((asfloat((asuint(_e239) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e239) + ((asfloat((asuint(_e242) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e242)) + ((asfloat((asuint(_e245) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e245)) + _e86.translation[2]);
-                    v3_2 = _e202;
+                    v3_4 = _e202;
                     if ((_e297 < _e202)) {
                     } else {
-                        v3_2 = ((_e297 > 1099511600000.0) ? 1099511600000.0 : _e297);
+                        v3_4 = ((_e297 > 1099511600000.0) ? 1099511600000.0 : _e297);
                     }
-                    float _e304 = v3_2;
-                    v4_2 = _e202;
+                    float _e304 = v3_4;
+                    v4_4 = _e202;
                     if ((_e298 < _e202)) {
                     } else {
-                        v4_2 = ((_e298 > 1099511600000.0) ? 1099511600000.0 : _e298);
+                        v4_4 = ((_e298 > 1099511600000.0) ? 1099511600000.0 : _e298);
                     }
-                    float _e314 = v4_2;
-                    v5_2 = _e202;
+                    float _e314 = v4_4;
+                    v5_4 = _e202;
                     if ((_e299 < _e202)) {
                     } else {
-                        v5_2 = ((_e299 > 1099511600000.0) ? 1099511600000.0 : _e299);
+                        v5_4 = ((_e299 > 1099511600000.0) ? 1099511600000.0 : _e299);
                     }
-                    float _e324 = v5_2;
+                    float _e324 = v5_4;
                     float _e330[3] = Constructarray3_float_(((asfloat((asuint(_e304) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e304), ((asfloat((asuint(_e314) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e314), ((asfloat((asuint(_e324) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e324));
                     float _e334 = (_e86.columns[0][0] * _e96.p[2][0]);
                     float _e335 = (_e86.columns[0][1] * _e96.p[2][0]);
@@ -2445,36 +4629,36 @@ LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, float2 nu
                     float _e394 = (((((asfloat((asuint(_e334) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e334) + ((asfloat((asuint(_e337) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e337)) + ((asfloat((asuint(_e340) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e340)) + _e86.translation[0]);
                     float _e395 = (((((asfloat((asuint(_e335) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e335) + ((asfloat((asuint(_e338) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e338)) + ((asfloat((asuint(_e341) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e341)) + _e86.translation[1]);
                     float _e396 = (((((asfloat((asuint(_e336) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e336) + ((asfloat((asuint(_e339) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e339)) + ((asfloat((asuint(_e342) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e342)) + _e86.translation[2]);
-                    v6_2 = _e202;
+                    v6_4 = _e202;
                     if ((_e394 < _e202)) {
                     } else {
-                        v6_2 = ((_e394 > 1099511600000.0) ? 1099511600000.0 : _e394);
+                        v6_4 = ((_e394 > 1099511600000.0) ? 1099511600000.0 : _e394);
                     }
-                    float _e401 = v6_2;
-                    v7_2 = _e202;
+                    float _e401 = v6_4;
+                    v7_4 = _e202;
                     if ((_e395 < _e202)) {
                     } else {
-                        v7_2 = ((_e395 > 1099511600000.0) ? 1099511600000.0 : _e395);
+                        v7_4 = ((_e395 > 1099511600000.0) ? 1099511600000.0 : _e395);
                     }
-                    float _e411 = v7_2;
-                    v8_2 = _e202;
+                    float _e411 = v7_4;
+                    v8_4 = _e202;
                     if ((_e396 < _e202)) {
                     } else {
-                        v8_2 = ((_e396 > 1099511600000.0) ? 1099511600000.0 : _e396);
+                        v8_4 = ((_e396 > 1099511600000.0) ? 1099511600000.0 : _e396);
                     }
-                    float _e421 = v8_2;
+                    float _e421 = v8_4;
                     float _e427[3] = Constructarray3_float_(((asfloat((asuint(_e401) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e401), ((asfloat((asuint(_e411) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e411), ((asfloat((asuint(_e421) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e421));
                     bool _e430 = ((_e86.mirrored & 1u) != 0u);
-                    v9_2 = _e330;
+                    v9_4 = _e330;
                     if (_e430) {
-                        v9_2 = _e427;
+                        v9_4 = _e427;
                     }
-                    float _e432[3] = v9_2;
-                    v10_2 = _e427;
+                    float _e432[3] = v9_4;
+                    v10_4 = _e427;
                     if (_e430) {
-                        v10_2 = _e330;
+                        v10_4 = _e330;
                     }
-                    float _e434[3] = v10_2;
+                    float _e434[3] = v10_4;
                     float _e436 = (_e96.p[1][0] - _e96.p[0][0]);
                     float _e437 = (_e96.p[1][1] - _e96.p[0][1]);
                     float _e438 = (_e96.p[1][2] - _e96.p[0][2]);
@@ -2509,35 +4693,35 @@ LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, float2 nu
                     int _e530 = asint(asuint(asint(((asuint(((_e522 > _e520) ? _e522 : _e520)) >> asuint(int(23))) & 255u))) - asuint(int(127)));
                     bool _e548 = (((((_e530 > int(-127)) ? _e530 : int(-127)) >= int(-100)) && (_e486 > int(-127))) && ((((0.2126 * _e96.radiance[0]) + (0.7152 * _e96.radiance[1])) + (0.0722 * _e96.radiance[2])) > 0.0));
                     float _e551 = (_e96.radiance[0] * _e86.radiance[0]);
-                    v11_2 = 7.888609e-31;
+                    v11_4 = 7.888609e-31;
                     if ((_e551 < 7.888609e-31)) {
                     } else {
-                        v11_2 = ((_e551 > 1.2676506e30) ? 1.2676506e30 : _e551);
+                        v11_4 = ((_e551 > 1.2676506e30) ? 1.2676506e30 : _e551);
                     }
-                    float _e556 = v11_2;
+                    float _e556 = v11_4;
                     float _e564 = (_e96.radiance[1] * _e86.radiance[1]);
-                    v12_2 = 7.888609e-31;
+                    v12_4 = 7.888609e-31;
                     if ((_e564 < 7.888609e-31)) {
                     } else {
-                        v12_2 = ((_e564 > 1.2676506e30) ? 1.2676506e30 : _e564);
+                        v12_4 = ((_e564 > 1.2676506e30) ? 1.2676506e30 : _e564);
                     }
-                    float _e569 = v12_2;
+                    float _e569 = v12_4;
                     float _e577 = (_e96.radiance[2] * _e86.radiance[2]);
-                    v13_2 = 7.888609e-31;
+                    v13_4 = 7.888609e-31;
                     if ((_e577 < 7.888609e-31)) {
                     } else {
-                        v13_2 = ((_e577 > 1.2676506e30) ? 1.2676506e30 : _e577);
+                        v13_4 = ((_e577 > 1.2676506e30) ? 1.2676506e30 : _e577);
                     }
-                    float _e582 = v13_2;
-                    v14_2 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(((asfloat((asuint(_e207) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e207), ((asfloat((asuint(_e217) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e217), ((asfloat((asuint(_e227) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e227)), _e432, _e434), Constructarray3_float_(((((_e96.radiance[0] > 0.0) && (_e86.radiance[0] > 0.0)) && _e548) ? _e556 : 0.0), ((((_e96.radiance[1] > 0.0) && (_e86.radiance[1] > 0.0)) && _e548) ? _e569 : 0.0), ((((_e96.radiance[2] > 0.0) && (_e86.radiance[2] > 0.0)) && _e548) ? _e582 : 0.0)), _e82, _e96.flags);
+                    float _e582 = v13_4;
+                    v14_4 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(((asfloat((asuint(_e207) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e207), ((asfloat((asuint(_e217) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e217), ((asfloat((asuint(_e227) & 2147483647u)) < 7.888609e-31) ? 0.0 : _e227)), _e432, _e434), Constructarray3_float_(((((_e96.radiance[0] > 0.0) && (_e86.radiance[0] > 0.0)) && _e548) ? _e556 : 0.0), ((((_e96.radiance[1] > 0.0) && (_e86.radiance[1] > 0.0)) && _e548) ? _e569 : 0.0), ((((_e96.radiance[2] > 0.0) && (_e86.radiance[2] > 0.0)) && _e548) ? _e582 : 0.0)), _e82, _e96.flags);
                 }
-                LightbvhLight _e592 = v14_2;
-                v15_2 = _e592;
+                LightbvhLight _e592 = v14_4;
+                v15_4 = _e592;
             }
-            LightbvhLight _e594 = v15_2;
-            v16_2 = _e594;
+            LightbvhLight _e594 = v15_4;
+            v16_4 = _e594;
         }
-        LightbvhLight _e596 = v16_2;
+        LightbvhLight _e596 = v16_4;
         float _e598[2] = numbers_1;
         float _e609 = (_e596.p[1][0] - _e596.p[0][0]);
         float _e610 = (_e596.p[1][1] - _e596.p[0][1]);
@@ -2604,39 +4788,39 @@ LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, float2 nu
         uint _e807 = (_e785 + asuint(((_e796 == _e796) ? ((_e796 > _e798) ? int(2147483647) : ((_e796 < _e797) ? int(-2147483647 - 1) : naga_f2i32(_e796))) : int(0))));
         int _e810 = asint((_e788 - (_e807 * _e807)));
         bool _e811 = (_e810 < int(0));
-        v17_2 = _e807;
+        v17_4 = _e807;
         if (_e811) {
-            v17_2 = (_e807 - 1u);
+            v17_4 = (_e807 - 1u);
         }
-        uint _e814 = v17_2;
-        v18_2 = _e810;
+        uint _e814 = v17_4;
+        v18_4 = _e810;
         if (_e811) {
-            v18_2 = asint(asuint(_e810) + asuint(asint(asuint(asint(asuint(int(2)) * asuint(asint(_e814)))) + asuint(int(1)))));
+            v18_4 = asint(asuint(_e810) + asuint(asint(asuint(asint(asuint(int(2)) * asuint(asint(_e814)))) + asuint(int(1)))));
         }
-        int _e820 = v18_2;
+        int _e820 = v18_4;
         int _e822 = asint(asuint(int(2)) * asuint(asint(_e814)));
         bool _e823 = (_e820 > _e822);
-        v19_2 = _e820;
+        v19_4 = _e820;
         if (_e823) {
-            v19_2 = asint(asuint(_e820) - asuint(asint(asuint(_e822) + asuint(int(1)))));
+            v19_4 = asint(asuint(_e820) - asuint(asint(asuint(_e822) + asuint(int(1)))));
         }
-        int _e827 = v19_2;
-        v20_2 = _e814;
+        int _e827 = v19_4;
+        v20_4 = _e814;
         if (_e823) {
-            v20_2 = (_e814 + 1u);
+            v20_4 = (_e814 + 1u);
         }
-        uint _e830 = v20_2;
-        v21_2 = _e830;
+        uint _e830 = v20_4;
+        v21_4 = _e830;
         if ((_e827 > asint(_e830))) {
-            v21_2 = (_e830 + 1u);
+            v21_4 = (_e830 + 1u);
         }
-        uint _e835 = v21_2;
-        v22_2 = 0.0;
+        uint _e835 = v21_4;
+        v22_4 = 0.0;
         if ((asint(_e745) < int(8388608))) {
         } else {
-            v22_2 = asfloat((((((_e748 + 127u) - _e750) >> asuint(int(1))) << asuint(int(23))) + (_e835 - 8388608u)));
+            v22_4 = asfloat((((((_e748 + 127u) - _e750) >> asuint(int(1))) << asuint(int(23))) + (_e835 - 8388608u)));
         }
-        float _e848 = v22_2;
+        float _e848 = v22_4;
         uint _e849 = asuint(_e848);
         uint _e855 = (_e849 & 8388607u);
         uint _e856 = (_e855 | 8388608u);
@@ -2655,76 +4839,76 @@ LightbvhLightPoint lightbvh_light_point(uint light_1, uint instance_1, float2 nu
         int _e902 = asint(_e856);
         int _e904 = asint(asuint(_e887) - asuint(asint(asuint(_e899) * asuint(_e902))));
         bool _e905 = (_e904 < int(0));
-        v23_2 = _e901;
+        v23_4 = _e901;
         if (_e905) {
-            v23_2 = (_e901 - 1u);
+            v23_4 = (_e901 - 1u);
         }
-        uint _e908 = v23_2;
-        v24_2 = _e904;
+        uint _e908 = v23_4;
+        v24_4 = _e904;
         if (_e905) {
-            v24_2 = asint(asuint(_e904) + asuint(_e902));
+            v24_4 = asint(asuint(_e904) + asuint(_e902));
         }
-        int _e911 = v24_2;
+        int _e911 = v24_4;
         bool _e912 = (_e911 >= _e902);
-        v25_2 = _e908;
+        v25_4 = _e908;
         if (_e912) {
-            v25_2 = (_e908 + 1u);
+            v25_4 = (_e908 + 1u);
         }
-        uint _e915 = v25_2;
-        v26_2 = _e911;
+        uint _e915 = v25_4;
+        v26_4 = _e911;
         if (_e912) {
-            v26_2 = asint(asuint(_e911) - asuint(_e902));
+            v26_4 = asint(asuint(_e911) - asuint(_e902));
         }
-        int _e918 = v26_2;
-        v27_2 = _e915;
+        int _e918 = v26_4;
+        v27_4 = _e915;
         if ((asint(asuint(_e918) * asuint(int(2))) > _e902)) {
-            v27_2 = (_e915 + 1u);
+            v27_4 = (_e915 + 1u);
         }
-        uint _e923 = v27_2;
+        uint _e923 = v27_4;
         int _e927 = asint(asuint(asint(asuint(int(127)) - asuint(asint(((_e849 >> asuint(int(23))) & 255u))))) + asuint((_e857 ? int(126) : int(127))));
         bool _e928 = (_e927 <= int(0));
-        v29_2 = ZeroValueuint();
+        v29_4 = ZeroValueuint();
         if (_e928) {
         } else {
-            v28_2 = 2139095040u;
+            v28_4 = 2139095040u;
             if ((_e927 >= int(255))) {
             } else {
-                v28_2 = ((asuint(_e927) << asuint(int(23))) + (_e923 & 8388607u));
+                v28_4 = ((asuint(_e927) << asuint(int(23))) + (_e923 & 8388607u));
             }
-            uint _e936 = v28_2;
-            v29_2 = _e936;
+            uint _e936 = v28_4;
+            v29_4 = _e936;
         }
-        uint _e938 = v29_2;
+        uint _e938 = v29_4;
         float _e941 = asfloat((((1065353216u ^ _e849) & 2147483648u) | (_e928 ? 0u : _e938)));
         int _e945 = naga_neg(asint(asuint(asint(asuint(_e710) + asuint(_e664))) + asuint(_e664)));
         int _e947 = ((_e945 < int(-126)) ? int(-126) : _e945);
         float _e955 = ((_e941 + _e941) * asfloat((asuint(asint(asuint(((_e947 > int(127)) ? int(127) : _e947)) + asuint(int(127)))) << asuint(int(23)))));
         bool _e959 = ((_e598[0] + _e598[1]) > 1.0);
-        v30_2 = _e598[0];
+        v30_4 = _e598[0];
         if (_e959) {
-            v30_2 = (1.0 - _e598[0]);
+            v30_4 = (1.0 - _e598[0]);
         }
-        float _e962 = v30_2;
-        v31_2 = _e598[1];
+        float _e962 = v30_4;
+        v31_4 = _e598[1];
         if (_e959) {
-            v31_2 = (1.0 - _e598[1]);
+            v31_4 = (1.0 - _e598[1]);
         }
-        float _e965 = v31_2;
+        float _e965 = v31_4;
         float _e966 = (_e609 * _e962);
         float _e967 = (_e610 * _e962);
         float _e968 = (_e611 * _e962);
         float _e987 = (_e617 * _e965);
         float _e988 = (_e618 * _e965);
         float _e989 = (_e619 * _e965);
-        v32_2 = Constructarray3_float_(0.0, 0.0, 0.0);
+        v32_4 = Constructarray3_float_(0.0, 0.0, 0.0);
         if (_e711) {
-            v32_2 = Constructarray3_float_((_e731 * _e941), (_e734 * _e941), (_e739 * _e941));
+            v32_4 = Constructarray3_float_((_e731 * _e941), (_e734 * _e941), (_e739 * _e941));
         }
-        float _e1019[3] = v32_2;
-        results_2 = ConstructLightbvhType34_(Constructarray3_float_(((_e596.p[0][0] + ((asfloat((asuint(_e966) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e966)) + ((asfloat((asuint(_e987) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e987)), ((_e596.p[0][1] + ((asfloat((asuint(_e967) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e967)) + ((asfloat((asuint(_e988) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e988)), ((_e596.p[0][2] + ((asfloat((asuint(_e968) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e968)) + ((asfloat((asuint(_e989) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e989))), (_e711 ? ((_e955 < 1.329228e36) ? _e955 : 1.329228e36) : 0.0), _e1019, _e596.flags, _e596.radiance);
+        float _e1019[3] = v32_4;
+        results_4 = ConstructLightbvhType38_(Constructarray3_float_(((_e596.p[0][0] + ((asfloat((asuint(_e966) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e966)) + ((asfloat((asuint(_e987) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e987)), ((_e596.p[0][1] + ((asfloat((asuint(_e967) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e967)) + ((asfloat((asuint(_e988) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e988)), ((_e596.p[0][2] + ((asfloat((asuint(_e968) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e968)) + ((asfloat((asuint(_e989) & 2147483647u)) < 9.8607613e-32) ? 0.0 : _e989))), (_e711 ? ((_e955 < 1.329228e36) ? _e955 : 1.329228e36) : 0.0), _e1019, _e596.flags, _e596.radiance);
         break;
     } while(false);
-    LightbvhType34_ _e1056 = results_2;
+    LightbvhType38_ _e1056 = results_4;
     const LightbvhLightPoint lightbvhlightpoint = ConstructLightbvhLightPoint(float3(_e1056.member[0], _e1056.member[1], _e1056.member[2]), _e1056.member_1, float3(_e1056.member_2[0], _e1056.member_2[1], _e1056.member_2[2]), _e1056.member_3, float3(_e1056.member_4[0], _e1056.member_4[1], _e1056.member_4[2]));
     return lightbvhlightpoint;
 }

@@ -47,4 +47,4 @@ pub use float_modes::{FloatControls, FloatEnvironment, with_float_modes};
 #[doc(hidden)]
 pub use kernel::{Access, Binding, Kernel, ROW_GROUPS, groups};
 #[doc(hidden)]
-pub use query::{LinkedQuery, Query, query_push};
+pub use query::{CellQuery, LinkedQuery, Query, query_push};

@@ -1,7 +1,7 @@
 //! What the kernels `sample` and `pmf` are asked, for each kind of receiver.
 
 use bytemuck::{Pod, Zeroable};
-use lightbvh::importance::LinkedPoint;
+use lightbvh::importance::{Cell, LinkedPoint};
 use lightbvh::{Random64, ShadingPoint, TreeWords};
 
 /// An element of the buffer `queries`. `sample` answers with a [`SampledLight`](lightbvh::SampledLight), `pmf` with an `f32`.
@@ -34,6 +34,16 @@ impl Query {
             words: [light, instance],
         }
     }
+}
+
+/// What `sample_cell` and `pmf_cell` are asked ([`KernelSet::CELLS`](crate::KernelSet::CELLS)).
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct CellQuery {
+    /// The cell to be lit, of the domain of [`Cell::checked`].
+    pub cell: Cell,
+    /// As of [`Query`].
+    pub words: [u32; 2],
 }
 
 /// What `sample_linked` and `pmf_linked` are asked ([`KernelSet::LINKED`](crate::KernelSet::LINKED)), as [`Query`].

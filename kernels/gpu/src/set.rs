@@ -47,6 +47,17 @@ pub static EQ4: KernelSet = KernelSet {
 };
 
 impl KernelSet {
+    /// Those of [`MOMENTS`] for cells, over the same nodes. They are asked [`CellQuery`](crate::CellQuery)s.
+    pub const CELLS: Self = Self {
+        refit_bottom: &table::REFIT_BOTTOM,
+        refit_roots: &table::REFIT_ROOTS,
+        refit_top: &table::REFIT_TOP,
+        refit_nodes: &table::REFIT_NODES,
+        sample: &table::SAMPLE_CELL,
+        pmf: &table::PMF_CELL,
+        light_points: &table::LIGHT_POINTS,
+    };
+
     /// The kernels of `Bvh<(SpotMomentNode<8, AnyLight>, Defensive<Moments, 6>)>`, over lights of any kind. A node is 256
     /// bytes where one of [`MOMENTS`] is 192; a scene of triangles alone takes that.
     ///

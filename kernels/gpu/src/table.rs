@@ -7,6 +7,7 @@ crate::kernels! {
     LIGHT_POINTS_LINKED "light_points_linked" 4 [64, 1, 1]: 0 lights Read 56, 1 instances Read 136, 2 queries Read 36, 3 samples Read 12, 4 numbers Read 8, 5 results Write 44;
     PMF "pmf" 40 [64, 1, 1]: 0 nodes Read 192, 1 instances Read 136, 2 trails Read 4, 3 queries Read 32, 4 results Write 4;
     PMF_ANY "pmf_any" 40 [64, 1, 1]: 0 nodes Read 256, 1 instances Read 136, 2 trails Read 4, 3 queries Read 32, 4 results Write 4;
+    PMF_CELL "pmf_cell" 40 [64, 1, 1]: 0 nodes Read 192, 1 instances Read 136, 2 trails Read 4, 3 queries Read 44, 4 results Write 4;
     PMF_EQ4 "pmf_eq4" 40 [64, 1, 1]: 0 nodes Read 112, 1 instances Read 136, 2 trails Read 4, 3 queries Read 32, 4 results Write 4;
     PMF_LINKED "pmf_linked" 40 [64, 1, 1]: 0 nodes Read 288, 1 instances Read 136, 2 trails Read 4, 3 queries Read 36, 4 results Write 4;
     REFIT_BOTTOM "refit_bottom" 12 [64, 1, 1]: 0 list Read 4, 1 lights Read 56, 2 nodes Read 192, 3 children Write 384;
@@ -27,6 +28,7 @@ crate::kernels! {
     REFIT_TOP_LINKED "refit_top_linked" 12 [64, 1, 1]: 0 list Read 4, 1 lights Read 56, 2 instances Read 136, 3 roots Read 52, 4 nodes Read 288, 5 children Write 704;
     SAMPLE "sample" 40 [64, 1, 1]: 0 nodes Read 192, 1 instances Read 136, 2 trails Read 4, 3 queries Read 32, 4 results Write 12;
     SAMPLE_ANY "sample_any" 40 [64, 1, 1]: 0 nodes Read 256, 1 instances Read 136, 2 trails Read 4, 3 queries Read 32, 4 results Write 12;
+    SAMPLE_CELL "sample_cell" 40 [64, 1, 1]: 0 nodes Read 192, 1 instances Read 136, 2 trails Read 4, 3 queries Read 44, 4 results Write 12;
     SAMPLE_EQ4 "sample_eq4" 40 [64, 1, 1]: 0 nodes Read 112, 1 instances Read 136, 2 trails Read 4, 3 queries Read 32, 4 results Write 12;
     SAMPLE_LINKED "sample_linked" 40 [64, 1, 1]: 0 nodes Read 288, 1 instances Read 136, 2 trails Read 4, 3 queries Read 36, 4 results Write 12;
     SCATTER "scatter" 12 [64, 1, 1]: 0 from Read 4, 1 to Write 4;
