@@ -11,11 +11,11 @@ const TILE_COUNT = 128u;
 const TILE_LIGHTS = 1024u;
 
 // The city: blocks at equal distances between streets, on a square of ground.
-const CELLS = 16;
+const CELLS = 12;
 const PITCH = 10.0;
 const HALF_STREET = 2.0;
-const EYE = vec3(5.2, 9.5, 4.0);
-const FORWARD = vec3(0.66, -0.24, 0.71);
+const EYE = vec3(50.3, 8.6, 1.0);
+const FORWARD = vec3(0.36, -0.29, 0.85);
 
 // A light of an instance; the sum of the powers before it, in parts of 2^32 of all.
 struct Listed { light: u32, instance: u32, below: u32 }
