@@ -25,11 +25,10 @@ struct Emitter { p: vec3<f32>, weight: f32, normal: vec3<f32>, radiance: vec3<f3
 
 struct Hit { distance: f32, normal: vec3<f32>, albedo: vec3<f32> }
 
-@group(1) @binding(0) var<storage> heights: array<f32>;
-@group(1) @binding(1) var<storage> listed: array<Listed>;
-@group(1) @binding(2) var<storage, read_write> tiles: array<Emitter>;
+@group(0) @binding(5) var<storage> listed: array<Listed>;
+@group(0) @binding(6) var<storage, read_write> tiles: array<Emitter>;
 // Sums over the frames: radiance, and the distance of what is seen, metres.
-@group(1) @binding(3) var<storage, read_write> image: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> image: array<vec4<f32>>;
 var<immediate> frame: u32;
 
 var<private> state: u32;
@@ -41,14 +40,18 @@ fn hash(x: u32) -> u32 {
     return (mixed >> 22u) ^ mixed;
 }
 
+// In [0, 1).
+fn unit(word: u32) -> f32 {
+    return f32(word >> 8u) / 16777216.0;
+}
+
 fn bits() -> u32 {
     state += 0x9e3779b9u;
     return hash(state);
 }
 
-// In [0, 1).
 fn random() -> f32 {
-    return f32(bits() >> 8u) / 16777216.0;
+    return unit(bits());
 }
 
 fn luminance(rgb: vec3<f32>) -> f32 {
@@ -76,14 +79,15 @@ fn trace(o: vec3<f32>, d: vec3<f32>, far: f32) -> Hit {
         let low = vec2<f32>(cell) * PITCH + HALF_STREET;
         let high = low + (PITCH - 2.0 * HALF_STREET);
         let a = (vec3(low.x, 0.0, low.y) - o) * per;
-        let b = (vec3(high.x, heights[block], high.y) - o) * per;
+        let height = 1.5 + 4.5 * unit(hash(block)) * unit(hash(block + 144u));
+        let b = (vec3(high.x, height, high.y) - o) * per;
         let near = min(a, b);
         let end = max(a, b);
         let enter = max(max(near.x, near.y), near.z);
         if enter > 0.0 && enter < hit.distance && enter < min(min(end.x, end.y), end.z) {
             let side = select(vec3(0.0), vec3(1.0), near == vec3(enter));
-            let tint = vec3(f32(hash(block) & 255u), f32(hash(block + 256u) & 255u), f32(hash(block + 512u) & 255u));
-            return Hit(enter, normalize(-sign(d) * side), vec3(0.5, 0.42, 0.38) + tint * 0.0012);
+            let tint = vec3(unit(hash(block + 288u)), unit(hash(block + 432u)), unit(hash(block + 576u)));
+            return Hit(enter, normalize(-sign(d) * side), vec3(0.5, 0.42, 0.38) + 0.3 * tint);
         }
         reached = min(next.x, next.y);
         let x_first = next.x < next.y;
