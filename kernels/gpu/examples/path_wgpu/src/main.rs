@@ -83,6 +83,7 @@ fn main() -> Result<()> {
         .instances;
     let mut lights = DeviceLights::new(engine)?;
     let mut frame_times = Vec::new();
+    bvh.refit();
     let mut words = lights.update(engine, &bvh);
     for frame in 1..=30_u16 {
         let start = Instant::now();
