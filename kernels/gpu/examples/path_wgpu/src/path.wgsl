@@ -1,4 +1,6 @@
 // A path tracer of a city at night, behind the functions of lightbvh: three vertices, direct light at each.
+// Rays pass through lamps, whose light counts at vertices alone: by a single strategy, so there are no weights between two.
+// All lamps emit from their front side; `flags` would say otherwise.
 
 // How a vertex chooses lights, and how many candidates it resamples to one (Talbot, Cline and Egbert 2005).
 override METHOD: u32 = 0;

@@ -10,7 +10,7 @@ use crate::tracer::{Image, SIZE};
 const EYE: [f32; 3] = [50.3, 8.6, 1.0];
 const FORWARD: [f32; 3] = [0.36, -0.29, 0.85];
 
-/// The lamps that the camera sees, as rhombs: radiance, and how much of a pixel they cover.
+/// The lamps that the camera sees, as diamonds: radiance, and how much of a pixel they cover.
 fn drawn(behind: &Image) -> Image {
     let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let unit = |a: [f32; 3]| a.map(|part| part / dot(a, a).sqrt());

@@ -47,7 +47,7 @@ pub fn place(k: u32, time: f32) -> Transform {
     let across = street + 2.6 * (unit(k, 1) - 0.5);
     let along = (unit(k, 2) * CELLS * PITCH + (unit(k, 3) - 0.5) * time).rem_euclid(CELLS * PITCH);
     let height = 0.8 + 8.0 * unit(k, 4);
-    let [x, z] = if k % 2 == 0 {
+    let [x, z] = if k.is_multiple_of(2) {
         [along, across]
     } else {
         [across, along]

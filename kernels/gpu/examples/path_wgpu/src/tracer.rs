@@ -134,7 +134,7 @@ impl Render {
         if let Some(presample) = self
             .presample
             .as_ref()
-            .filter(|_| self.passes % PASSES_OF_TILES == 0)
+            .filter(|_| self.passes.is_multiple_of(PASSES_OF_TILES))
         {
             dispatch(presample, TILE_LIGHTS / 64, 1);
         }
