@@ -20,7 +20,7 @@ use lightbvh_tests::statistics::{chi_squared, chi_squared_quantile};
 /// Answers a sample, its probability by `pmf`, and a point on its light; or the probability of the light of the query.
 const OWN: &str = "
 struct Query { p: array<f32, 3>, n: array<f32, 3>, words: vec2<u32> }
-struct Answer { light: u32, instance: u32, pmf: f32, again: f32, p: array<f32, 3>, density: f32, radiance: array<f32, 3>, own: f32 }
+struct Answer { light: u32, instance: u32, pmf: f32, again: f32, p: array<f32, 3>, density: f32, radiance: array<f32, 3>, own: f32, cell: f32, cell_again: f32, cell_own: f32 }
 @group(0) @binding(4) var<storage> queries: array<Query>;
 @group(0) @binding(5) var<storage, read_write> results: array<Answer>;
 @compute @workgroup_size(64)
@@ -35,8 +35,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let again = lightbvh_pmf(p, n, own.light, own.instance);
     let at = lightbvh_light_point(own.light, own.instance, vec2(0.25, 0.5));
     let asked = lightbvh_pmf(p, n, query.words.x, query.words.y);
+    let half = vec3(0.5, 0.25, 1.0);
+    let cell = lightbvh_sample_cell(p, half, 0.7 * n, query.words);
+    let cell_again = lightbvh_pmf_cell(p, half, 0.7 * n, cell.light, cell.instance);
+    let cell_own = lightbvh_pmf_cell(p, half, 0.7 * n, query.words.x, query.words.y);
     results[id.x] = Answer(own.light, own.instance, own.pmf, again,
-        array(at.p.x, at.p.y, at.p.z), at.density, array(at.radiance.x, at.radiance.y, at.radiance.z), asked);
+        array(at.p.x, at.p.y, at.p.z), at.density, array(at.radiance.x, at.radiance.y, at.radiance.z), asked, cell.pmf, cell_again, cell_own);
 }
 ";
 
@@ -51,6 +55,9 @@ struct Answer {
     density: f32,
     radiance: [f32; 3],
     own: f32,
+    cell: f32,
+    cell_again: f32,
+    cell_own: f32,
 }
 
 const fn buffer(binding: u32, name: &'static str, stride: u32) -> Binding {
@@ -73,7 +80,7 @@ const KERNEL: Kernel = Kernel {
         buffer(2, "trails", 4),
         buffer(3, "lights", 56),
         buffer(4, "queries", 32),
-        buffer(5, "results", 48),
+        buffer(5, "results", 60),
     ],
     push_constants: 36,
     workgroup: [64, 1, 1],
@@ -149,7 +156,10 @@ fn functions_keep_their_promises() {
                 .iter()
                 .map(|&[light, instance]| Query::pmf(point, light, instance))
                 .collect();
-            let pmfs: Vec<f64> = ask(&asked).iter().map(|own| f64::from(own.own)).collect();
+            let answers = ask(&asked);
+            let of_cell: f64 = answers.iter().map(|own| f64::from(own.cell_own)).sum();
+            assert!((of_cell - 1.0).abs() < 1e-4, "{}: {of_cell}", device.name());
+            let pmfs: Vec<f64> = answers.iter().map(|own| f64::from(own.own)).collect();
             assert!((pmfs.iter().sum::<f64>() - 1.0).abs() < 1e-4, "{}", device.name());
             for (&pmf, &[light, instance]) in pmfs.iter().zip(&all) {
                 let expected = tree.pmf(&point, light, instance);
@@ -175,7 +185,7 @@ fn functions_keep_their_promises() {
                     .position(|&own_light| own_light == [own.light, own.instance])
                     .expect("a light");
                 counts[k] += 1;
-                assert_eq!(own.pmf, own.again);
+                assert_eq!((own.pmf, own.cell), (own.again, own.cell_again));
                 assert_eq!(f64::from(own.pmf), pmfs[k]);
                 let expected = tree.sample(&point, number);
                 different += usize::from((own.light, own.instance) != (expected.light, expected.instance));
