@@ -4,6 +4,12 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 
+// 1: the page failed. 2: the browser did.
+process.on("uncaughtException", (error) => {
+  console.error(error.message);
+  process.exit(2);
+});
+
 const [browser, folder] = process.argv.slice(2);
 const page = `file://${resolve(folder)}/index.html`;
 let failed = 0;
@@ -54,7 +60,9 @@ async function open(...flags) {
     send, evaluate, problems,
     size: (width, height) => send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: width < 600 }),
     media: (scheme, motion = "no-preference") => send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }, { name: "prefers-reduced-motion", value: motion }] }),
-    visit: async () => {
+    // Whether the page started. It makes frames by itself if it is to be left `alone`.
+    visit: async (alone) => {
+      await send("Page.addScriptToEvaluateOnNewDocument", { source: `addEventListener("DOMContentLoaded", () => { main.isFixed = ${!alone}; })` });
       await send("Page.navigate", { url: `${page}?${count}` });
       for (;;) {
         if (await evaluate("document.readyState === 'complete' && typeof started === 'object'")) return evaluate("started.then((own) => own !== null && own !== undefined)");
@@ -78,7 +86,7 @@ async function open(...flags) {
   return own;
 }
 
-// In the page. The device's words after frames; how often its samples are the CPU's, and their pmfs those that it says itself; the sum of
+// In the page. The device's u32s after frames; how often its samples are the CPU's, and their pmfs those that it says itself; the sum of
 // pmfs over all lights of a point.
 const compare = `(async () => {
   const { device, host, held, layouts, tree, group, named, step } = await started;
@@ -151,10 +159,14 @@ const flags = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--
 let own = await open(...flags);
 await own.size(1280, 900);
 await own.media("light");
-check(await own.visit(), "the page starts");
-await own.evaluate("main.isFixed = true; new Promise((done) => setTimeout(done, 500))");
+check(await own.visit(true), "the page starts");
+const times = `["edits", "refit", "image", "left", "right"].map((id) => byId(id).querySelector(".figure").textContent).join(", ")`;
+for (let k = 0; k < 200 && (await own.evaluate(times)).includes("–"); k += 1) await new Promise((done) => setTimeout(done, 100));
+const shown = await own.evaluate(times);
+check(/^([\d.]+ ms(, |$)){5}$/.test(shown), `times of edits, refit, image and its sides: ${shown}`);
+await own.evaluate("main.isFixed = true; started.then(({ device }) => device.queue.onSubmittedWorkDone())");
 const found = await own.evaluate(compare);
-check(found.different <= 0.01 * found.all, `the device's words: ${found.different} of ${found.all} differ from the CPU's`);
+check(found.different <= 0.01 * found.all, `u32s on the device: ${found.different} of ${found.all} differ from the CPU's`);
 check(found.others <= 41, `samples: ${found.others} of 4096 are other lights than the CPU's`);
 check(found.worst < 0.01, `a sample's probability is its pmf, to ${found.worst}`);
 check(found.sums.every((sum) => Math.abs(sum - 1) < 1e-3), `probabilities of all lights sum to ${found.sums}`);
@@ -176,6 +188,18 @@ await own.send("Input.dispatchKeyEvent", { type: "keyDown", key: " ", code: "Spa
 await own.send("Input.dispatchKeyEvent", { type: "keyUp", key: " ", code: "Space", windowsVirtualKeyCode: 32 });
 check(await own.evaluate("chosen.isPaused && byId('pause').textContent === 'Play'"), "Space on the button pauses");
 
+// The divider, by mouse.
+const { x, y, width: wide } = await own.evaluate("(({ x, y, width }) => ({ x, y, width }))(byId('split').getBoundingClientRect())");
+const drag = async (kind, event, ...types) => {
+  for (const [k, type] of types.entries()) {
+    const at = { x: x + wide * [0.5, 0.7, 0.7][k], y: y + 60 };
+    await own.send(`Input.dispatch${kind}Event`, { type, ...event(at, type) });
+  }
+  return value("split");
+};
+const dragged = await drag("Mouse", (at) => ({ ...at, button: "left", clickCount: 1 }), "mousePressed", "mouseMoved", "mouseReleased");
+check(dragged === "70 ", `the divider follows the mouse to ${dragged}`);
+
 // Themes and widths.
 for (const [scheme, width, height] of [["light", 1280, 900], ["dark", 1280, 900], ["light", 360, 900], ["dark", 360, 900]]) {
   await own.size(width, height);
@@ -184,11 +208,8 @@ for (const [scheme, width, height] of [["light", 1280, 900], ["dark", 1280, 900]
   check(await own.evaluate("chosen.isPaused"), `${scheme}, ${width}: reduced motion begins with a pause`);
   check(await own.evaluate("document.documentElement.scrollWidth <= innerWidth"), `${scheme}, ${width}: nothing is wider than the page`);
   await own.evaluate(`(async () => {
-    main.isFixed = true;
     const { device, step, setBudget } = await started;
-    setBudget(${width} * 200);
-    for (let k = 0; k < 3; k += 1) { step(0); await device.queue.onSubmittedWorkDone(); }
-    isChanged = true;
+    setBudget(${width} * 100);
     step(0);
     await device.queue.onSubmittedWorkDone();
     await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
@@ -199,14 +220,15 @@ check(own.problems.length === 0, `nothing on the console ${own.problems.join("\n
 await own.close();
 
 // Without WebGPU, and without a device.
-for (const [name, ...without] of [["WebGPU", "--disable-features=WebGPU", "--disable-blink-features=WebGPU"], ["a device", "--disable-gpu", "--disable-software-rasterizer"]]) {
-  own = await open(...without);
-  await own.size(1280, 900);
-  await own.visit();
+own = await open("--disable-gpu", "--disable-software-rasterizer");
+await own.size(1280, 900);
+for (const [name, source] of [["a device", ""], ["WebGPU", "Object.defineProperty(Navigator.prototype, 'gpu', { value: undefined })"]]) {
+  await own.send("Page.addScriptToEvaluateOnNewDocument", { source });
+  check(!await own.visit(), `without ${name} the page does not start`);
   const message = await own.evaluate("byId('message').hidden ? '' : byId('message').innerText");
-  check(message.length > 20 && await own.evaluate("byId('lights').disabled"), `without ${name}: ${message.replace(/\s+/g, " ")}`);
-  check(own.problems.length === 0, `without ${name}: nothing on the console ${own.problems.join("\n")}`);
+  check(message.includes(name === "WebGPU" ? "needs WebGPU" : "no graphics device"), `without ${name}: ${message.replace(/\s+/g, " ")}`);
   await own.shoot(`without-${name.split(" ").at(-1)}.png`);
-  await own.close();
 }
+check(own.problems.length === 0, `then nothing on the console ${own.problems.join("\n")}`);
+await own.close();
 process.exit(failed > 0 ? 1 : 0);

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let mut bindings = String::new();
         for own in kernel.bindings {
             let is_read = own.access == Access::Read;
-            write!(bindings, "[{},{},{is_read}],", own.binding, buffer(own.name)? as usize)?;
+            write!(bindings, "[{},{is_read}],", buffer(own.name)? as usize)?;
         }
         let [width, ..] = kernel.workgroup;
         writeln!(passes, "{{name:\"{}\",width:{width},bindings:[{bindings}]}},", kernel.name)?;

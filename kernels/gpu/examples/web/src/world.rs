@@ -2,8 +2,9 @@
 
 use std::f32::consts::{PI, TAU};
 
+use lightbvh::bvh::Swap;
 use lightbvh::exact::{hash, unit_f32};
-use lightbvh::{Edit, EmissiveTriangle, InstanceId, LightBvh, MeshId, Rebuilder, Transform};
+use lightbvh::{Edit, EmissiveTriangle, InstanceId, LightBvh, MeshId, Rebuilder, RebuilderParams, Transform};
 
 /// Lights of each instance.
 pub const LIGHTS: u16 = 100;
@@ -26,7 +27,11 @@ impl World {
         });
         Self {
             bvh,
-            rebuilder: Rebuilder::default(),
+            rebuilder: Rebuilder::new(RebuilderParams {
+                swap: Swap::Deterministic,
+                idle: 7.0,
+                ..RebuilderParams::default()
+            }),
             shapes,
             placed: Vec::new(),
         }
@@ -80,7 +85,7 @@ fn at(k: u32, time: f32) -> (Transform, [f32; 3]) {
         height + bob,
         4.4 * reach * (2.0 * angle).sin(),
     ];
-    let size = 0.14 + 0.16 * number(5) * number(5);
+    let size = 0.11 + 0.15 * number(5) * number(5);
     let spin = time * (0.4 + 1.6 * number(6)) + TAU * number(7);
     let pulse = 0.62 + 0.38 * (time * (0.8 + 1.8 * number(8)) + TAU * number(9)).sin();
     let power = 3.2 * pulse * pulse;
@@ -109,10 +114,10 @@ fn turned(spin: f32, lean: f32) -> [[f32; 3]; 3] {
 /// The stream's colour at a place of the knot: amber, rose, blue, and back.
 fn hue(phase: f32) -> [f32; 3] {
     const STOPS: [[f32; 3]; 4] = [
-        [1.0, 0.50, 0.14],
-        [1.0, 0.24, 0.30],
-        [0.34, 0.36, 1.0],
-        [0.16, 0.72, 0.86],
+        [1.0, 0.44, 0.09],
+        [1.0, 0.17, 0.25],
+        [0.30, 0.24, 1.0],
+        [0.07, 0.62, 0.80],
     ];
     let place = phase * STOPS.len() as f32;
     let (from, part) = (place as usize, place.fract());
