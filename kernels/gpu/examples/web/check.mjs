@@ -86,18 +86,36 @@ async function open(...flags) {
   return own;
 }
 
+// In the page. The words of a buffer.
+const read = `globalThis.read = async (from) => {
+  const { device } = await started;
+  const to = device.createBuffer({ size: from.size, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
+  const encoder = device.createCommandEncoder();
+  encoder.copyBufferToBuffer(from, 0, to, 0, from.size);
+  device.queue.submit([encoder.finish()]);
+  await to.mapAsync(GPUMapMode.READ);
+  return new Uint32Array(to.getMappedRange());
+}; 0`;
+
+// In the page. Mean colours of images, by either side alone.
+const images = `(async () => {
+  const { sums, setBudget, step } = await started;
+  setBudget(3000);
+  const means = [[], []];
+  for (let k = 0; k < 32; k += 1) {
+    Object.assign(chosen, { split: k % 2, instances: 20 });
+    isChanged = true;
+    step(0);
+    const colors = new Float32Array((await read(sums())).buffer).filter((_, k) => k % 4 < 3);
+    means[k % 2].push(colors.reduce((sum, own) => sum + own) / colors.length);
+  }
+  return means;
+})()`;
+
 // In the page. The device's u32s after frames; how often its samples are the CPU's, and their pmfs those that it says itself; the sum of
 // pmfs over all lights of a point.
 const compare = `(async () => {
   const { device, host, held, layouts, tree, group, named, step } = await started;
-  const read = async (from) => {
-    const to = device.createBuffer({ size: from.size, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
-    const encoder = device.createCommandEncoder();
-    encoder.copyBufferToBuffer(from, 0, to, 0, from.size);
-    device.queue.submit([encoder.finish()]);
-    await to.mapAsync(GPUMapMode.READ);
-    return new Uint32Array(to.getMappedRange());
-  };
   let [all, different] = [0, 0];
   for (let k = 0; k < 6; k += 1) {
     chosen.instances = [20, 20, 37, 37, 20, 20][k];
@@ -163,13 +181,25 @@ check(await own.visit(true), "the page starts");
 const times = `["edits", "refit", "image", "left", "right"].map((id) => byId(id).querySelector(".figure").textContent).join(", ")`;
 for (let k = 0; k < 200 && (await own.evaluate(times)).includes("–"); k += 1) await new Promise((done) => setTimeout(done, 100));
 const shown = await own.evaluate(times);
-check(/^([\d.]+ ms(, |$)){5}$/.test(shown), `times of edits, refit, image and its sides: ${shown}`);
+check(/^([\d.]+ m?s(, |$)){5}$/.test(shown), `times of edits, refit, image and its sides: ${shown}`);
 await own.evaluate("main.isFixed = true; started.then(({ device }) => device.queue.onSubmittedWorkDone())");
+await own.evaluate(read);
 const found = await own.evaluate(compare);
 check(found.different <= 0.01 * found.all, `u32s on the device: ${found.different} of ${found.all} differ from the CPU's`);
 check(found.others <= 41, `samples: ${found.others} of 4096 are other lights than the CPU's`);
 check(found.worst < 0.01, `a sample's probability is its pmf, to ${found.worst}`);
 check(found.sums.every((sum) => Math.abs(sum - 1) < 1e-3), `probabilities of all lights sum to ${found.sums}`);
+
+// Of 16 images each; six standard errors of their difference.
+const [tree, uniform] = (await own.evaluate(images)).map((means) => {
+  const mean = means.reduce((sum, own) => sum + own) / means.length;
+  const squares = means.reduce((sum, own) => sum + (own - mean) ** 2, 0);
+  return { mean, variance: squares / (means.length - 1) / means.length };
+});
+const apart = Math.abs(tree.mean - uniform.mean);
+const bound = 6 * Math.sqrt(tree.variance + uniform.variance);
+check(apart < bound && bound < 0.1 * uniform.mean, `both sides have a mean of ${uniform.mean}: apart by ${apart}, less than ${bound}`);
+await own.evaluate("Object.assign(chosen, { split: 0.5, instances: 1000 }); 0");
 
 // Keys, as a visitor presses them.
 const value = (id) => own.evaluate(`document.getElementById("${id}").value + " " + (document.getElementById("${id}").parentElement.querySelector("output")?.value ?? "")`);
