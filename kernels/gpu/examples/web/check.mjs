@@ -22,7 +22,7 @@ const check = (holds, what) => {
 async function open(...flags) {
   const profile = mkdtempSync(join(tmpdir(), "lightbvh-web-"));
   const all = ["--headless=new", "--no-sandbox", "--no-first-run", "--hide-scrollbars", "--remote-debugging-pipe", `--user-data-dir=${profile}`, "--host-resolver-rules=MAP * ~NOTFOUND", ...flags, "about:blank"];
-  const child = spawn(browser, all, { stdio: ["ignore", "ignore", process.env.BROWSER_LOG ? "inherit" : "ignore", "pipe", "pipe"] });
+  const child = spawn(browser, all, { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
   const [, , , to, from] = child.stdio;
   const waiting = new Map();
   const problems = [];
@@ -190,7 +190,9 @@ check(found.others <= 41, `samples: ${found.others} of 4096 are other lights tha
 check(found.worst < 0.01, `a sample's probability is its pmf, to ${found.worst}`);
 check(found.sums.every((sum) => Math.abs(sum - 1) < 1e-3), `probabilities of all lights sum to ${found.sums}`);
 
-// Of 16 images each; six standard errors of their difference.
+// Of 16 images each, the same in each run; six standard errors of their difference.
+await own.visit();
+await own.evaluate(read);
 const [tree, uniform] = (await own.evaluate(images)).map((means) => {
   const mean = means.reduce((sum, own) => sum + own) / means.length;
   const squares = means.reduce((sum, own) => sum + (own - mean) ** 2, 0);
@@ -199,7 +201,6 @@ const [tree, uniform] = (await own.evaluate(images)).map((means) => {
 const apart = Math.abs(tree.mean - uniform.mean);
 const bound = 6 * Math.sqrt(tree.variance + uniform.variance);
 check(apart < bound && bound < 0.1 * uniform.mean, `both sides have a mean of ${uniform.mean}: apart by ${apart}, less than ${bound}`);
-await own.evaluate("Object.assign(chosen, { split: 0.5, instances: 1000 }); 0");
 
 // Keys, as a visitor presses them.
 const value = (id) => own.evaluate(`document.getElementById("${id}").value + " " + (document.getElementById("${id}").parentElement.querySelector("output")?.value ?? "")`);
@@ -218,7 +219,8 @@ await own.send("Input.dispatchKeyEvent", { type: "keyDown", key: " ", code: "Spa
 await own.send("Input.dispatchKeyEvent", { type: "keyUp", key: " ", code: "Space", windowsVirtualKeyCode: 32 });
 check(await own.evaluate("chosen.isPaused && byId('pause').textContent === 'Play'"), "Space on the button pauses");
 
-// The divider, by mouse.
+// The divider, by finger and mouse.
+await own.send("Emulation.setTouchEmulationEnabled", { enabled: true });
 const { x, y, width: wide } = await own.evaluate("(({ x, y, width }) => ({ x, y, width }))(byId('split').getBoundingClientRect())");
 const drag = async (kind, event, ...types) => {
   for (const [k, type] of types.entries()) {
@@ -227,6 +229,9 @@ const drag = async (kind, event, ...types) => {
   }
   return value("split");
 };
+const touched = await drag("Touch", (at, type) => ({ touchPoints: type === "touchEnd" ? [] : [at] }), "touchStart", "touchMove", "touchEnd");
+check(touched === "70 ", `the divider follows a finger to ${touched}`);
+await own.evaluate("byId('split').value = 50");
 const dragged = await drag("Mouse", (at) => ({ ...at, button: "left", clickCount: 1 }), "mousePressed", "mouseMoved", "mouseReleased");
 check(dragged === "70 ", `the divider follows the mouse to ${dragged}`);
 

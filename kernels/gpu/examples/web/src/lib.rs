@@ -78,7 +78,9 @@ pub extern "C" fn follow() -> *const u32 {
         for step in frame.steps() {
             let mut record = [0; RECORD];
             match step {
-                Step::Resize { buffer, bytes } => record[1..3].copy_from_slice(&[buffer as u32, bytes as u32]),
+                Step::Resize { buffer, bytes } => {
+                    record[1..3].copy_from_slice(&[buffer as u32, bytes as u32])
+                }
                 Step::Upload { buffer, at, bytes } => {
                     let length = bytes.len() as u32;
                     record[..5].copy_from_slice(&[1, buffer as u32, at as u32, address, length]);

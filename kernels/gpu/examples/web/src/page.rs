@@ -14,7 +14,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (mut scripts, mut passes) = (String::new(), String::new());
     let mut script = |name: &str, text: &str| {
         assert!(!text.contains("</script"), "{name} would end its element");
-        write!(scripts, "<script type=\"text/wgsl\" id=\"{name}\">\n{text}</script>\n")
+        write!(
+            scripts,
+            "<script type=\"text/wgsl\" id=\"{name}\">\n{text}</script>\n"
+        )
     };
     script("lightbvh", functions::WGSL)?;
     for pass in Pass::ALL {
@@ -29,7 +32,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             write!(bindings, "[{},{is_read}],", buffer(own.name)? as usize)?;
         }
         let [width, ..] = kernel.workgroup;
-        writeln!(passes, "{{name:\"{}\",width:{width},bindings:[{bindings}]}},", kernel.name)?;
+        writeln!(
+            passes,
+            "{{name:\"{}\",width:{width},bindings:[{bindings}]}},",
+            kernel.name
+        )?;
     }
     let names = DeviceBuffer::ALL.map(DeviceBuffer::name);
     let mut text = std::fs::read_to_string(page)?;
@@ -51,7 +58,9 @@ fn base64(bytes: &[u8]) -> String {
     const DIGITS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut out = String::new();
     for three in bytes.chunks(3) {
-        let bits = (0..3).fold(0, |bits, k| bits << 8 | three.get(k).map_or(0, |&own| u32::from(own)));
+        let bits = (0..3).fold(0, |bits, k| {
+            bits << 8 | three.get(k).map_or(0, |&own| u32::from(own))
+        });
         for k in 0..4 {
             let digit = DIGITS[(bits >> (18 - 6 * k) & 63) as usize];
             out.push(if k > three.len() { '=' } else { digit.into() });

@@ -1,5 +1,8 @@
 //! A stream of small shapes of light along a knot: each flies, spins and pulses.
 
+// Only the CPU moves the world, so any function does.
+#![allow(clippy::disallowed_methods)]
+
 use std::f32::consts::{PI, TAU};
 
 use lightbvh::bvh::Swap;
@@ -130,7 +133,11 @@ fn hue(phase: f32) -> [f32; 3] {
 
 /// A light around `middle`, `size` wide, that shines to `front`.
 fn tile(middle: [f32; 3], front: [f32; 3], size: f32, turn: f32) -> EmissiveTriangle {
-    let helper = if front[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
+    let helper = if front[1].abs() < 0.9 {
+        [0.0, 1.0, 0.0]
+    } else {
+        [1.0, 0.0, 0.0]
+    };
     let across = unit(cross(helper, front));
     let along = cross(front, across);
     let corner = |k: u8| {
@@ -164,7 +171,7 @@ fn ring(part: f32, k: u16) -> EmissiveTriangle {
 
 /// Two strands of tiles that wind about each other.
 fn ribbon(part: f32, k: u16) -> EmissiveTriangle {
-    let side = if k % 2 == 0 { 0.0 } else { PI };
+    let side = if k.is_multiple_of(2) { 0.0 } else { PI };
     let (s, c) = (2.0 * TAU * part + side).sin_cos();
     tile([0.5 * c, 3.0 * part - 1.5, 0.5 * s], [c, 0.0, s], 0.17, 0.0)
 }
