@@ -100,10 +100,10 @@ const read = `globalThis.read = async (from) => {
 // In the page. Mean colours of images, by either side alone.
 const images = `(async () => {
   const { sums, setBudget, step } = await started;
-  setBudget(3000);
+  setBudget(2000);
   const means = [[], []];
   for (let k = 0; k < 32; k += 1) {
-    Object.assign(chosen, { split: k % 2, instances: 20 });
+    Object.assign(chosen, { split: k % 2, candidates: 32 });
     isChanged = true;
     step(0);
     const colors = new Float32Array((await read(sums())).buffer).filter((_, k) => k % 4 < 3);
@@ -244,7 +244,7 @@ for (const [scheme, width, height] of [["light", 1280, 900], ["dark", 1280, 900]
   check(await own.evaluate("document.documentElement.scrollWidth <= innerWidth"), `${scheme}, ${width}: nothing is wider than the page`);
   await own.evaluate(`(async () => {
     const { device, step, setBudget } = await started;
-    setBudget(${width} * 100);
+    setBudget(${width} * 70);
     step(0);
     await device.queue.onSubmittedWorkDone();
     await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));

@@ -1,4 +1,4 @@
-//! A stream of small shapes of light along a knot: each flies, spins and pulses.
+//! A stream of small shapes of light along a knot: each flies, spins and pulses; globes breathe.
 
 // Only the CPU moves the world, so any function does.
 #![allow(clippy::disallowed_methods)]
@@ -24,10 +24,9 @@ impl World {
     /// Shapes, none in the world yet.
     pub fn new() -> Self {
         let mut bvh = LightBvh::default();
-        let shapes = [globe, ring, ribbon].map(|shape| {
-            let lights = (0..LIGHTS).map(|k| shape(f32::from(k) / f32::from(LIGHTS), k));
-            bvh.add_mesh(lights.collect()).expect("in the domain")
-        });
+        let globe = shape(|part, k| globe(part, k, 1.0));
+        let shapes = [globe, shape(ring), shape(ribbon)];
+        let shapes = shapes.map(|lights| bvh.add_mesh(lights).expect("in the domain"));
         Self {
             bvh,
             rebuilder: Rebuilder::new(RebuilderParams {
@@ -43,7 +42,10 @@ impl World {
     /// Does the edits of the frame at `time`, s, with `count` instances, and refits.
     pub fn advance(&mut self, count: usize, time: f32) {
         self.rebuilder.begin_frame(&mut self.bvh).expect("its own");
-        let mut edits = Vec::new();
+        let mut edits = vec![Edit::SetLights {
+            mesh: self.shapes[0],
+            lights: shape(|part, k| globe(part, k, 1.0 + 0.2 * (1.3 * time).sin())),
+        }];
         for (k, &instance) in (0..).zip(self.placed.iter().take(count)) {
             let (transform, radiance) = at(k, time);
             edits.push(Edit::SetTransform { instance, transform });
@@ -152,13 +154,19 @@ fn tile(middle: [f32; 3], front: [f32; 3], size: f32, turn: f32) -> EmissiveTria
     }
 }
 
+/// The lights of a shape.
+fn shape(light: impl Fn(f32, u16) -> EmissiveTriangle) -> Vec<EmissiveTriangle> {
+    let lights = (0..LIGHTS).map(|k| light(f32::from(k) / f32::from(LIGHTS), k));
+    lights.collect()
+}
+
 /// Tiles spread over a sphere.
-fn globe(part: f32, k: u16) -> EmissiveTriangle {
+fn globe(part: f32, k: u16, radius: f32) -> EmissiveTriangle {
     let y = 1.0 - 2.0 * part - 1.0 / f32::from(LIGHTS);
     let (s, c) = (PI * (3.0 - 5.0_f32.sqrt()) * f32::from(k)).sin_cos();
     let r = (1.0 - y * y).max(0.0).sqrt();
     let front = [c * r, y, s * r];
-    tile(front, front, 0.17, f32::from(k))
+    tile(front.map(|x| radius * x), front, 0.17, f32::from(k))
 }
 
 /// Tiles of a ring of four rows, to all sides.
