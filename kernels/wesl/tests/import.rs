@@ -6,7 +6,13 @@ use wesl::Wesl;
 fn functions_are_imported_with_what_they_use() {
     let mut wesl = Wesl::new("tests/shaders");
     wesl.add_package(&lightbvh_wesl::lightbvh::PACKAGE);
-    let compiled = wesl.compile(&"package::main".parse().unwrap()).unwrap().to_string();
-    assert!(compiled.contains("fn main") && compiled.contains("light_point"), "{compiled}");
+    let compiled = wesl
+        .compile(&"package::main".parse().unwrap())
+        .unwrap()
+        .to_string();
+    assert!(
+        compiled.contains("fn main") && compiled.contains("light_point"),
+        "{compiled}"
+    );
     assert!(!compiled.contains("lightbvh_pmf"), "nothing that is not used");
 }
