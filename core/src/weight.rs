@@ -36,8 +36,7 @@ pub(crate) struct Frame {
 }
 
 /// The scale is the exponent of the greater of distance (of the frame's origin) and 2^`least`, which is the unit, or the size of a cell if
-/// that is more. So squares of what follows neither
-/// overflow nor underflow, and a scene scaled by a power of two gives the same bits.
+/// that is more. Squares of what follows then neither overflow nor underflow, and a scene scaled by a power of two gives the same bits.
 #[inline(always)]
 pub(crate) fn frame(origin: Vec3, unit_exponent: i32, least: i32, p: Vec3) -> Frame {
     let x = origin - p;

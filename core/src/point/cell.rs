@@ -35,13 +35,12 @@ impl Cell {
         let center = low * 0.5 + high * 0.5;
         Self {
             center: center.to_array(),
-            // Each corner is within, whichever way the middle was rounded.
-            half: max3(abs3(high - center), abs3(center - low)).to_array(),
+            half: (abs3(high - low) * 0.5).to_array(),
             n: [0.0; 3],
         }
     }
 
-    /// The box around these points, and the mean of their normals; `None` of no points.
+    /// The box around these points, which are [checked](ShadingPoint::checked), and the mean of their normals; `None` of no points.
     #[must_use]
     pub fn around(points: &[ShadingPoint]) -> Option<Self> {
         let first = points.first()?.position();

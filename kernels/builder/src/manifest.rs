@@ -226,6 +226,14 @@ pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -
         .map(|(record, (_, words))| Ok((record, record.interface(words)?)))
         .collect();
     let tables = tables(&interfaces?);
+    let built = manifest.modules.iter().zip(modules);
+    let find = |kernel: &str| {
+        let mut built = built.clone();
+        let own = built.find(|(record, _)| record.file.strip_suffix(".spv") == Some(kernel));
+        let own = own.map(|(record, (_, words))| (words.clone(), record.buffers.clone()));
+        own.ok_or_else(|| Error(format!("no kernel is named {kernel}")))
+    };
+    let functions = functions(find)?;
     for (directory, ..) in FOLDERS {
         let directory = root.join(directory);
         std::fs::create_dir_all(&directory).map_err(cannot("create", &directory))?;
@@ -242,14 +250,7 @@ pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -
     for (file, text) in tables {
         files::write(&root.join(file), text.as_bytes())?;
     }
-    let built = manifest.modules.iter().zip(modules);
-    let find = |kernel: &str| {
-        let mut built = built.clone();
-        let own = built.find(|(record, _)| record.file.strip_suffix(".spv") == Some(kernel));
-        let own = own.map(|(record, (_, words))| (words.clone(), record.buffers.clone()));
-        own.ok_or_else(|| Error(format!("no kernel is named {kernel}")))
-    };
-    for (file, text) in functions(find)? {
+    for (file, text) in functions {
         files::write(&root.join(file), text.as_bytes())?;
     }
     let path = root.join(DIRECTORY).join(FILE);

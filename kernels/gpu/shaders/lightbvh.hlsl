@@ -602,11 +602,8 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
                 v25_ = 0u;
                 v26_ = ConstructLightbvhType23_(0u, 0u);
                 v27_ = (_e428 ? _e410 : _e426);
-                uint2 loop_bound = uint2(4294967295u, 4294967295u);
                 bool loop_init = true;
                 while(true) {
-                    if (all(loop_bound == uint2(0u, 0u))) { break; }
-                    loop_bound -= uint2(loop_bound.y == 0u, 1u);
                     if (!loop_init) {
                         v25_ = v32_;
                         v26_ = v33_;
@@ -694,11 +691,8 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
         v44_ = _e489;
         v45_ = ConstructLightbvhType27_(_e495, _e493, ConstructLightbvhType26_(_e551.member, _e551.member_1, _e551.member_2, _e551.member_3, _e551.member_4, _e551.member_5, _e551.member_6, _e551.member_7, _e551.member_8, _e551.member_9, _e505, _e551.member_11, _e551.member_12, _e551.member_13));
         v46_ = _e498;
-        uint2 loop_bound_1 = uint2(4294967295u, 4294967295u);
         bool loop_init_1 = true;
         while(true) {
-            if (all(loop_bound_1 == uint2(0u, 0u))) { break; }
-            loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
             if (!loop_init_1) {
                 v44_ = v69_;
                 v45_ = v70_;
@@ -758,11 +752,8 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
                 float _e696 = (asfloat((asuint(_e571.member_2.member_2.member_1[2]) & 2147483647u)) * _e693);
                 v0_ = Constructarray8_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
                 v47_ = ConstructLightbvhType23_(0u, 8u);
-                uint2 loop_bound_2 = uint2(4294967295u, 4294967295u);
                 bool loop_init_2 = true;
                 while(true) {
-                    if (all(loop_bound_2 == uint2(0u, 0u))) { break; }
-                    loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
                     if (!loop_init_2) {
                         v47_ = v50_;
                         v52_ = _e569;
@@ -1555,11 +1546,8 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
             v15_1 = 0u;
             v16_1 = ConstructLightbvhType23_(0u, 0u);
             v17_1 = (_e243 ? _e225 : _e241);
-            uint2 loop_bound_3 = uint2(4294967295u, 4294967295u);
             bool loop_init_3 = true;
             while(true) {
-                if (all(loop_bound_3 == uint2(0u, 0u))) { break; }
-                loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
                 if (!loop_init_3) {
                     v15_1 = v22_1;
                     v16_1 = v23_1;
@@ -1638,11 +1626,8 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
         v30_1 = _e300;
         v31_1 = ConstructLightbvhType26_(_e346.member, _e346.member_1, _e346.member_2, _e346.member_3, _e346.member_4, _e346.member_5, _e346.member_6, _e346.member_7, _e346.member_8, _e346.member_9, _e310, _e346.member_11, _e346.member_12, _e346.member_13);
         v32_1 = _e304;
-        uint2 loop_bound_4 = uint2(4294967295u, 4294967295u);
         bool loop_init_4 = true;
         while(true) {
-            if (all(loop_bound_4 == uint2(0u, 0u))) { break; }
-            loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
             if (!loop_init_4) {
                 v30_1 = v55_1;
                 v31_1 = v56_1;
@@ -1700,11 +1685,8 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
                 float _e483 = (asfloat((asuint(_e365.member_2.member_1[2]) & 2147483647u)) * _e480);
                 v0_1 = Constructarray8_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
                 v33_1 = ConstructLightbvhType23_(0u, 8u);
-                uint2 loop_bound_5 = uint2(4294967295u, 4294967295u);
                 bool loop_init_5 = true;
                 while(true) {
-                    if (all(loop_bound_5 == uint2(0u, 0u))) { break; }
-                    loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
                     if (!loop_init_5) {
                         v33_1 = v36_1;
                         v38_1 = _e363;
@@ -2634,11 +2616,8 @@ LightbvhLightSample lightbvh_sample_cell(float3 center_, float3 half_, float3 n_
                 v25_2 = 0u;
                 v26_2 = ConstructLightbvhType23_(0u, 0u);
                 v27_2 = (_e435 ? _e417 : _e433);
-                uint2 loop_bound_6 = uint2(4294967295u, 4294967295u);
                 bool loop_init_6 = true;
                 while(true) {
-                    if (all(loop_bound_6 == uint2(0u, 0u))) { break; }
-                    loop_bound_6 -= uint2(loop_bound_6.y == 0u, 1u);
                     if (!loop_init_6) {
                         v25_2 = v32_2;
                         v26_2 = v33_2;
@@ -2726,11 +2705,8 @@ LightbvhLightSample lightbvh_sample_cell(float3 center_, float3 half_, float3 n_
         v44_2 = _e496;
         v45_2 = ConstructLightbvhType32_(_e502, _e500, ConstructLightbvhType31_(_e558.member, _e558.member_1, _e558.member_2, _e558.member_3, _e558.member_4, _e558.member_5, _e558.member_6, _e558.member_7, _e558.member_8, _e512, _e558.member_10, _e558.member_11, _e558.member_12, _e558.member_13));
         v46_2 = _e505;
-        uint2 loop_bound_7 = uint2(4294967295u, 4294967295u);
         bool loop_init_7 = true;
         while(true) {
-            if (all(loop_bound_7 == uint2(0u, 0u))) { break; }
-            loop_bound_7 -= uint2(loop_bound_7.y == 0u, 1u);
             if (!loop_init_7) {
                 v44_2 = v69_2;
                 v45_2 = v70_2;
@@ -2809,11 +2785,8 @@ LightbvhLightSample lightbvh_sample_cell(float3 center_, float3 half_, float3 n_
                 float _e774 = (_e754 * _e771);
                 v0_2 = Constructarray8_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
                 v47_2 = ConstructLightbvhType23_(0u, 8u);
-                uint2 loop_bound_8 = uint2(4294967295u, 4294967295u);
                 bool loop_init_8 = true;
                 while(true) {
-                    if (all(loop_bound_8 == uint2(0u, 0u))) { break; }
-                    loop_bound_8 -= uint2(loop_bound_8.y == 0u, 1u);
                     if (!loop_init_8) {
                         v47_2 = v50_2;
                         v52_2 = _e576;
@@ -3642,11 +3615,8 @@ float lightbvh_pmf_cell(float3 center_1, float3 half_1, float3 n_3, uint light_1
             v15_3 = 0u;
             v16_3 = ConstructLightbvhType23_(0u, 0u);
             v17_3 = (_e250 ? _e232 : _e248);
-            uint2 loop_bound_9 = uint2(4294967295u, 4294967295u);
             bool loop_init_9 = true;
             while(true) {
-                if (all(loop_bound_9 == uint2(0u, 0u))) { break; }
-                loop_bound_9 -= uint2(loop_bound_9.y == 0u, 1u);
                 if (!loop_init_9) {
                     v15_3 = v22_3;
                     v16_3 = v23_3;
@@ -3725,11 +3695,8 @@ float lightbvh_pmf_cell(float3 center_1, float3 half_1, float3 n_3, uint light_1
         v30_3 = _e307;
         v31_3 = ConstructLightbvhType31_(_e353.member, _e353.member_1, _e353.member_2, _e353.member_3, _e353.member_4, _e353.member_5, _e353.member_6, _e353.member_7, _e353.member_8, _e317, _e353.member_10, _e353.member_11, _e353.member_12, _e353.member_13);
         v32_3 = _e311;
-        uint2 loop_bound_10 = uint2(4294967295u, 4294967295u);
         bool loop_init_10 = true;
         while(true) {
-            if (all(loop_bound_10 == uint2(0u, 0u))) { break; }
-            loop_bound_10 -= uint2(loop_bound_10.y == 0u, 1u);
             if (!loop_init_10) {
                 v30_3 = v55_3;
                 v31_3 = v56_3;
@@ -3806,11 +3773,8 @@ float lightbvh_pmf_cell(float3 center_1, float3 half_1, float3 n_3, uint light_1
                 float _e558 = (_e538 * _e555);
                 v0_3 = Constructarray8_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
                 v33_3 = ConstructLightbvhType23_(0u, 8u);
-                uint2 loop_bound_11 = uint2(4294967295u, 4294967295u);
                 bool loop_init_11 = true;
                 while(true) {
-                    if (all(loop_bound_11 == uint2(0u, 0u))) { break; }
-                    loop_bound_11 -= uint2(loop_bound_11.y == 0u, 1u);
                     if (!loop_init_11) {
                         v33_3 = v36_3;
                         v38_3 = _e370;

@@ -1,4 +1,4 @@
-//! Functions for shaders in other languages (`docs/shaders.md`): `lightbvh_sample`, `lightbvh_pmf` and `lightbvh_light_point` over the
+//! Functions for shaders in other languages (`docs/shaders.md`): `lightbvh_sample` and `lightbvh_pmf`, for points and for cells, and `lightbvh_light_point`, over the
 //! buffers of a [`Mirror`](crate::Mirror) of a `LightBvh`, and its [words](lightbvh::TreeWords).
 
 /// In WGSL: text to put before a shader of one's own.

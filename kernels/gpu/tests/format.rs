@@ -171,7 +171,7 @@ fn buffers_have_their_strides_readers_and_writers() {
         assert!(rows.iter().any(|row| code(row[0]) == buffer.name()), "{buffer:?}");
     }
     for kernel in KERNELS {
-        let (name, layout) = ["_eq4", "_any", "_linked"]
+        let (name, layout) = ["_eq4", "_any", "_linked", "_cell"]
             .into_iter()
             .find_map(|suffix| Some((kernel.name.strip_suffix(suffix)?, suffix)))
             .unwrap_or((kernel.name, ""));

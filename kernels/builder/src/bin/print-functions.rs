@@ -3,6 +3,7 @@
 
 use lightbvh_kernels_builder::shader::{Language, Library, Naming, SETS, kernel};
 use lightbvh_kernels_builder::{Error, manifest};
+use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
 const USAGE: &str = "\
@@ -31,10 +32,14 @@ fn main() -> ExitCode {
         return ExitCode::SUCCESS;
     }
     match print(&arguments) {
-        Ok(text) => {
-            print!("{text}");
-            ExitCode::SUCCESS
-        }
+        // A reader that has seen enough, `head`, is no error.
+        Ok(text) => match std::io::stdout().write_all(text.as_bytes()) {
+            Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+                eprintln!("print-functions: cannot write: {error}");
+                ExitCode::FAILURE
+            }
+            _ => ExitCode::SUCCESS,
+        },
         Err(message) => {
             eprintln!("print-functions: {message}");
             ExitCode::FAILURE
@@ -47,9 +52,10 @@ fn print(arguments: &[String]) -> Result<String, Error> {
     let here = std::env::current_dir().map_err(|error| Error(format!("no current directory: {error}")))?;
     let root = manifest::root_above(&here)?;
     let committed = manifest::read(&root)?;
-    if let [word, name] = arguments
-        && word == "kernel"
-    {
+    if arguments[0] == "kernel" {
+        let [_, name] = arguments else {
+            return Err(Error(format!("`kernel` wants one name\n\n{USAGE}")));
+        };
         let (words, buffers) = manifest::module(&root, &committed, &format!("{name}.spv"))?;
         return kernel(&words, &buffers);
     }
@@ -65,13 +71,14 @@ fn print(arguments: &[String]) -> Result<String, Error> {
         match &**option {
             "--set" => set = value,
             "--prefix" if is_prefix(value) => naming.prefix.clone_from(value),
-            "--group" => naming.group = value.parse().map_err(|_| unknown("group", value))?,
+            "--group" => naming.group = value.parse().map_err(|_| unknown("group, 0 to 255,", value))?,
             "--bindings" => {
                 let numbers: Result<Vec<u8>, _> = value.split(',').map(str::parse).collect();
                 let numbers = numbers.ok().and_then(|own| <[u8; 5]>::try_from(own).ok());
-                naming.bindings = numbers
-                    .ok_or_else(|| unknown("five bindings", value))?
-                    .map(u32::from);
+                let is_once = |own: &[u8; 5]| (1..5).all(|k| !own[..k].contains(&own[k]));
+                let numbers = numbers.filter(is_once);
+                naming.bindings =
+                    numbers.ok_or_else(|| unknown("list of five different bindings, 0 to 255,", value))?;
             }
             "--prefix" => return Err(unknown("prefix", value)),
             _ => return Err(unknown("option", option)),
@@ -90,4 +97,8 @@ fn is_prefix(value: &str) -> bool {
     letters.next().is_some_and(|first| first.is_ascii_lowercase())
         && letters.all(|letter| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_')
         && !value.contains("__")
+        && !value.ends_with('_')
+        // GLSL keeps these for itself.
+        && value != "gl"
+        && !value.starts_with("gl_")
 }

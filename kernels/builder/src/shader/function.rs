@@ -21,6 +21,10 @@ pub(super) enum Role {
     Own(Handle<LocalVariable>),
     /// A buffer of the library.
     Shared(Handle<GlobalVariable>),
+    /// A constant of this value, which is read by address.
+    Constant(Handle<Expression>),
+    /// That, in a local variable.
+    Local(Handle<LocalVariable>),
 }
 
 /// What is known of an expression without computing it.
@@ -29,11 +33,11 @@ enum Known {
     /// Something within a global variable of this role, so many members deep.
     Within(Role, usize),
     Word(u32),
-    Truth(bool),
+    Bool(bool),
 }
 
 /// A function in the making, out of one of `types.from`.
-pub(super) struct Copy<'a, 'b> {
+pub(super) struct Translation<'a, 'b> {
     pub to: &'b mut Module,
     pub types: &'b mut Types<'a>,
     pub roles: HashMap<Handle<GlobalVariable>, Role>,
@@ -50,7 +54,7 @@ pub(super) struct Copy<'a, 'b> {
     result: Option<(Handle<LocalVariable>, Handle<Type>, Handle<Type>)>,
 }
 
-impl<'a, 'b> Copy<'a, 'b> {
+impl<'a, 'b> Translation<'a, 'b> {
     pub fn new(
         to: &'b mut Module,
         types: &'b mut Types<'a>,
@@ -146,7 +150,8 @@ impl<'a, 'b> Copy<'a, 'b> {
         }
         let value = self.compose(ty, &mut values.into_iter())?;
         let pointer = self.append(Expression::LocalVariable(local));
-        self.emit_since(before);
+        let computed = self.emitted_since(before);
+        computed.into_iter().for_each(|statement| self.push(statement));
         self.push(Statement::Store { pointer, value });
         Ok(())
     }
@@ -230,6 +235,23 @@ impl<'a, 'b> Copy<'a, 'b> {
             let new = self.local(&format!("v{}", old.index()), ty);
             self.locals.insert(old, new);
         }
+        let mut constants: Vec<_> = (self.roles.iter())
+            .filter_map(|(&global, &role)| match role {
+                Role::Constant(init) => Some((global, init)),
+                _ => None,
+            })
+            .collect();
+        // In one order each time.
+        constants.sort_by_key(|(global, _)| global.index());
+        for (global, init) in constants {
+            let (init, ty) = constant_value(self.to, self.types, init)?;
+            let own = naga::Constant { name: None, ty, init };
+            let own = self.to.constants.append(own, Span::UNDEFINED);
+            let init = self.append(Expression::Constant(own));
+            let local = self.local("constant", ty);
+            self.out.local_variables[local].init = Some(init);
+            self.roles.insert(global, Role::Local(local));
+        }
         for (old, expression) in self.own.expressions.iter() {
             // Each function lists all globals; a use of one that is not there is an error.
             if matches!(expression, Expression::GlobalVariable(own) if !self.roles.contains_key(own)) {
@@ -264,7 +286,9 @@ impl<'a, 'b> Copy<'a, 'b> {
     /// The variable that a known place is, if it is one.
     fn place(&self, known: Known) -> Option<Expression> {
         match known {
-            Known::Within(Role::Own(local), 2) => Some(Expression::LocalVariable(local)),
+            Known::Within(Role::Own(local), 2) | Known::Within(Role::Local(local), 0) => {
+                Some(Expression::LocalVariable(local))
+            }
             Known::Within(Role::Shared(global), 0) | Known::Within(Role::Push(Some(global)), 2) => {
                 Some(Expression::GlobalVariable(global))
             }
@@ -280,16 +304,10 @@ impl<'a, 'b> Copy<'a, 'b> {
         self.out.body.push(statement, Span::UNDEFINED);
     }
 
-    fn emit_since(&mut self, before: usize) {
-        let new: Vec<_> = self
-            .out
-            .expressions
-            .iter()
-            .skip(before)
-            .map(|(new, _)| new)
-            .collect();
-        let emitted = self.emitted(new);
-        emitted.into_iter().for_each(|statement| self.push(statement));
+    /// Statements that compute all expressions from the place `before` on.
+    fn emitted_since(&self, before: usize) -> Vec<Statement> {
+        let new = self.out.expressions.iter().skip(before).map(|(new, _)| new);
+        self.emitted(new.collect())
     }
 
     /// Statements that compute expressions, given in their order.
@@ -316,7 +334,7 @@ impl<'a, 'b> Copy<'a, 'b> {
         }
         let literal = match self.known.get(&old) {
             Some(&Known::Word(word)) => Literal::U32(word),
-            Some(&Known::Truth(truth)) => Literal::Bool(truth),
+            Some(&Known::Bool(truth)) => Literal::Bool(truth),
             _ => {
                 return Err(Error(format!(
                     "an expression of the invocation is left: {:?}",
@@ -344,8 +362,10 @@ impl<'a, 'b> Copy<'a, 'b> {
                 }
                 _ => None,
             },
-            Expression::Access { base, .. } => match known(base)? {
-                Known::Within(role @ Role::Own(_), 1) => Some(Known::Within(role, 2)),
+            Expression::Access { base, index } => match known(base)? {
+                Known::Within(role @ Role::Own(_), 1) if self.word(*index) == Some(0) => {
+                    Some(Known::Within(role, 2))
+                }
                 _ => None,
             },
             Expression::ArrayLength(array) => match known(array)? {
@@ -359,7 +379,7 @@ impl<'a, 'b> Copy<'a, 'b> {
             Expression::Binary { op, left, right } => match (op, known(left)?, self.word(*right)?) {
                 (BinaryOperator::Add, Known::Word(a), b) => Some(Known::Word(a.wrapping_add(b))),
                 (BinaryOperator::Multiply, Known::Word(a), b) => Some(Known::Word(a.wrapping_mul(b))),
-                (BinaryOperator::Less, Known::Word(a), b) => Some(Known::Truth(a < b)),
+                (BinaryOperator::Less, Known::Word(a), b) => Some(Known::Bool(a < b)),
                 _ => None,
             },
             _ => None,
@@ -465,8 +485,8 @@ impl<'a, 'b> Copy<'a, 'b> {
                 accept,
                 reject,
             } => match self.known.get(condition) {
-                Some(Known::Truth(true)) => return self.block(accept),
-                Some(Known::Truth(false)) => return self.block(reject),
+                Some(Known::Bool(true)) => return self.block(accept),
+                Some(Known::Bool(false)) => return self.block(reject),
                 // A check of an index that is checked already.
                 _ if self.holds.contains(condition) => return self.block(accept),
                 _ => {
@@ -546,14 +566,7 @@ impl<'a, 'b> Copy<'a, 'b> {
         } else {
             value = self.vector(ty, value);
         }
-        let new = self
-            .out
-            .expressions
-            .iter()
-            .skip(before)
-            .map(|(new, _)| new)
-            .collect();
-        let mut statements = self.emitted(new);
+        let mut statements = self.emitted_since(before);
         statements.push(Statement::Return { value: Some(value) });
         Ok(Block::from_vec(statements))
     }

@@ -8,15 +8,15 @@ mod print;
 mod types;
 
 use naga::{
-    AddressSpace, Block, Expression, Function, GlobalVariable, Handle, Module, ResourceBinding, Span,
-    Statement, StorageAccess, Type, TypeInner,
+    AddressSpace, Block, Function, GlobalVariable, Handle, Module, ResourceBinding, Span, Statement,
+    StorageAccess, Type, TypeInner,
 };
 use std::collections::HashMap;
 
 pub use print::Language;
 
 use crate::Error;
-use function::{Copy, Role, constant_value};
+use function::{Role, Translation};
 use types::{Names, Types};
 
 /// A function: its kernel, its name, what a query's words after the receiver are, and its answer.
@@ -24,7 +24,7 @@ use types::{Names, Types};
 struct Signature {
     kernel: &'static str,
     name: &'static str,
-    /// As of [`Copy::arguments`].
+    /// As of [`Translation::arguments`].
     words: &'static [&'static str],
     answer: Names,
 }
@@ -100,11 +100,12 @@ const LINKED: &[&str] = &["p.xyz", "n.xyz", "mask"];
 const SAMPLES: [&str; 3] = ["light", "instance", "_"];
 const NUMBERS: [&str; 1] = ["numbers.xy"];
 
-/// The library's buffers in the order of their bindings, and the names of their elements; the tree's words last.
-const BUFFERS: [(&str, Names); 5] = [
-    ("nodes", ("Node", &[])),
+/// The library's buffers in the order of their bindings, and the names of the structs around them and of their elements; the tree's words last.
+const BUFFERS: [(&str, &str, Names); 5] = [
+    ("nodes", "Nodes", ("Node", &[])),
     (
         "instances",
+        "Instances",
         (
             "Instance",
             &[
@@ -125,10 +126,11 @@ const BUFFERS: [(&str, Names); 5] = [
             ],
         ),
     ),
-    ("trails", ("Trails", &[])),
-    ("lights", ("Light", &["p", "radiance", "mesh", "flags"])),
+    ("trails", "Trails", ("Trails", &[])),
+    ("lights", "Lights", ("Light", &["p", "radiance", "mesh", "flags"])),
     (
         "tree",
+        "",
         (
             "Tree",
             &[
@@ -155,9 +157,9 @@ pub struct Naming {
     /// What all names of the library begin with: lower-case words joined by `_`; in types each word has a capital.
     pub prefix: String,
     /// Bind group (descriptor set, register space) of its buffers.
-    pub group: u32,
-    /// Bindings of nodes, instances, trails, lights, and the tree's words.
-    pub bindings: [u32; 5],
+    pub group: u8,
+    /// Bindings of nodes, instances, trails, lights, and the tree's words: five numbers.
+    pub bindings: [u8; 5],
 }
 
 impl Default for Naming {
@@ -206,7 +208,7 @@ impl Library {
     /// # Errors
     /// When the language cannot express it.
     pub fn print(&self, language: Language) -> Result<String, Error> {
-        language.print(&self.module, &self.naming)
+        language.print(&self.module)
     }
 
     fn add(
@@ -217,22 +219,23 @@ impl Library {
         buffers: &[String],
     ) -> Result<(), Error> {
         let from = parsed(words)?;
-        let root = called_by(&from.entry_points[0].function.body);
-        let root = root.ok_or_else(|| Error("the entry point calls nothing".to_owned()))?;
+        let entry = from.entry_points.first();
+        let root = entry.and_then(|entry| called_by(&entry.function.body));
+        let root = root.ok_or_else(|| Error("no entry point that calls a function".to_owned()))?;
         let mut types = Types::new(&from);
         let mut called = HashMap::new();
         let shared = self.shared(&mut types, buffers)?;
         for (old, function) in from.functions.iter().filter(|(old, _)| *old != root) {
-            let mut copy = Copy::new(&mut self.module, &mut types, function, &called);
+            let mut copy = Translation::new(&mut self.module, &mut types, function, &called);
             copy.roles.clone_from(&shared);
             let mut function = copy.copy()?;
             function.name = Some(format!("{}_{}_{}", self.naming.prefix, own.name, old.index()));
             called.insert(old, self.module.functions.append(function, Span::UNDEFINED));
         }
-        let mut copy = Copy::new(&mut self.module, &mut types, &from.functions[root], &called);
+        let mut copy = Translation::new(&mut self.module, &mut types, &from.functions[root], &called);
         copy.roles = shared;
         for (global, name) in bound(&from, buffers) {
-            if BUFFERS.iter().any(|(shared, _)| *shared == name) {
+            if BUFFERS.iter().any(|(shared, ..)| *shared == name) {
                 continue;
             }
             let array = copy.types.held(from.global_variables[global].ty)?;
@@ -275,18 +278,14 @@ impl Library {
                     roles.insert(global, Role::Push(tree));
                 }
                 AddressSpace::Private => {
-                    // What has a value is a constant.
-                    let role = match own.init {
-                        Some(init) => Role::Shared(self.constant(types, init)?),
-                        None => Role::Invocation,
-                    };
-                    roles.insert(global, role);
+                    // One that has a value is a constant.
+                    roles.insert(global, own.init.map_or(Role::Invocation, Role::Constant));
                 }
                 _ => {}
             }
         }
         for (global, name) in bound(types.from, buffers) {
-            if let Some(place) = BUFFERS.iter().position(|(shared, _)| *shared == name) {
+            if let Some(place) = BUFFERS.iter().position(|(shared, ..)| *shared == name) {
                 let own = self.buffer(types, place, types.from.global_variables[global].ty)?;
                 roles.insert(global, Role::Shared(own));
             }
@@ -301,14 +300,14 @@ impl Library {
         place: usize,
         ty: Handle<Type>,
     ) -> Result<Handle<GlobalVariable>, Error> {
-        let (name, names) = BUFFERS[place];
+        let (name, list, names) = BUFFERS[place];
         let ty = if place == TREE {
             types.copy(&mut self.module, ty, Some(names))?
         } else {
             // The struct around the array.
             let held = types.held(ty)?;
             types.copy(&mut self.module, held, Some(names))?;
-            types.copy(&mut self.module, ty, Some((LISTS[place], &["list"])))?
+            types.copy(&mut self.module, ty, Some((list, &["list"])))?
         };
         let own = GlobalVariable {
             name: Some(format!("{}_{name}", self.naming.prefix)),
@@ -320,8 +319,8 @@ impl Library {
                 }
             },
             binding: Some(ResourceBinding {
-                group: self.naming.group,
-                binding: self.naming.bindings[place],
+                group: self.naming.group.into(),
+                binding: self.naming.bindings[place].into(),
             }),
             ty,
             init: None,
@@ -332,28 +331,6 @@ impl Library {
             .module
             .global_variables
             .fetch_if_or_append(own, Span::UNDEFINED, is_same))
-    }
-
-    /// A constant that is read by address.
-    fn constant(
-        &mut self,
-        types: &mut Types<'_>,
-        init: Handle<Expression>,
-    ) -> Result<Handle<GlobalVariable>, Error> {
-        let (init, ty) = constant_value(&mut self.module, types, init)?;
-        let own = GlobalVariable {
-            name: Some(format!(
-                "{}_constant_{}",
-                self.naming.prefix,
-                self.module.global_variables.len()
-            )),
-            space: AddressSpace::Private,
-            binding: None,
-            ty,
-            init: Some(init),
-            memory_decorations: naga::MemoryDecorations::empty(),
-        };
-        Ok(self.module.global_variables.append(own, Span::UNDEFINED))
     }
 
     /// Begins the names of structs with the prefix.
@@ -402,7 +379,7 @@ pub fn kernel(words: &[u32], buffers: &[String]) -> Result<String, Error> {
             });
         }
     }
-    Language::Wgsl.print(&module, &Naming::default())
+    Language::Wgsl.print(&module)
 }
 
 fn parsed(words: &[u32]) -> Result<Module, Error> {
@@ -413,9 +390,6 @@ fn parsed(words: &[u32]) -> Result<Module, Error> {
     let frontend = naga::front::spv::Frontend::new(words.iter().copied(), &options);
     frontend.parse().map_err(|error| Error(error.to_string()))
 }
-
-/// Types of the structs around arrays, in the order of [`BUFFERS`].
-const LISTS: [&str; 4] = ["Nodes", "Instances", "Trails", "Lights"];
 
 fn capital(word: &str) -> String {
     let mut letters = word.chars();

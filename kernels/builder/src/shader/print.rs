@@ -4,7 +4,6 @@ use naga::back::{glsl, hlsl, msl, wgsl};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Expression, Function, Module, ShaderStage, Span, Statement};
 
-use super::Naming;
 use crate::Error;
 
 /// A language that libraries are printed in.
@@ -35,11 +34,11 @@ impl Language {
         }
     }
 
-    pub(super) fn print(self, module: &Module, naming: &Naming) -> Result<String, Error> {
+    pub(super) fn print(self, module: &Module) -> Result<String, Error> {
         let info = validated(module)?;
         let text = match self {
             Self::Wgsl => wgsl::write_string(module, &info, wgsl::WriterFlags::empty()).map_err(said)?,
-            Self::Glsl => in_glsl(module, naming)?,
+            Self::Glsl => in_glsl(module)?,
             Self::Hlsl => in_hlsl(module, &info)?,
             Self::Msl => {
                 let options = msl::Options {
@@ -73,15 +72,10 @@ fn validated(module: &Module) -> Result<ModuleInfo, Error> {
 }
 
 /// The writer wants an entry point: one that calls each function, and is cut off again.
-fn in_glsl(module: &Module, naming: &Naming) -> Result<String, Error> {
+fn in_glsl(module: &Module) -> Result<String, Error> {
     let mut module = module.clone();
     let mut function = Function::default();
-    let all: Vec<_> = module
-        .functions
-        .iter()
-        .map(|(own, function)| (own, function.clone()))
-        .collect();
-    for (called, own) in all {
+    for (called, own) in module.functions.iter() {
         let zeros = own.arguments.iter().map(|argument| {
             function
                 .expressions
@@ -132,9 +126,13 @@ fn in_glsl(module: &Module, naming: &Naming) -> Result<String, Error> {
     for (_, own) in module.global_variables.iter() {
         if let (Some(at), Some(name)) = (own.binding, &own.name) {
             text = text.replace(&format!("_group_{}_binding_{}_cs", at.group, at.binding), name);
+            let binding = format!("binding = {})", at.binding);
+            text = text.replace(
+                &format!(", {binding}"),
+                &format!(", set = {}, {binding}", at.group),
+            );
         }
     }
-    let text = text.replace(", binding = ", &format!(", set = {}, binding = ", naming.group));
     let (start, end) = (text.find("struct"), text.find("void main()"));
     Ok(text[start.unwrap_or(0)..end.unwrap_or(text.len())]
         .trim_end()
@@ -145,6 +143,7 @@ fn in_hlsl(module: &Module, info: &ModuleInfo) -> Result<String, Error> {
     let mut text = String::new();
     let options = hlsl::Options {
         shader_model: hlsl::ShaderModel::V6_0,
+        force_loop_bounding: false,
         ..Default::default()
     };
     let pipeline = hlsl::PipelineOptions::default();

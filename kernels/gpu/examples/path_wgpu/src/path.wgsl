@@ -136,7 +136,7 @@ fn candidate(p: vec3<f32>, n: vec3<f32>, k: u32, number: vec2<u32>, tile: u32) -
         return tiles[tile * TILE_LIGHTS + (number.x + k) % TILE_LIGHTS];
     }
     // One number serves all candidates: each takes its own stratum.
-    let apart = k * (0xffffffffu / CANDIDATES) + k;
+    let apart = k * ((0xffffffffu - (CANDIDATES - 1u)) / CANDIDATES + 1u);
     let own = lightbvh_sample(p, n, vec2(number.x + apart, number.y));
     return emitter(own.light, own.instance, own.pmf);
 }
