@@ -13,7 +13,7 @@ use lightbvh::{EmissiveTriangle, LightBvh, SampledLight, ShadingPoint, Transform
 
 /// Along each side of the ground.
 const CELLS: u32 = 200;
-/// Every so many cells points are lit, 20 of each.
+/// One cell in this many is tested, at 20 points.
 const EVERY: usize = 40;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -95,12 +95,12 @@ fn one_of<'a>(
     chosen * f64::from(stream.weight())
 }
 
-/// What the middle of a lamp sends, without shadow, over its density.
+/// Irradiance from the middle of a lamp over its density, without a shadow.
 fn sent(light: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
     light.point([0.5; 2]).irradiance(point)[0].into()
 }
 
-/// Of 20 points a cell; those share candidates, so their means count as one each.
+/// Prints mean and squared error. Points of a cell share candidates, so each cell's mean counts once.
 fn report(name: &str, values: &[f64]) {
     let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
     let squares = |of: &[f64]| mean(&of.iter().map(|value| (value - 1.0).powi(2)).collect::<Vec<_>>());

@@ -45,7 +45,7 @@ impl LinkedQuery {
     }
 }
 
-/// A cell, and what is asked: 44 bytes.
+/// A query for a cell, 44 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct CellQuery {

@@ -466,13 +466,23 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
                 uint _e286 = (_e191 * _e168);
                 uint _e287 = (_e286 + (((_e247 * _e250) + (_e256 >> asuint(int(16)))) + (((_e248 * _e250) + (_e256 & 65535u)) >> asuint(int(16)))));
                 uint _e290 = ((((_e269 * _e250) + (_e275 >> asuint(int(16)))) + (((_e270 * _e250) + (_e275 & 65535u)) >> asuint(int(16)))) + ((_e287 < _e286) ? 1u : 0u));
+                bool _e291 = (_e290 < _e144);
                 v7_ = 4294967295u;
                 v8_ = 4294967295u;
-                if ((_e290 < _e144)) {
+                if (_e291) {
+                    if (_e291) {
+                    } else {
+                        break;
+                    }
                     uint _e294 = asuint(lightbvh_instances.Load(20+_e290*136+0));
+                    bool _e295 = (_e294 < _e144);
                     v5_ = 4294967295u;
                     v6_ = 4294967295u;
-                    if ((_e294 < _e144)) {
+                    if (_e295) {
+                        if (_e295) {
+                        } else {
+                            break;
+                        }
                         uint _e298 = asuint(lightbvh_instances.Load(16+_e294*136+0));
                         bool _e299 = (_e298 > 0u);
                         v4_ = 4294967295u;
@@ -534,6 +544,10 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
             if (_e363) {
                 v11_ = ZeroValueuint();
                 if (_e194) {
+                    if (_e363) {
+                    } else {
+                        break;
+                    }
                     uint _e366 = asuint(lightbvh_instances.Load(8+_e362*136+0));
                     uint _e370 = asuint(lightbvh_instances.Load(12+_e362*136+0));
                     v11_ = ((_e360 - _e366) + _e370);
@@ -545,8 +559,13 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
             uint _e376 = v12_;
             bool _e378 = v13_;
             uint _e380 = ((_e378 ? _e360 : _e376) * _e165);
+            bool _e381 = (_e380 < _e147);
             v14_ = 0u;
-            if ((_e380 < _e147)) {
+            if (_e381) {
+                if (_e381) {
+                } else {
+                    break;
+                }
                 uint _e383 = asuint(lightbvh_trails.Load(_e380*4+0));
                 v14_ = _e383;
             }
@@ -558,6 +577,10 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
                 bool _e388 = (_e387 < _e147);
                 v15_ = ZeroValueuint();
                 if (_e388) {
+                    if (_e388) {
+                    } else {
+                        break;
+                    }
                     uint _e390 = asuint(lightbvh_trails.Load(_e387*4+0));
                     v15_ = _e390;
                 }
@@ -572,8 +595,13 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
             v19_ = ZeroValueLightbvhType24_();
             if (_e363) {
                 uint _e405 = (_e159 + _e362);
+                bool _e406 = (_e405 < _e147);
                 v20_ = 4294967295u;
-                if ((_e405 < _e147)) {
+                if (_e406) {
+                    if (_e406) {
+                    } else {
+                        break;
+                    }
                     uint _e408 = asuint(lightbvh_trails.Load(_e405*4+0));
                     v20_ = _e408;
                 }
@@ -585,8 +613,13 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
                     v22_ = ZeroValueuint();
                     if (_e412) {
                         uint _e416 = (_e162 + ((_e410 - 2147483648u) + (_e385 & 7u)));
+                        bool _e417 = (_e416 < _e147);
                         v21_ = 4294967295u;
-                        if ((_e416 < _e147)) {
+                        if (_e417) {
+                            if (_e417) {
+                            } else {
+                                break;
+                            }
                             uint _e419 = asuint(lightbvh_trails.Load(_e416*4+0));
                             v21_ = _e419;
                         }
@@ -629,8 +662,14 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
                         v31_ = ZeroValueuint();
                         if (_e437) {
                             uint _e456 = (_e156 + (_e435 >> asuint(3u)));
+                            bool _e457 = (_e456 < _e147);
                             v28_ = 4294967295u;
-                            if ((_e456 < _e147)) {
+                            if (_e457) {
+                                if (_e457) {
+                                } else {
+                                    v36_ = true;
+                                    break;
+                                }
                                 uint _e459 = asuint(lightbvh_trails.Load(_e456*4+0));
                                 v28_ = _e459;
                             }
@@ -1165,8 +1204,13 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
         v78_ = _e1976.member;
         if (_e1978) {
         } else {
+            bool _e1996 = (_e1986.member_2.member_7 < _e144);
             v77_ = _e1980.member_2.member_6;
-            if ((_e1986.member_2.member_7 < _e144)) {
+            if (_e1996) {
+                if (_e1996) {
+                } else {
+                    break;
+                }
                 uint _e1999 = asuint(lightbvh_instances.Load(12+_e1986.member_2.member_7*136+0));
                 uint _e2003 = asuint(lightbvh_instances.Load(8+_e1986.member_2.member_7*136+0));
                 v77_ = ((_e1980.member_2.member_6 - _e1999) + _e2003);
@@ -1190,6 +1234,10 @@ LightbvhLightSample lightbvh_sample(float3 p, float3 n, uint2 number)
             bool _e2037 = (_e1995 < _e144);
             v82_ = ZeroValueuint();
             if (_e2037) {
+                if (_e2037) {
+                } else {
+                    break;
+                }
                 uint _e2040 = asuint(lightbvh_instances.Load(16+_e1995*136+0));
                 v82_ = _e2040;
             }
@@ -1477,6 +1525,10 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
         if (_e178) {
             v1_1 = ZeroValueuint();
             if (_e176) {
+                if (_e178) {
+                } else {
+                    break;
+                }
                 uint _e181 = asuint(lightbvh_instances.Load(8+_e177*136+0));
                 uint _e185 = asuint(lightbvh_instances.Load(12+_e177*136+0));
                 v1_1 = ((_e170.member_1[0] - _e181) + _e185);
@@ -1489,8 +1541,13 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
         bool _e193 = v3_1;
         uint _e194 = (_e193 ? _e170.member_1[0] : _e191);
         uint _e195 = (_e194 * _e159);
+        bool _e196 = (_e195 < _e141);
         v4_1 = 0u;
-        if ((_e195 < _e141)) {
+        if (_e196) {
+            if (_e196) {
+            } else {
+                break;
+            }
             uint _e198 = asuint(lightbvh_trails.Load(_e195*4+0));
             v4_1 = _e198;
         }
@@ -1502,6 +1559,10 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
             bool _e203 = (_e202 < _e141);
             v5_1 = ZeroValueuint();
             if (_e203) {
+                if (_e203) {
+                } else {
+                    break;
+                }
                 uint _e205 = asuint(lightbvh_trails.Load(_e202*4+0));
                 v5_1 = _e205;
             }
@@ -1516,8 +1577,13 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
         v9_1 = ZeroValueLightbvhType24_();
         if (_e178) {
             uint _e220 = (_e153 + _e177);
+            bool _e221 = (_e220 < _e141);
             v10_1 = 4294967295u;
-            if ((_e220 < _e141)) {
+            if (_e221) {
+                if (_e221) {
+                } else {
+                    break;
+                }
                 uint _e223 = asuint(lightbvh_trails.Load(_e220*4+0));
                 v10_1 = _e223;
             }
@@ -1529,8 +1595,13 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
                 v12_1 = ZeroValueuint();
                 if (_e227) {
                     uint _e231 = (_e156 + ((_e225 - 2147483648u) + (_e200 & 7u)));
+                    bool _e232 = (_e231 < _e141);
                     v11_1 = 4294967295u;
-                    if ((_e231 < _e141)) {
+                    if (_e232) {
+                        if (_e232) {
+                        } else {
+                            break;
+                        }
                         uint _e234 = asuint(lightbvh_trails.Load(_e231*4+0));
                         v11_1 = _e234;
                     }
@@ -1573,8 +1644,14 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
                     v21_1 = ZeroValueuint();
                     if (_e252) {
                         uint _e271 = (_e150 + (_e250 >> asuint(3u)));
+                        bool _e272 = (_e271 < _e141);
                         v18_1 = 4294967295u;
-                        if ((_e271 < _e141)) {
+                        if (_e272) {
+                            if (_e272) {
+                            } else {
+                                v26_1 = true;
+                                break;
+                            }
                             uint _e274 = asuint(lightbvh_trails.Load(_e271*4+0));
                             v18_1 = _e274;
                         }
@@ -2104,6 +2181,10 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
         if (_e176) {
             v64_1 = ZeroValueuint();
             if (_e178) {
+                if (_e178) {
+                } else {
+                    break;
+                }
                 uint _e1719 = asuint(lightbvh_instances.Load(16+_e177*136+0));
                 v64_1 = _e1719;
             }
@@ -2265,6 +2346,10 @@ float lightbvh_pmf(float3 p_1, float3 n_1, uint light, uint instance)
         if (_e176) {
             v86_1 = false;
             if (_e178) {
+                if (_e178) {
+                } else {
+                    break;
+                }
                 uint _e1962 = asuint(lightbvh_instances.Load(8+_e177*136+0));
                 uint _e1966 = asuint(lightbvh_instances.Load(16+_e177*136+0));
                 v86_1 = ((_e170.member_1[0] - _e1962) < _e1966);
@@ -2480,13 +2565,23 @@ LightbvhLightSample lightbvh_sample_cell(float3 center_, float3 half_, float3 n_
                 uint _e293 = (_e198 * _e175);
                 uint _e294 = (_e293 + (((_e254 * _e257) + (_e263 >> asuint(int(16)))) + (((_e255 * _e257) + (_e263 & 65535u)) >> asuint(int(16)))));
                 uint _e297 = ((((_e276 * _e257) + (_e282 >> asuint(int(16)))) + (((_e277 * _e257) + (_e282 & 65535u)) >> asuint(int(16)))) + ((_e294 < _e293) ? 1u : 0u));
+                bool _e298 = (_e297 < _e151);
                 v7_2 = 4294967295u;
                 v8_2 = 4294967295u;
-                if ((_e297 < _e151)) {
+                if (_e298) {
+                    if (_e298) {
+                    } else {
+                        break;
+                    }
                     uint _e301 = asuint(lightbvh_instances.Load(20+_e297*136+0));
+                    bool _e302 = (_e301 < _e151);
                     v5_2 = 4294967295u;
                     v6_2 = 4294967295u;
-                    if ((_e301 < _e151)) {
+                    if (_e302) {
+                        if (_e302) {
+                        } else {
+                            break;
+                        }
                         uint _e305 = asuint(lightbvh_instances.Load(16+_e301*136+0));
                         bool _e306 = (_e305 > 0u);
                         v4_2 = 4294967295u;
@@ -2548,6 +2643,10 @@ LightbvhLightSample lightbvh_sample_cell(float3 center_, float3 half_, float3 n_
             if (_e370) {
                 v11_2 = ZeroValueuint();
                 if (_e201) {
+                    if (_e370) {
+                    } else {
+                        break;
+                    }
                     uint _e373 = asuint(lightbvh_instances.Load(8+_e369*136+0));
                     uint _e377 = asuint(lightbvh_instances.Load(12+_e369*136+0));
                     v11_2 = ((_e367 - _e373) + _e377);
@@ -2559,8 +2658,13 @@ LightbvhLightSample lightbvh_sample_cell(float3 center_, float3 half_, float3 n_
             uint _e383 = v12_2;
             bool _e385 = v13_2;
             uint _e387 = ((_e385 ? _e367 : _e383) * _e172);
+            bool _e388 = (_e387 < _e154);
             v14_2 = 0u;
-            if ((_e387 < _e154)) {
+            if (_e388) {
+                if (_e388) {
+                } else {
+                    break;
+                }
                 uint _e390 = asuint(lightbvh_trails.Load(_e387*4+0));
                 v14_2 = _e390;
             }
@@ -2572,6 +2676,10 @@ LightbvhLightSample lightbvh_sample_cell(float3 center_, float3 half_, float3 n_
                 bool _e395 = (_e394 < _e154);
                 v15_2 = ZeroValueuint();
                 if (_e395) {
+                    if (_e395) {
+                    } else {
+                        break;
+                    }
                     uint _e397 = asuint(lightbvh_trails.Load(_e394*4+0));
                     v15_2 = _e397;
                 }
@@ -2586,8 +2694,13 @@ LightbvhLightSample lightbvh_sample_cell(float3 center_, float3 half_, float3 n_
             v19_2 = ZeroValueLightbvhType24_();
             if (_e370) {
                 uint _e412 = (_e166 + _e369);
+                bool _e413 = (_e412 < _e154);
                 v20_2 = 4294967295u;
-                if ((_e412 < _e154)) {
+                if (_e413) {
+                    if (_e413) {
+                    } else {
+                        break;
+                    }
                     uint _e415 = asuint(lightbvh_trails.Load(_e412*4+0));
                     v20_2 = _e415;
                 }
@@ -2599,8 +2712,13 @@ LightbvhLightSample lightbvh_sample_cell(float3 center_, float3 half_, float3 n_
                     v22_2 = ZeroValueuint();
                     if (_e419) {
                         uint _e423 = (_e169 + ((_e417 - 2147483648u) + (_e392 & 7u)));
+                        bool _e424 = (_e423 < _e154);
                         v21_2 = 4294967295u;
-                        if ((_e423 < _e154)) {
+                        if (_e424) {
+                            if (_e424) {
+                            } else {
+                                break;
+                            }
                             uint _e426 = asuint(lightbvh_trails.Load(_e423*4+0));
                             v21_2 = _e426;
                         }
@@ -2643,8 +2761,14 @@ LightbvhLightSample lightbvh_sample_cell(float3 center_, float3 half_, float3 n_
                         v31_2 = ZeroValueuint();
                         if (_e444) {
                             uint _e463 = (_e163 + (_e442 >> asuint(3u)));
+                            bool _e464 = (_e463 < _e154);
                             v28_2 = 4294967295u;
-                            if ((_e463 < _e154)) {
+                            if (_e464) {
+                                if (_e464) {
+                                } else {
+                                    v36_2 = true;
+                                    break;
+                                }
                                 uint _e466 = asuint(lightbvh_trails.Load(_e463*4+0));
                                 v28_2 = _e466;
                             }
@@ -3234,8 +3358,13 @@ LightbvhLightSample lightbvh_sample_cell(float3 center_, float3 half_, float3 n_
         v78_2 = _e2253.member;
         if (_e2255) {
         } else {
+            bool _e2273 = (_e2263.member_2.member_6 < _e151);
             v77_2 = _e2257.member_2.member_5;
-            if ((_e2263.member_2.member_6 < _e151)) {
+            if (_e2273) {
+                if (_e2273) {
+                } else {
+                    break;
+                }
                 uint _e2276 = asuint(lightbvh_instances.Load(12+_e2263.member_2.member_6*136+0));
                 uint _e2280 = asuint(lightbvh_instances.Load(8+_e2263.member_2.member_6*136+0));
                 v77_2 = ((_e2257.member_2.member_5 - _e2276) + _e2280);
@@ -3259,6 +3388,10 @@ LightbvhLightSample lightbvh_sample_cell(float3 center_, float3 half_, float3 n_
             bool _e2314 = (_e2272 < _e151);
             v82_2 = ZeroValueuint();
             if (_e2314) {
+                if (_e2314) {
+                } else {
+                    break;
+                }
                 uint _e2317 = asuint(lightbvh_instances.Load(16+_e2272*136+0));
                 v82_2 = _e2317;
             }
@@ -3546,6 +3679,10 @@ float lightbvh_pmf_cell(float3 center_1, float3 half_1, float3 n_3, uint light_1
         if (_e185) {
             v1_3 = ZeroValueuint();
             if (_e183) {
+                if (_e185) {
+                } else {
+                    break;
+                }
                 uint _e188 = asuint(lightbvh_instances.Load(8+_e184*136+0));
                 uint _e192 = asuint(lightbvh_instances.Load(12+_e184*136+0));
                 v1_3 = ((_e177.member_1[0] - _e188) + _e192);
@@ -3558,8 +3695,13 @@ float lightbvh_pmf_cell(float3 center_1, float3 half_1, float3 n_3, uint light_1
         bool _e200 = v3_3;
         uint _e201 = (_e200 ? _e177.member_1[0] : _e198);
         uint _e202 = (_e201 * _e166);
+        bool _e203 = (_e202 < _e148);
         v4_3 = 0u;
-        if ((_e202 < _e148)) {
+        if (_e203) {
+            if (_e203) {
+            } else {
+                break;
+            }
             uint _e205 = asuint(lightbvh_trails.Load(_e202*4+0));
             v4_3 = _e205;
         }
@@ -3571,6 +3713,10 @@ float lightbvh_pmf_cell(float3 center_1, float3 half_1, float3 n_3, uint light_1
             bool _e210 = (_e209 < _e148);
             v5_3 = ZeroValueuint();
             if (_e210) {
+                if (_e210) {
+                } else {
+                    break;
+                }
                 uint _e212 = asuint(lightbvh_trails.Load(_e209*4+0));
                 v5_3 = _e212;
             }
@@ -3585,8 +3731,13 @@ float lightbvh_pmf_cell(float3 center_1, float3 half_1, float3 n_3, uint light_1
         v9_3 = ZeroValueLightbvhType24_();
         if (_e185) {
             uint _e227 = (_e160 + _e184);
+            bool _e228 = (_e227 < _e148);
             v10_3 = 4294967295u;
-            if ((_e227 < _e148)) {
+            if (_e228) {
+                if (_e228) {
+                } else {
+                    break;
+                }
                 uint _e230 = asuint(lightbvh_trails.Load(_e227*4+0));
                 v10_3 = _e230;
             }
@@ -3598,8 +3749,13 @@ float lightbvh_pmf_cell(float3 center_1, float3 half_1, float3 n_3, uint light_1
                 v12_3 = ZeroValueuint();
                 if (_e234) {
                     uint _e238 = (_e163 + ((_e232 - 2147483648u) + (_e207 & 7u)));
+                    bool _e239 = (_e238 < _e148);
                     v11_3 = 4294967295u;
-                    if ((_e238 < _e148)) {
+                    if (_e239) {
+                        if (_e239) {
+                        } else {
+                            break;
+                        }
                         uint _e241 = asuint(lightbvh_trails.Load(_e238*4+0));
                         v11_3 = _e241;
                     }
@@ -3642,8 +3798,14 @@ float lightbvh_pmf_cell(float3 center_1, float3 half_1, float3 n_3, uint light_1
                     v21_3 = ZeroValueuint();
                     if (_e259) {
                         uint _e278 = (_e157 + (_e257 >> asuint(3u)));
+                        bool _e279 = (_e278 < _e148);
                         v18_3 = 4294967295u;
-                        if ((_e278 < _e148)) {
+                        if (_e279) {
+                            if (_e279) {
+                            } else {
+                                v26_3 = true;
+                                break;
+                            }
                             uint _e281 = asuint(lightbvh_trails.Load(_e278*4+0));
                             v18_3 = _e281;
                         }
@@ -4228,6 +4390,10 @@ float lightbvh_pmf_cell(float3 center_1, float3 half_1, float3 n_3, uint light_1
         if (_e183) {
             v64_3 = ZeroValueuint();
             if (_e185) {
+                if (_e185) {
+                } else {
+                    break;
+                }
                 uint _e1993 = asuint(lightbvh_instances.Load(16+_e184*136+0));
                 v64_3 = _e1993;
             }
@@ -4389,6 +4555,10 @@ float lightbvh_pmf_cell(float3 center_1, float3 half_1, float3 n_3, uint light_1
         if (_e183) {
             v86_3 = false;
             if (_e185) {
+                if (_e185) {
+                } else {
+                    break;
+                }
                 uint _e2236 = asuint(lightbvh_instances.Load(8+_e184*136+0));
                 uint _e2240 = asuint(lightbvh_instances.Load(16+_e184*136+0));
                 v86_3 = ((_e177.member_1[0] - _e2236) < _e2240);
@@ -4509,15 +4679,25 @@ LightbvhLightPoint lightbvh_light_point(uint light_2, uint instance_2, float2 nu
         uint _e77 = samples.member;
         uint _e80 = samples.member_1;
         uint _e82 = ((_e80 == 4294967295u) ? 0u : _e80);
+        bool _e83 = (_e82 < ((NagaBufferLength(lightbvh_instances) - 0) / 136));
         v16_4 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0)), Constructarray3_float_(0.0, 0.0, 0.0), 4294967295u, 0u);
-        if ((_e82 < ((NagaBufferLength(lightbvh_instances) - 0) / 136))) {
+        if (_e83) {
+            if (_e83) {
+            } else {
+                break;
+            }
             LightbvhInstance _e86 = ConstructLightbvhInstance(asuint(lightbvh_instances.Load(_e82*136+0+0)), asuint(lightbvh_instances.Load(_e82*136+0+4)), asuint(lightbvh_instances.Load(_e82*136+0+8)), asuint(lightbvh_instances.Load(_e82*136+0+12)), asuint(lightbvh_instances.Load(_e82*136+0+16)), asuint(lightbvh_instances.Load(_e82*136+0+20)), Constructarray3_array3_float__(Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+24+0+0)), asfloat(lightbvh_instances.Load(_e82*136+0+24+0+4)), asfloat(lightbvh_instances.Load(_e82*136+0+24+0+8))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+24+12+0)), asfloat(lightbvh_instances.Load(_e82*136+0+24+12+4)), asfloat(lightbvh_instances.Load(_e82*136+0+24+12+8))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+24+24+0)), asfloat(lightbvh_instances.Load(_e82*136+0+24+24+4)), asfloat(lightbvh_instances.Load(_e82*136+0+24+24+8)))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+60+0)), asfloat(lightbvh_instances.Load(_e82*136+0+60+4)), asfloat(lightbvh_instances.Load(_e82*136+0+60+8))), Constructarray3_array3_float__(Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+72+0+0)), asfloat(lightbvh_instances.Load(_e82*136+0+72+0+4)), asfloat(lightbvh_instances.Load(_e82*136+0+72+0+8))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+72+12+0)), asfloat(lightbvh_instances.Load(_e82*136+0+72+12+4)), asfloat(lightbvh_instances.Load(_e82*136+0+72+12+8))), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+72+24+0)), asfloat(lightbvh_instances.Load(_e82*136+0+72+24+4)), asfloat(lightbvh_instances.Load(_e82*136+0+72+24+8)))), asfloat(lightbvh_instances.Load(_e82*136+0+108)), asfloat(lightbvh_instances.Load(_e82*136+0+112)), Constructarray3_float_(asfloat(lightbvh_instances.Load(_e82*136+0+116+0)), asfloat(lightbvh_instances.Load(_e82*136+0+116+4)), asfloat(lightbvh_instances.Load(_e82*136+0+116+8))), asuint(lightbvh_instances.Load(_e82*136+0+128)), asuint(lightbvh_instances.Load(_e82*136+0+132)));
             uint _e88 = (_e77 - _e86.first);
             uint _e90 = (_e88 + _e86.first_light);
             v15_4 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0)), Constructarray3_float_(0.0, 0.0, 0.0), 4294967295u, 0u);
             if ((_e88 < _e86.count)) {
+                bool _e93 = (_e90 < ((NagaBufferLength(lightbvh_lights) - 0) / 56));
                 v14_4 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0), Constructarray3_float_(0.0, 0.0, 0.0)), Constructarray3_float_(0.0, 0.0, 0.0), 4294967295u, 0u);
-                if ((_e90 < ((NagaBufferLength(lightbvh_lights) - 0) / 56))) {
+                if (_e93) {
+                    if (_e93) {
+                    } else {
+                        break;
+                    }
                     LightbvhLight _e96 = ConstructLightbvhLight(Constructarray3_array3_float__(Constructarray3_float_(asfloat(lightbvh_lights.Load(_e90*56+0+0+0+0)), asfloat(lightbvh_lights.Load(_e90*56+0+0+0+4)), asfloat(lightbvh_lights.Load(_e90*56+0+0+0+8))), Constructarray3_float_(asfloat(lightbvh_lights.Load(_e90*56+0+0+12+0)), asfloat(lightbvh_lights.Load(_e90*56+0+0+12+4)), asfloat(lightbvh_lights.Load(_e90*56+0+0+12+8))), Constructarray3_float_(asfloat(lightbvh_lights.Load(_e90*56+0+0+24+0)), asfloat(lightbvh_lights.Load(_e90*56+0+0+24+4)), asfloat(lightbvh_lights.Load(_e90*56+0+0+24+8)))), Constructarray3_float_(asfloat(lightbvh_lights.Load(_e90*56+0+36+0)), asfloat(lightbvh_lights.Load(_e90*56+0+36+4)), asfloat(lightbvh_lights.Load(_e90*56+0+36+8))), asuint(lightbvh_lights.Load(_e90*56+0+48)), asuint(lightbvh_lights.Load(_e90*56+0+52)));
                     float _e115 = (_e86.columns[0][0] * _e96.p[0][0]);
                     float _e116 = (_e86.columns[0][1] * _e96.p[0][0]);

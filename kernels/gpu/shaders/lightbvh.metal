@@ -352,13 +352,23 @@ LightbvhLightSample lightbvh_sample(
                     uint _e286 = _e191 * _e168;
                     uint _e287 = _e286 + (((_e247 * _e250) + (_e256 >> as_type<uint>(16))) + (((_e248 * _e250) + (_e256 & 65535u)) >> as_type<uint>(16)));
                     uint _e290 = (((_e269 * _e250) + (_e275 >> as_type<uint>(16))) + (((_e270 * _e250) + (_e275 & 65535u)) >> as_type<uint>(16))) + ((_e287 < _e286) ? 1u : 0u);
+                    bool _e291 = _e290 < _e144;
                     v7_ = 4294967295u;
                     v8_ = 4294967295u;
-                    if (_e290 < _e144) {
+                    if (_e291) {
+                        if (_e291) {
+                        } else {
+                            break;
+                        }
                         uint _e294 = lightbvh_instances.list[_e290].listed;
+                        bool _e295 = _e294 < _e144;
                         v5_ = 4294967295u;
                         v6_ = 4294967295u;
-                        if (_e294 < _e144) {
+                        if (_e295) {
+                            if (_e295) {
+                            } else {
+                                break;
+                            }
                             uint _e298 = lightbvh_instances.list[_e294].count;
                             bool _e299 = _e298 > 0u;
                             v4_ = 4294967295u;
@@ -420,6 +430,10 @@ LightbvhLightSample lightbvh_sample(
                 if (_e363) {
                     v11_ = uint {};
                     if (_e194) {
+                        if (_e363) {
+                        } else {
+                            break;
+                        }
                         uint _e366 = lightbvh_instances.list[_e362].first;
                         uint _e370 = lightbvh_instances.list[_e362].first_light;
                         v11_ = (_e360 - _e366) + _e370;
@@ -431,8 +445,13 @@ LightbvhLightSample lightbvh_sample(
                 uint _e376 = v12_;
                 bool _e378 = v13_;
                 uint _e380 = (_e378 ? _e360 : _e376) * _e165;
+                bool _e381 = _e380 < _e147;
                 v14_ = 0u;
-                if (_e380 < _e147) {
+                if (_e381) {
+                    if (_e381) {
+                    } else {
+                        break;
+                    }
                     uint _e383 = lightbvh_trails.list[_e380];
                     v14_ = _e383;
                 }
@@ -444,6 +463,10 @@ LightbvhLightSample lightbvh_sample(
                     bool _e388 = _e387 < _e147;
                     v15_ = uint {};
                     if (_e388) {
+                        if (_e388) {
+                        } else {
+                            break;
+                        }
                         uint _e390 = lightbvh_trails.list[_e387];
                         v15_ = _e390;
                     }
@@ -458,8 +481,13 @@ LightbvhLightSample lightbvh_sample(
                 v19_ = LightbvhType24_ {};
                 if (_e363) {
                     uint _e405 = _e159 + _e362;
+                    bool _e406 = _e405 < _e147;
                     v20_ = 4294967295u;
-                    if (_e405 < _e147) {
+                    if (_e406) {
+                        if (_e406) {
+                        } else {
+                            break;
+                        }
                         uint _e408 = lightbvh_trails.list[_e405];
                         v20_ = _e408;
                     }
@@ -471,8 +499,13 @@ LightbvhLightSample lightbvh_sample(
                         v22_ = uint {};
                         if (_e412) {
                             uint _e416 = _e162 + ((_e410 - 2147483648u) + (_e385 & 7u));
+                            bool _e417 = _e416 < _e147;
                             v21_ = 4294967295u;
-                            if (_e416 < _e147) {
+                            if (_e417) {
+                                if (_e417) {
+                                } else {
+                                    break;
+                                }
                                 uint _e419 = lightbvh_trails.list[_e416];
                                 v21_ = _e419;
                             }
@@ -515,8 +548,14 @@ LightbvhLightSample lightbvh_sample(
                             v31_ = uint {};
                             if (_e437) {
                                 uint _e456 = _e156 + (_e435 >> as_type<uint>(3u));
+                                bool _e457 = _e456 < _e147;
                                 v28_ = 4294967295u;
-                                if (_e456 < _e147) {
+                                if (_e457) {
+                                    if (_e457) {
+                                    } else {
+                                        v36_ = true;
+                                        break;
+                                    }
                                     uint _e459 = lightbvh_trails.list[_e456];
                                     v28_ = _e459;
                                 }
@@ -1051,8 +1090,13 @@ LightbvhLightSample lightbvh_sample(
             v78_ = _e1976.member;
             if (_e1978) {
             } else {
+                bool _e1996 = _e1986.member_2.member_7 < _e144;
                 v77_ = _e1980.member_2.member_6;
-                if (_e1986.member_2.member_7 < _e144) {
+                if (_e1996) {
+                    if (_e1996) {
+                    } else {
+                        break;
+                    }
                     uint _e1999 = lightbvh_instances.list[_e1986.member_2.member_7].first_light;
                     uint _e2003 = lightbvh_instances.list[_e1986.member_2.member_7].first;
                     v77_ = (_e1980.member_2.member_6 - _e1999) + _e2003;
@@ -1076,6 +1120,10 @@ LightbvhLightSample lightbvh_sample(
                 bool _e2037 = _e1995 < _e144;
                 v82_ = uint {};
                 if (_e2037) {
+                    if (_e2037) {
+                    } else {
+                        break;
+                    }
                     uint _e2040 = lightbvh_instances.list[_e1995].count;
                     v82_ = _e2040;
                 }
@@ -1372,6 +1420,10 @@ float lightbvh_pmf(
             if (_e178) {
                 v1_1 = uint {};
                 if (_e176) {
+                    if (_e178) {
+                    } else {
+                        break;
+                    }
                     uint _e181 = lightbvh_instances.list[_e177].first;
                     uint _e185 = lightbvh_instances.list[_e177].first_light;
                     v1_1 = (_e170.member_1.inner[0] - _e181) + _e185;
@@ -1384,8 +1436,13 @@ float lightbvh_pmf(
             bool _e193 = v3_1;
             uint _e194 = _e193 ? _e170.member_1.inner[0] : _e191;
             uint _e195 = _e194 * _e159;
+            bool _e196 = _e195 < _e141;
             v4_1 = 0u;
-            if (_e195 < _e141) {
+            if (_e196) {
+                if (_e196) {
+                } else {
+                    break;
+                }
                 uint _e198 = lightbvh_trails.list[_e195];
                 v4_1 = _e198;
             }
@@ -1397,6 +1454,10 @@ float lightbvh_pmf(
                 bool _e203 = _e202 < _e141;
                 v5_1 = uint {};
                 if (_e203) {
+                    if (_e203) {
+                    } else {
+                        break;
+                    }
                     uint _e205 = lightbvh_trails.list[_e202];
                     v5_1 = _e205;
                 }
@@ -1411,8 +1472,13 @@ float lightbvh_pmf(
             v9_1 = LightbvhType24_ {};
             if (_e178) {
                 uint _e220 = _e153 + _e177;
+                bool _e221 = _e220 < _e141;
                 v10_1 = 4294967295u;
-                if (_e220 < _e141) {
+                if (_e221) {
+                    if (_e221) {
+                    } else {
+                        break;
+                    }
                     uint _e223 = lightbvh_trails.list[_e220];
                     v10_1 = _e223;
                 }
@@ -1424,8 +1490,13 @@ float lightbvh_pmf(
                     v12_1 = uint {};
                     if (_e227) {
                         uint _e231 = _e156 + ((_e225 - 2147483648u) + (_e200 & 7u));
+                        bool _e232 = _e231 < _e141;
                         v11_1 = 4294967295u;
-                        if (_e231 < _e141) {
+                        if (_e232) {
+                            if (_e232) {
+                            } else {
+                                break;
+                            }
                             uint _e234 = lightbvh_trails.list[_e231];
                             v11_1 = _e234;
                         }
@@ -1468,8 +1539,14 @@ float lightbvh_pmf(
                         v21_1 = uint {};
                         if (_e252) {
                             uint _e271 = _e150 + (_e250 >> as_type<uint>(3u));
+                            bool _e272 = _e271 < _e141;
                             v18_1 = 4294967295u;
-                            if (_e271 < _e141) {
+                            if (_e272) {
+                                if (_e272) {
+                                } else {
+                                    v26_1 = true;
+                                    break;
+                                }
                                 uint _e274 = lightbvh_trails.list[_e271];
                                 v18_1 = _e274;
                             }
@@ -1999,6 +2076,10 @@ float lightbvh_pmf(
             if (_e176) {
                 v64_1 = uint {};
                 if (_e178) {
+                    if (_e178) {
+                    } else {
+                        break;
+                    }
                     uint _e1719 = lightbvh_instances.list[_e177].count;
                     v64_1 = _e1719;
                 }
@@ -2160,6 +2241,10 @@ float lightbvh_pmf(
             if (_e176) {
                 v86_1 = false;
                 if (_e178) {
+                    if (_e178) {
+                    } else {
+                        break;
+                    }
                     uint _e1962 = lightbvh_instances.list[_e177].first;
                     uint _e1966 = lightbvh_instances.list[_e177].count;
                     v86_1 = (_e170.member_1.inner[0] - _e1962) < _e1966;
@@ -2343,13 +2428,23 @@ LightbvhLightSample lightbvh_sample_cell(
                     uint _e293 = _e198 * _e175;
                     uint _e294 = _e293 + (((_e254 * _e257) + (_e263 >> as_type<uint>(16))) + (((_e255 * _e257) + (_e263 & 65535u)) >> as_type<uint>(16)));
                     uint _e297 = (((_e276 * _e257) + (_e282 >> as_type<uint>(16))) + (((_e277 * _e257) + (_e282 & 65535u)) >> as_type<uint>(16))) + ((_e294 < _e293) ? 1u : 0u);
+                    bool _e298 = _e297 < _e151;
                     v7_2 = 4294967295u;
                     v8_2 = 4294967295u;
-                    if (_e297 < _e151) {
+                    if (_e298) {
+                        if (_e298) {
+                        } else {
+                            break;
+                        }
                         uint _e301 = lightbvh_instances.list[_e297].listed;
+                        bool _e302 = _e301 < _e151;
                         v5_2 = 4294967295u;
                         v6_2 = 4294967295u;
-                        if (_e301 < _e151) {
+                        if (_e302) {
+                            if (_e302) {
+                            } else {
+                                break;
+                            }
                             uint _e305 = lightbvh_instances.list[_e301].count;
                             bool _e306 = _e305 > 0u;
                             v4_2 = 4294967295u;
@@ -2411,6 +2506,10 @@ LightbvhLightSample lightbvh_sample_cell(
                 if (_e370) {
                     v11_2 = uint {};
                     if (_e201) {
+                        if (_e370) {
+                        } else {
+                            break;
+                        }
                         uint _e373 = lightbvh_instances.list[_e369].first;
                         uint _e377 = lightbvh_instances.list[_e369].first_light;
                         v11_2 = (_e367 - _e373) + _e377;
@@ -2422,8 +2521,13 @@ LightbvhLightSample lightbvh_sample_cell(
                 uint _e383 = v12_2;
                 bool _e385 = v13_2;
                 uint _e387 = (_e385 ? _e367 : _e383) * _e172;
+                bool _e388 = _e387 < _e154;
                 v14_2 = 0u;
-                if (_e387 < _e154) {
+                if (_e388) {
+                    if (_e388) {
+                    } else {
+                        break;
+                    }
                     uint _e390 = lightbvh_trails.list[_e387];
                     v14_2 = _e390;
                 }
@@ -2435,6 +2539,10 @@ LightbvhLightSample lightbvh_sample_cell(
                     bool _e395 = _e394 < _e154;
                     v15_2 = uint {};
                     if (_e395) {
+                        if (_e395) {
+                        } else {
+                            break;
+                        }
                         uint _e397 = lightbvh_trails.list[_e394];
                         v15_2 = _e397;
                     }
@@ -2449,8 +2557,13 @@ LightbvhLightSample lightbvh_sample_cell(
                 v19_2 = LightbvhType24_ {};
                 if (_e370) {
                     uint _e412 = _e166 + _e369;
+                    bool _e413 = _e412 < _e154;
                     v20_2 = 4294967295u;
-                    if (_e412 < _e154) {
+                    if (_e413) {
+                        if (_e413) {
+                        } else {
+                            break;
+                        }
                         uint _e415 = lightbvh_trails.list[_e412];
                         v20_2 = _e415;
                     }
@@ -2462,8 +2575,13 @@ LightbvhLightSample lightbvh_sample_cell(
                         v22_2 = uint {};
                         if (_e419) {
                             uint _e423 = _e169 + ((_e417 - 2147483648u) + (_e392 & 7u));
+                            bool _e424 = _e423 < _e154;
                             v21_2 = 4294967295u;
-                            if (_e423 < _e154) {
+                            if (_e424) {
+                                if (_e424) {
+                                } else {
+                                    break;
+                                }
                                 uint _e426 = lightbvh_trails.list[_e423];
                                 v21_2 = _e426;
                             }
@@ -2506,8 +2624,14 @@ LightbvhLightSample lightbvh_sample_cell(
                             v31_2 = uint {};
                             if (_e444) {
                                 uint _e463 = _e163 + (_e442 >> as_type<uint>(3u));
+                                bool _e464 = _e463 < _e154;
                                 v28_2 = 4294967295u;
-                                if (_e463 < _e154) {
+                                if (_e464) {
+                                    if (_e464) {
+                                    } else {
+                                        v36_2 = true;
+                                        break;
+                                    }
                                     uint _e466 = lightbvh_trails.list[_e463];
                                     v28_2 = _e466;
                                 }
@@ -3097,8 +3221,13 @@ LightbvhLightSample lightbvh_sample_cell(
             v78_2 = _e2253.member;
             if (_e2255) {
             } else {
+                bool _e2273 = _e2263.member_2.member_6 < _e151;
                 v77_2 = _e2257.member_2.member_5;
-                if (_e2263.member_2.member_6 < _e151) {
+                if (_e2273) {
+                    if (_e2273) {
+                    } else {
+                        break;
+                    }
                     uint _e2276 = lightbvh_instances.list[_e2263.member_2.member_6].first_light;
                     uint _e2280 = lightbvh_instances.list[_e2263.member_2.member_6].first;
                     v77_2 = (_e2257.member_2.member_5 - _e2276) + _e2280;
@@ -3122,6 +3251,10 @@ LightbvhLightSample lightbvh_sample_cell(
                 bool _e2314 = _e2272 < _e151;
                 v82_2 = uint {};
                 if (_e2314) {
+                    if (_e2314) {
+                    } else {
+                        break;
+                    }
                     uint _e2317 = lightbvh_instances.list[_e2272].count;
                     v82_2 = _e2317;
                 }
@@ -3419,6 +3552,10 @@ float lightbvh_pmf_cell(
             if (_e185) {
                 v1_3 = uint {};
                 if (_e183) {
+                    if (_e185) {
+                    } else {
+                        break;
+                    }
                     uint _e188 = lightbvh_instances.list[_e184].first;
                     uint _e192 = lightbvh_instances.list[_e184].first_light;
                     v1_3 = (_e177.member_1.inner[0] - _e188) + _e192;
@@ -3431,8 +3568,13 @@ float lightbvh_pmf_cell(
             bool _e200 = v3_3;
             uint _e201 = _e200 ? _e177.member_1.inner[0] : _e198;
             uint _e202 = _e201 * _e166;
+            bool _e203 = _e202 < _e148;
             v4_3 = 0u;
-            if (_e202 < _e148) {
+            if (_e203) {
+                if (_e203) {
+                } else {
+                    break;
+                }
                 uint _e205 = lightbvh_trails.list[_e202];
                 v4_3 = _e205;
             }
@@ -3444,6 +3586,10 @@ float lightbvh_pmf_cell(
                 bool _e210 = _e209 < _e148;
                 v5_3 = uint {};
                 if (_e210) {
+                    if (_e210) {
+                    } else {
+                        break;
+                    }
                     uint _e212 = lightbvh_trails.list[_e209];
                     v5_3 = _e212;
                 }
@@ -3458,8 +3604,13 @@ float lightbvh_pmf_cell(
             v9_3 = LightbvhType24_ {};
             if (_e185) {
                 uint _e227 = _e160 + _e184;
+                bool _e228 = _e227 < _e148;
                 v10_3 = 4294967295u;
-                if (_e227 < _e148) {
+                if (_e228) {
+                    if (_e228) {
+                    } else {
+                        break;
+                    }
                     uint _e230 = lightbvh_trails.list[_e227];
                     v10_3 = _e230;
                 }
@@ -3471,8 +3622,13 @@ float lightbvh_pmf_cell(
                     v12_3 = uint {};
                     if (_e234) {
                         uint _e238 = _e163 + ((_e232 - 2147483648u) + (_e207 & 7u));
+                        bool _e239 = _e238 < _e148;
                         v11_3 = 4294967295u;
-                        if (_e238 < _e148) {
+                        if (_e239) {
+                            if (_e239) {
+                            } else {
+                                break;
+                            }
                             uint _e241 = lightbvh_trails.list[_e238];
                             v11_3 = _e241;
                         }
@@ -3515,8 +3671,14 @@ float lightbvh_pmf_cell(
                         v21_3 = uint {};
                         if (_e259) {
                             uint _e278 = _e157 + (_e257 >> as_type<uint>(3u));
+                            bool _e279 = _e278 < _e148;
                             v18_3 = 4294967295u;
-                            if (_e278 < _e148) {
+                            if (_e279) {
+                                if (_e279) {
+                                } else {
+                                    v26_3 = true;
+                                    break;
+                                }
                                 uint _e281 = lightbvh_trails.list[_e278];
                                 v18_3 = _e281;
                             }
@@ -4101,6 +4263,10 @@ float lightbvh_pmf_cell(
             if (_e183) {
                 v64_3 = uint {};
                 if (_e185) {
+                    if (_e185) {
+                    } else {
+                        break;
+                    }
                     uint _e1993 = lightbvh_instances.list[_e184].count;
                     v64_3 = _e1993;
                 }
@@ -4262,6 +4428,10 @@ float lightbvh_pmf_cell(
             if (_e183) {
                 v86_3 = false;
                 if (_e185) {
+                    if (_e185) {
+                    } else {
+                        break;
+                    }
                     uint _e2236 = lightbvh_instances.list[_e184].first;
                     uint _e2240 = lightbvh_instances.list[_e184].count;
                     v86_3 = (_e177.member_1.inner[0] - _e2236) < _e2240;
@@ -4340,15 +4510,25 @@ LightbvhLightPoint lightbvh_light_point(
             uint _e77 = samples.member;
             uint _e80 = samples.member_1;
             uint _e82 = (_e80 == 4294967295u) ? 0u : _e80;
+            bool _e83 = _e82 < (1 + (_buffer_sizes.size2 - 0 - 136) / 136);
             v16_4 = LightbvhLight {type_6 {{type_5 {{0.0, 0.0, 0.0}}, type_5 {{0.0, 0.0, 0.0}}, type_5 {{0.0, 0.0, 0.0}}}}, type_5 {{0.0, 0.0, 0.0}}, 4294967295u, 0u};
-            if (_e82 < (1 + (_buffer_sizes.size2 - 0 - 136) / 136)) {
+            if (_e83) {
+                if (_e83) {
+                } else {
+                    break;
+                }
                 LightbvhInstance _e86 = lightbvh_instances.list[_e82];
                 uint _e88 = _e77 - _e86.first;
                 uint _e90 = _e88 + _e86.first_light;
                 v15_4 = LightbvhLight {type_6 {{type_5 {{0.0, 0.0, 0.0}}, type_5 {{0.0, 0.0, 0.0}}, type_5 {{0.0, 0.0, 0.0}}}}, type_5 {{0.0, 0.0, 0.0}}, 4294967295u, 0u};
                 if (_e88 < _e86.count) {
+                    bool _e93 = _e90 < (1 + (_buffer_sizes.size4 - 0 - 56) / 56);
                     v14_4 = LightbvhLight {type_6 {{type_5 {{0.0, 0.0, 0.0}}, type_5 {{0.0, 0.0, 0.0}}, type_5 {{0.0, 0.0, 0.0}}}}, type_5 {{0.0, 0.0, 0.0}}, 4294967295u, 0u};
-                    if (_e90 < (1 + (_buffer_sizes.size4 - 0 - 56) / 56)) {
+                    if (_e93) {
+                        if (_e93) {
+                        } else {
+                            break;
+                        }
                         LightbvhLight _e96 = lightbvh_lights.list[_e90];
                         float _e115 = _e86.columns.inner[0].inner[0] * _e96.p.inner[0].inner[0];
                         float _e116 = _e86.columns.inner[0].inner[1] * _e96.p.inner[0].inner[0];

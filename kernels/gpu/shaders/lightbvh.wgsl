@@ -320,13 +320,23 @@ fn lightbvh_sample(p: vec3<f32>, n: vec3<f32>, number: vec2<u32>) -> LightbvhLig
                     let _e286 = (_e191 * _e168);
                     let _e287 = (_e286 + (((_e247 * _e250) + (_e256 >> bitcast<u32>(16i))) + (((_e248 * _e250) + (_e256 & 65535u)) >> bitcast<u32>(16i))));
                     let _e290 = ((((_e269 * _e250) + (_e275 >> bitcast<u32>(16i))) + (((_e270 * _e250) + (_e275 & 65535u)) >> bitcast<u32>(16i))) + select(0u, 1u, (_e287 < _e286)));
+                    let _e291 = (_e290 < _e144);
                     v7_ = 4294967295u;
                     v8_ = 4294967295u;
-                    if (_e290 < _e144) {
+                    if _e291 {
+                        if _e291 {
+                        } else {
+                            break;
+                        }
                         let _e294 = lightbvh_instances.list[_e290].listed;
+                        let _e295 = (_e294 < _e144);
                         v5_ = 4294967295u;
                         v6_ = 4294967295u;
-                        if (_e294 < _e144) {
+                        if _e295 {
+                            if _e295 {
+                            } else {
+                                break;
+                            }
                             let _e298 = lightbvh_instances.list[_e294].count;
                             let _e299 = (_e298 > 0u);
                             v4_ = 4294967295u;
@@ -388,6 +398,10 @@ fn lightbvh_sample(p: vec3<f32>, n: vec3<f32>, number: vec2<u32>) -> LightbvhLig
                 if _e363 {
                     v11_ = u32();
                     if _e194 {
+                        if _e363 {
+                        } else {
+                            break;
+                        }
                         let _e366 = lightbvh_instances.list[_e362].first;
                         let _e370 = lightbvh_instances.list[_e362].first_light;
                         v11_ = ((_e360 - _e366) + _e370);
@@ -399,8 +413,13 @@ fn lightbvh_sample(p: vec3<f32>, n: vec3<f32>, number: vec2<u32>) -> LightbvhLig
                 let _e376 = v12_;
                 let _e378 = v13_;
                 let _e380 = (select(_e376, _e360, _e378) * _e165);
+                let _e381 = (_e380 < _e147);
                 v14_ = 0u;
-                if (_e380 < _e147) {
+                if _e381 {
+                    if _e381 {
+                    } else {
+                        break;
+                    }
                     let _e383 = lightbvh_trails.list[_e380];
                     v14_ = _e383;
                 }
@@ -412,6 +431,10 @@ fn lightbvh_sample(p: vec3<f32>, n: vec3<f32>, number: vec2<u32>) -> LightbvhLig
                     let _e388 = (_e387 < _e147);
                     v15_ = u32();
                     if _e388 {
+                        if _e388 {
+                        } else {
+                            break;
+                        }
                         let _e390 = lightbvh_trails.list[_e387];
                         v15_ = _e390;
                     }
@@ -426,8 +449,13 @@ fn lightbvh_sample(p: vec3<f32>, n: vec3<f32>, number: vec2<u32>) -> LightbvhLig
                 v19_ = LightbvhType24_();
                 if _e363 {
                     let _e405 = (_e159 + _e362);
+                    let _e406 = (_e405 < _e147);
                     v20_ = 4294967295u;
-                    if (_e405 < _e147) {
+                    if _e406 {
+                        if _e406 {
+                        } else {
+                            break;
+                        }
                         let _e408 = lightbvh_trails.list[_e405];
                         v20_ = _e408;
                     }
@@ -439,8 +467,13 @@ fn lightbvh_sample(p: vec3<f32>, n: vec3<f32>, number: vec2<u32>) -> LightbvhLig
                         v22_ = u32();
                         if _e412 {
                             let _e416 = (_e162 + ((_e410 - 2147483648u) + (_e385 & 7u)));
+                            let _e417 = (_e416 < _e147);
                             v21_ = 4294967295u;
-                            if (_e416 < _e147) {
+                            if _e417 {
+                                if _e417 {
+                                } else {
+                                    break;
+                                }
                                 let _e419 = lightbvh_trails.list[_e416];
                                 v21_ = _e419;
                             }
@@ -472,8 +505,14 @@ fn lightbvh_sample(p: vec3<f32>, n: vec3<f32>, number: vec2<u32>) -> LightbvhLig
                             v31_ = u32();
                             if _e437 {
                                 let _e456 = (_e156 + (_e435 >> bitcast<u32>(3u)));
+                                let _e457 = (_e456 < _e147);
                                 v28_ = 4294967295u;
-                                if (_e456 < _e147) {
+                                if _e457 {
+                                    if _e457 {
+                                    } else {
+                                        v36_ = true;
+                                        break;
+                                    }
                                     let _e459 = lightbvh_trails.list[_e456];
                                     v28_ = _e459;
                                 }
@@ -1007,8 +1046,13 @@ fn lightbvh_sample(p: vec3<f32>, n: vec3<f32>, number: vec2<u32>) -> LightbvhLig
             v78_ = _e1976.member;
             if _e1978 {
             } else {
+                let _e1996 = (_e1986.member_2.member_7 < _e144);
                 v77_ = _e1980.member_2.member_6;
-                if (_e1986.member_2.member_7 < _e144) {
+                if _e1996 {
+                    if _e1996 {
+                    } else {
+                        break;
+                    }
                     let _e1999 = lightbvh_instances.list[_e1986.member_2.member_7].first_light;
                     let _e2003 = lightbvh_instances.list[_e1986.member_2.member_7].first;
                     v77_ = ((_e1980.member_2.member_6 - _e1999) + _e2003);
@@ -1032,6 +1076,10 @@ fn lightbvh_sample(p: vec3<f32>, n: vec3<f32>, number: vec2<u32>) -> LightbvhLig
                 let _e2037 = (_e1995 < _e144);
                 v82_ = u32();
                 if _e2037 {
+                    if _e2037 {
+                    } else {
+                        break;
+                    }
                     let _e2040 = lightbvh_instances.list[_e1995].count;
                     v82_ = _e2040;
                 }
@@ -1319,6 +1367,10 @@ fn lightbvh_pmf(p_1: vec3<f32>, n_1: vec3<f32>, light: u32, instance: u32) -> f3
             if _e178 {
                 v1_1 = u32();
                 if _e176 {
+                    if _e178 {
+                    } else {
+                        break;
+                    }
                     let _e181 = lightbvh_instances.list[_e177].first;
                     let _e185 = lightbvh_instances.list[_e177].first_light;
                     v1_1 = ((_e170.member_1[0] - _e181) + _e185);
@@ -1331,8 +1383,13 @@ fn lightbvh_pmf(p_1: vec3<f32>, n_1: vec3<f32>, light: u32, instance: u32) -> f3
             let _e193 = v3_1;
             let _e194 = select(_e191, _e170.member_1[0], _e193);
             let _e195 = (_e194 * _e159);
+            let _e196 = (_e195 < _e141);
             v4_1 = 0u;
-            if (_e195 < _e141) {
+            if _e196 {
+                if _e196 {
+                } else {
+                    break;
+                }
                 let _e198 = lightbvh_trails.list[_e195];
                 v4_1 = _e198;
             }
@@ -1344,6 +1401,10 @@ fn lightbvh_pmf(p_1: vec3<f32>, n_1: vec3<f32>, light: u32, instance: u32) -> f3
                 let _e203 = (_e202 < _e141);
                 v5_1 = u32();
                 if _e203 {
+                    if _e203 {
+                    } else {
+                        break;
+                    }
                     let _e205 = lightbvh_trails.list[_e202];
                     v5_1 = _e205;
                 }
@@ -1358,8 +1419,13 @@ fn lightbvh_pmf(p_1: vec3<f32>, n_1: vec3<f32>, light: u32, instance: u32) -> f3
             v9_1 = LightbvhType24_();
             if _e178 {
                 let _e220 = (_e153 + _e177);
+                let _e221 = (_e220 < _e141);
                 v10_1 = 4294967295u;
-                if (_e220 < _e141) {
+                if _e221 {
+                    if _e221 {
+                    } else {
+                        break;
+                    }
                     let _e223 = lightbvh_trails.list[_e220];
                     v10_1 = _e223;
                 }
@@ -1371,8 +1437,13 @@ fn lightbvh_pmf(p_1: vec3<f32>, n_1: vec3<f32>, light: u32, instance: u32) -> f3
                     v12_1 = u32();
                     if _e227 {
                         let _e231 = (_e156 + ((_e225 - 2147483648u) + (_e200 & 7u)));
+                        let _e232 = (_e231 < _e141);
                         v11_1 = 4294967295u;
-                        if (_e231 < _e141) {
+                        if _e232 {
+                            if _e232 {
+                            } else {
+                                break;
+                            }
                             let _e234 = lightbvh_trails.list[_e231];
                             v11_1 = _e234;
                         }
@@ -1404,8 +1475,14 @@ fn lightbvh_pmf(p_1: vec3<f32>, n_1: vec3<f32>, light: u32, instance: u32) -> f3
                         v21_1 = u32();
                         if _e252 {
                             let _e271 = (_e150 + (_e250 >> bitcast<u32>(3u)));
+                            let _e272 = (_e271 < _e141);
                             v18_1 = 4294967295u;
-                            if (_e271 < _e141) {
+                            if _e272 {
+                                if _e272 {
+                                } else {
+                                    v26_1 = true;
+                                    break;
+                                }
                                 let _e274 = lightbvh_trails.list[_e271];
                                 v18_1 = _e274;
                             }
@@ -1934,6 +2011,10 @@ fn lightbvh_pmf(p_1: vec3<f32>, n_1: vec3<f32>, light: u32, instance: u32) -> f3
             if _e176 {
                 v64_1 = u32();
                 if _e178 {
+                    if _e178 {
+                    } else {
+                        break;
+                    }
                     let _e1719 = lightbvh_instances.list[_e177].count;
                     v64_1 = _e1719;
                 }
@@ -2095,6 +2176,10 @@ fn lightbvh_pmf(p_1: vec3<f32>, n_1: vec3<f32>, light: u32, instance: u32) -> f3
             if _e176 {
                 v86_1 = false;
                 if _e178 {
+                    if _e178 {
+                    } else {
+                        break;
+                    }
                     let _e1962 = lightbvh_instances.list[_e177].first;
                     let _e1966 = lightbvh_instances.list[_e177].count;
                     v86_1 = ((_e170.member_1[0] - _e1962) < _e1966);
@@ -2269,13 +2354,23 @@ fn lightbvh_sample_cell(center: vec3<f32>, half: vec3<f32>, n_2: vec3<f32>, numb
                     let _e293 = (_e198 * _e175);
                     let _e294 = (_e293 + (((_e254 * _e257) + (_e263 >> bitcast<u32>(16i))) + (((_e255 * _e257) + (_e263 & 65535u)) >> bitcast<u32>(16i))));
                     let _e297 = ((((_e276 * _e257) + (_e282 >> bitcast<u32>(16i))) + (((_e277 * _e257) + (_e282 & 65535u)) >> bitcast<u32>(16i))) + select(0u, 1u, (_e294 < _e293)));
+                    let _e298 = (_e297 < _e151);
                     v7_2 = 4294967295u;
                     v8_2 = 4294967295u;
-                    if (_e297 < _e151) {
+                    if _e298 {
+                        if _e298 {
+                        } else {
+                            break;
+                        }
                         let _e301 = lightbvh_instances.list[_e297].listed;
+                        let _e302 = (_e301 < _e151);
                         v5_2 = 4294967295u;
                         v6_2 = 4294967295u;
-                        if (_e301 < _e151) {
+                        if _e302 {
+                            if _e302 {
+                            } else {
+                                break;
+                            }
                             let _e305 = lightbvh_instances.list[_e301].count;
                             let _e306 = (_e305 > 0u);
                             v4_2 = 4294967295u;
@@ -2337,6 +2432,10 @@ fn lightbvh_sample_cell(center: vec3<f32>, half: vec3<f32>, n_2: vec3<f32>, numb
                 if _e370 {
                     v11_2 = u32();
                     if _e201 {
+                        if _e370 {
+                        } else {
+                            break;
+                        }
                         let _e373 = lightbvh_instances.list[_e369].first;
                         let _e377 = lightbvh_instances.list[_e369].first_light;
                         v11_2 = ((_e367 - _e373) + _e377);
@@ -2348,8 +2447,13 @@ fn lightbvh_sample_cell(center: vec3<f32>, half: vec3<f32>, n_2: vec3<f32>, numb
                 let _e383 = v12_2;
                 let _e385 = v13_2;
                 let _e387 = (select(_e383, _e367, _e385) * _e172);
+                let _e388 = (_e387 < _e154);
                 v14_2 = 0u;
-                if (_e387 < _e154) {
+                if _e388 {
+                    if _e388 {
+                    } else {
+                        break;
+                    }
                     let _e390 = lightbvh_trails.list[_e387];
                     v14_2 = _e390;
                 }
@@ -2361,6 +2465,10 @@ fn lightbvh_sample_cell(center: vec3<f32>, half: vec3<f32>, n_2: vec3<f32>, numb
                     let _e395 = (_e394 < _e154);
                     v15_2 = u32();
                     if _e395 {
+                        if _e395 {
+                        } else {
+                            break;
+                        }
                         let _e397 = lightbvh_trails.list[_e394];
                         v15_2 = _e397;
                     }
@@ -2375,8 +2483,13 @@ fn lightbvh_sample_cell(center: vec3<f32>, half: vec3<f32>, n_2: vec3<f32>, numb
                 v19_2 = LightbvhType24_();
                 if _e370 {
                     let _e412 = (_e166 + _e369);
+                    let _e413 = (_e412 < _e154);
                     v20_2 = 4294967295u;
-                    if (_e412 < _e154) {
+                    if _e413 {
+                        if _e413 {
+                        } else {
+                            break;
+                        }
                         let _e415 = lightbvh_trails.list[_e412];
                         v20_2 = _e415;
                     }
@@ -2388,8 +2501,13 @@ fn lightbvh_sample_cell(center: vec3<f32>, half: vec3<f32>, n_2: vec3<f32>, numb
                         v22_2 = u32();
                         if _e419 {
                             let _e423 = (_e169 + ((_e417 - 2147483648u) + (_e392 & 7u)));
+                            let _e424 = (_e423 < _e154);
                             v21_2 = 4294967295u;
-                            if (_e423 < _e154) {
+                            if _e424 {
+                                if _e424 {
+                                } else {
+                                    break;
+                                }
                                 let _e426 = lightbvh_trails.list[_e423];
                                 v21_2 = _e426;
                             }
@@ -2421,8 +2539,14 @@ fn lightbvh_sample_cell(center: vec3<f32>, half: vec3<f32>, n_2: vec3<f32>, numb
                             v31_2 = u32();
                             if _e444 {
                                 let _e463 = (_e163 + (_e442 >> bitcast<u32>(3u)));
+                                let _e464 = (_e463 < _e154);
                                 v28_2 = 4294967295u;
-                                if (_e463 < _e154) {
+                                if _e464 {
+                                    if _e464 {
+                                    } else {
+                                        v36_2 = true;
+                                        break;
+                                    }
                                     let _e466 = lightbvh_trails.list[_e463];
                                     v28_2 = _e466;
                                 }
@@ -3011,8 +3135,13 @@ fn lightbvh_sample_cell(center: vec3<f32>, half: vec3<f32>, n_2: vec3<f32>, numb
             v78_2 = _e2253.member;
             if _e2255 {
             } else {
+                let _e2273 = (_e2263.member_2.member_6 < _e151);
                 v77_2 = _e2257.member_2.member_5;
-                if (_e2263.member_2.member_6 < _e151) {
+                if _e2273 {
+                    if _e2273 {
+                    } else {
+                        break;
+                    }
                     let _e2276 = lightbvh_instances.list[_e2263.member_2.member_6].first_light;
                     let _e2280 = lightbvh_instances.list[_e2263.member_2.member_6].first;
                     v77_2 = ((_e2257.member_2.member_5 - _e2276) + _e2280);
@@ -3036,6 +3165,10 @@ fn lightbvh_sample_cell(center: vec3<f32>, half: vec3<f32>, n_2: vec3<f32>, numb
                 let _e2314 = (_e2272 < _e151);
                 v82_2 = u32();
                 if _e2314 {
+                    if _e2314 {
+                    } else {
+                        break;
+                    }
                     let _e2317 = lightbvh_instances.list[_e2272].count;
                     v82_2 = _e2317;
                 }
@@ -3323,6 +3456,10 @@ fn lightbvh_pmf_cell(center_1: vec3<f32>, half_1: vec3<f32>, n_3: vec3<f32>, lig
             if _e185 {
                 v1_3 = u32();
                 if _e183 {
+                    if _e185 {
+                    } else {
+                        break;
+                    }
                     let _e188 = lightbvh_instances.list[_e184].first;
                     let _e192 = lightbvh_instances.list[_e184].first_light;
                     v1_3 = ((_e177.member_1[0] - _e188) + _e192);
@@ -3335,8 +3472,13 @@ fn lightbvh_pmf_cell(center_1: vec3<f32>, half_1: vec3<f32>, n_3: vec3<f32>, lig
             let _e200 = v3_3;
             let _e201 = select(_e198, _e177.member_1[0], _e200);
             let _e202 = (_e201 * _e166);
+            let _e203 = (_e202 < _e148);
             v4_3 = 0u;
-            if (_e202 < _e148) {
+            if _e203 {
+                if _e203 {
+                } else {
+                    break;
+                }
                 let _e205 = lightbvh_trails.list[_e202];
                 v4_3 = _e205;
             }
@@ -3348,6 +3490,10 @@ fn lightbvh_pmf_cell(center_1: vec3<f32>, half_1: vec3<f32>, n_3: vec3<f32>, lig
                 let _e210 = (_e209 < _e148);
                 v5_3 = u32();
                 if _e210 {
+                    if _e210 {
+                    } else {
+                        break;
+                    }
                     let _e212 = lightbvh_trails.list[_e209];
                     v5_3 = _e212;
                 }
@@ -3362,8 +3508,13 @@ fn lightbvh_pmf_cell(center_1: vec3<f32>, half_1: vec3<f32>, n_3: vec3<f32>, lig
             v9_3 = LightbvhType24_();
             if _e185 {
                 let _e227 = (_e160 + _e184);
+                let _e228 = (_e227 < _e148);
                 v10_3 = 4294967295u;
-                if (_e227 < _e148) {
+                if _e228 {
+                    if _e228 {
+                    } else {
+                        break;
+                    }
                     let _e230 = lightbvh_trails.list[_e227];
                     v10_3 = _e230;
                 }
@@ -3375,8 +3526,13 @@ fn lightbvh_pmf_cell(center_1: vec3<f32>, half_1: vec3<f32>, n_3: vec3<f32>, lig
                     v12_3 = u32();
                     if _e234 {
                         let _e238 = (_e163 + ((_e232 - 2147483648u) + (_e207 & 7u)));
+                        let _e239 = (_e238 < _e148);
                         v11_3 = 4294967295u;
-                        if (_e238 < _e148) {
+                        if _e239 {
+                            if _e239 {
+                            } else {
+                                break;
+                            }
                             let _e241 = lightbvh_trails.list[_e238];
                             v11_3 = _e241;
                         }
@@ -3408,8 +3564,14 @@ fn lightbvh_pmf_cell(center_1: vec3<f32>, half_1: vec3<f32>, n_3: vec3<f32>, lig
                         v21_3 = u32();
                         if _e259 {
                             let _e278 = (_e157 + (_e257 >> bitcast<u32>(3u)));
+                            let _e279 = (_e278 < _e148);
                             v18_3 = 4294967295u;
-                            if (_e278 < _e148) {
+                            if _e279 {
+                                if _e279 {
+                                } else {
+                                    v26_3 = true;
+                                    break;
+                                }
                                 let _e281 = lightbvh_trails.list[_e278];
                                 v18_3 = _e281;
                             }
@@ -3993,6 +4155,10 @@ fn lightbvh_pmf_cell(center_1: vec3<f32>, half_1: vec3<f32>, n_3: vec3<f32>, lig
             if _e183 {
                 v64_3 = u32();
                 if _e185 {
+                    if _e185 {
+                    } else {
+                        break;
+                    }
                     let _e1993 = lightbvh_instances.list[_e184].count;
                     v64_3 = _e1993;
                 }
@@ -4154,6 +4320,10 @@ fn lightbvh_pmf_cell(center_1: vec3<f32>, half_1: vec3<f32>, n_3: vec3<f32>, lig
             if _e183 {
                 v86_3 = false;
                 if _e185 {
+                    if _e185 {
+                    } else {
+                        break;
+                    }
                     let _e2236 = lightbvh_instances.list[_e184].first;
                     let _e2240 = lightbvh_instances.list[_e184].count;
                     v86_3 = ((_e177.member_1[0] - _e2236) < _e2240);
@@ -4226,15 +4396,25 @@ fn lightbvh_light_point(light_2: u32, instance_2: u32, numbers: vec2<f32>) -> Li
             let _e77 = samples.member;
             let _e80 = samples.member_1;
             let _e82 = select(_e80, 0u, (_e80 == 4294967295u));
+            let _e83 = (_e82 < arrayLength((&lightbvh_instances.list)));
             v16_4 = LightbvhLight(array<array<f32, 3>, 3>(array<f32, 3>(0f, 0f, 0f), array<f32, 3>(0f, 0f, 0f), array<f32, 3>(0f, 0f, 0f)), array<f32, 3>(0f, 0f, 0f), 4294967295u, 0u);
-            if (_e82 < arrayLength((&lightbvh_instances.list))) {
+            if _e83 {
+                if _e83 {
+                } else {
+                    break;
+                }
                 let _e86 = lightbvh_instances.list[_e82];
                 let _e88 = (_e77 - _e86.first);
                 let _e90 = (_e88 + _e86.first_light);
                 v15_4 = LightbvhLight(array<array<f32, 3>, 3>(array<f32, 3>(0f, 0f, 0f), array<f32, 3>(0f, 0f, 0f), array<f32, 3>(0f, 0f, 0f)), array<f32, 3>(0f, 0f, 0f), 4294967295u, 0u);
                 if (_e88 < _e86.count) {
+                    let _e93 = (_e90 < arrayLength((&lightbvh_lights.list)));
                     v14_4 = LightbvhLight(array<array<f32, 3>, 3>(array<f32, 3>(0f, 0f, 0f), array<f32, 3>(0f, 0f, 0f), array<f32, 3>(0f, 0f, 0f)), array<f32, 3>(0f, 0f, 0f), 4294967295u, 0u);
-                    if (_e90 < arrayLength((&lightbvh_lights.list))) {
+                    if _e93 {
+                        if _e93 {
+                        } else {
+                            break;
+                        }
                         let _e96 = lightbvh_lights.list[_e90];
                         let _e115 = (_e86.columns[0][0] * _e96.p[0][0]);
                         let _e116 = (_e86.columns[0][1] * _e96.p[0][0]);

@@ -1,16 +1,15 @@
-//! From a kernel that answers a query of each invocation to a function that answers one: arguments in place of the query, a result
-//! in place of the answer, no invocation.
+//! From a kernel's function to one without invocations: expressions and statements over copies, and what is known of them folded.
 
 use naga::{
     BinaryOperator, Block, Expression, Function, FunctionArgument, FunctionResult, GlobalVariable, Handle,
-    Literal, LocalVariable, Module, Range, Span, Statement, SwitchCase, Type, TypeInner,
+    Literal, LocalVariable, Module, Range, Span, Statement, SwitchCase, Type,
 };
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
-use super::types::{Names, Types, as_vector, insert, returned};
+use super::types::{Types, insert};
 use crate::Error;
 
-/// What a global variable of a kernel is to a function.
+/// The role of a kernel's global variable in a function.
 #[derive(Clone, Copy)]
 pub(super) enum Role {
     /// The number of the invocation: zero.
@@ -27,10 +26,10 @@ pub(super) enum Role {
     Local(Handle<LocalVariable>),
 }
 
-/// What is known of an expression without computing it.
+/// The value or place of an expression, if the translation fixes it.
 #[derive(Clone, Copy)]
 enum Known {
-    /// Something within a global variable of this role, so many members deep.
+    /// A part of a global variable of this role: the number of accesses that lead to it.
     Within(Role, usize),
     Word(u32),
     Bool(bool),
@@ -48,10 +47,8 @@ pub(super) struct Translation<'a, 'b> {
     locals: HashMap<Handle<LocalVariable>, Handle<LocalVariable>>,
     known: HashMap<Handle<Expression>, Known>,
     new: HashMap<Handle<Expression>, Handle<Expression>>,
-    /// Conditions that hold where the statement stands.
-    holds: HashSet<Handle<Expression>>,
-    /// What is returned in place of nothing.
-    result: Option<(Handle<LocalVariable>, Handle<Type>, Handle<Type>)>,
+    /// The result: its local variable, the type of that, and the type that is returned.
+    pub result: Option<(Handle<LocalVariable>, Handle<Type>, Handle<Type>)>,
 }
 
 impl<'a, 'b> Translation<'a, 'b> {
@@ -71,148 +68,17 @@ impl<'a, 'b> Translation<'a, 'b> {
             locals: HashMap::new(),
             known: HashMap::new(),
             new: HashMap::new(),
-            holds: HashSet::new(),
             result: None,
         }
     }
 
-    /// A local variable for the element of a buffer that belongs to an invocation, and its type.
-    pub fn own(&mut self, name: &str, element: Handle<Type>) -> Result<(Role, Handle<Type>), Error> {
-        let ty = self.types.copy(self.to, element, None)?;
-        Ok((Role::Own(self.local(name, ty)), ty))
-    }
-
-    fn local(&mut self, name: &str, ty: Handle<Type>) -> Handle<LocalVariable> {
+    pub(super) fn local(&mut self, name: &str, ty: Handle<Type>) -> Handle<LocalVariable> {
         let own = LocalVariable {
             name: Some(name.to_owned()),
             ty,
             init: None,
         };
         self.out.local_variables.append(own, Span::UNDEFINED)
-    }
-
-    /// Sets an element from arguments, as `names` say in the order of its words: `p.xyz` is a vector, `light` a number, `_` zero.
-    pub fn arguments<'n>(
-        &mut self,
-        own: Role,
-        ty: Handle<Type>,
-        names: impl IntoIterator<Item = &'n &'n str>,
-    ) -> Result<(), Error> {
-        let Role::Own(local) = own else {
-            return Err(Error("arguments for a buffer that all share".to_owned()));
-        };
-        let before = self.out.expressions.len();
-        let mut words = Vec::new();
-        self.words(ty, &mut words)?;
-        let (mut words, mut names) = (words.into_iter().peekable(), names.into_iter().copied());
-        let mut values = Vec::new();
-        while let Some(&scalar) = words.peek() {
-            let missing = || Error("fewer names of arguments than words of a query".to_owned());
-            let name = names.next().ok_or_else(missing)?;
-            let (name, parts) = name.split_once('.').unwrap_or((name, "x"));
-            for _ in parts.chars() {
-                words.next().ok_or_else(missing)?;
-            }
-            if name == "_" {
-                let ty = insert(self.to, None, TypeInner::Scalar(scalar));
-                values.push(self.append(Expression::ZeroValue(ty)));
-                continue;
-            }
-            let inner = match parts.len() {
-                1 => TypeInner::Scalar(scalar),
-                2 => TypeInner::Vector {
-                    size: naga::VectorSize::Bi,
-                    scalar,
-                },
-                _ => TypeInner::Vector {
-                    size: naga::VectorSize::Tri,
-                    scalar,
-                },
-            };
-            let argument = FunctionArgument {
-                name: Some(name.to_owned()),
-                ty: insert(self.to, None, inner),
-                binding: None,
-            };
-            let base = self.append(Expression::FunctionArgument(self.out.arguments.len() as u32));
-            self.out.arguments.push(argument);
-            match parts.len() {
-                1 => values.push(base),
-                count => {
-                    let parts =
-                        (0..count as u32).map(|index| self.append(Expression::AccessIndex { base, index }));
-                    values.extend(parts.collect::<Vec<_>>());
-                }
-            }
-        }
-        if let Some(name) = names.next() {
-            return Err(Error(format!("no word of a query is {name}")));
-        }
-        let value = self.compose(ty, &mut values.into_iter())?;
-        let pointer = self.append(Expression::LocalVariable(local));
-        let computed = self.emitted_since(before);
-        computed.into_iter().for_each(|statement| self.push(statement));
-        self.push(Statement::Store { pointer, value });
-        Ok(())
-    }
-
-    /// The scalars of a type, in order.
-    fn words(&self, ty: Handle<Type>, out: &mut Vec<naga::Scalar>) -> Result<(), Error> {
-        match &self.to.types[ty].inner {
-            TypeInner::Scalar(scalar) => out.push(*scalar),
-            TypeInner::Array {
-                base,
-                size: naga::ArraySize::Constant(count),
-                ..
-            } => {
-                (0..count.get()).try_for_each(|_| self.words(*base, out))?;
-            }
-            TypeInner::Struct { members, .. } => {
-                members.iter().try_for_each(|member| self.words(member.ty, out))?;
-            }
-            other => return Err(Error(format!("a query holds {other:?}"))),
-        }
-        Ok(())
-    }
-
-    /// A value of a type from its scalars.
-    fn compose(
-        &mut self,
-        ty: Handle<Type>,
-        words: &mut dyn Iterator<Item = Handle<Expression>>,
-    ) -> Result<Handle<Expression>, Error> {
-        let parts = match &self.to.types[ty].inner {
-            TypeInner::Array {
-                base,
-                size: naga::ArraySize::Constant(count),
-                ..
-            } => vec![*base; count.get() as usize],
-            TypeInner::Struct { members, .. } => members.iter().map(|member| member.ty).collect(),
-            _ => {
-                return words
-                    .next()
-                    .ok_or_else(|| Error("a query is longer than its words".to_owned()));
-            }
-        };
-        let components: Result<_, Error> = parts.into_iter().map(|part| self.compose(part, words)).collect();
-        Ok(self.append(Expression::Compose {
-            ty,
-            components: components?,
-        }))
-    }
-
-    /// What is stored to the element of `own` is returned, under these names.
-    pub fn returns(&mut self, own: Role, ty: Handle<Type>, names: Names) -> Result<(), Error> {
-        let Role::Own(local) = own else {
-            return Err(Error("a result in a buffer that all share".to_owned()));
-        };
-        let out = returned(self.to, ty, names)?;
-        self.result = Some((local, ty, out));
-        self.out.result = Some(FunctionResult {
-            ty: out,
-            binding: None,
-        });
-        Ok(())
     }
 
     /// Copies the function.
@@ -277,9 +143,7 @@ impl<'a, 'b> Translation<'a, 'b> {
             }
         }
         let body = self.block(&self.own.body)?;
-        let mut whole = std::mem::take(&mut self.out.body);
-        append(&mut whole, body);
-        self.out.body = whole;
+        self.out.body.extend_block(body);
         Ok(self.out)
     }
 
@@ -296,16 +160,16 @@ impl<'a, 'b> Translation<'a, 'b> {
         }
     }
 
-    fn append(&mut self, expression: Expression) -> Handle<Expression> {
+    pub(super) fn append(&mut self, expression: Expression) -> Handle<Expression> {
         self.out.expressions.append(expression, Span::UNDEFINED)
     }
 
-    fn push(&mut self, statement: Statement) {
+    pub(super) fn push(&mut self, statement: Statement) {
         self.out.body.push(statement, Span::UNDEFINED);
     }
 
     /// Statements that compute all expressions from the place `before` on.
-    fn emitted_since(&self, before: usize) -> Vec<Statement> {
+    pub(super) fn emitted_since(&self, before: usize) -> Vec<Statement> {
         let new = self.out.expressions.iter().skip(before).map(|(new, _)| new);
         self.emitted(new.collect())
     }
@@ -465,7 +329,7 @@ impl<'a, 'b> Translation<'a, 'b> {
         let mut out = Block::new();
         for statement in block.iter() {
             let statements = self.statement(statement)?;
-            append(&mut out, statements);
+            out.extend_block(statements);
         }
         Ok(out)
     }
@@ -487,18 +351,11 @@ impl<'a, 'b> Translation<'a, 'b> {
             } => match self.known.get(condition) {
                 Some(Known::Bool(true)) => return self.block(accept),
                 Some(Known::Bool(false)) => return self.block(reject),
-                // A check of an index that is checked already.
-                _ if self.holds.contains(condition) => return self.block(accept),
-                _ => {
-                    self.holds.insert(*condition);
-                    let accept = self.block(accept)?;
-                    self.holds.remove(condition);
-                    Statement::If {
-                        condition: self.at(*condition)?,
-                        accept,
-                        reject: self.block(reject)?,
-                    }
-                }
+                _ => Statement::If {
+                    condition: self.at(*condition)?,
+                    accept: self.block(accept)?,
+                    reject: self.block(reject)?,
+                },
             },
             Statement::Switch { selector, cases } => {
                 let cases = cases.iter().map(|case| {
@@ -547,44 +404,6 @@ impl<'a, 'b> Translation<'a, 'b> {
         };
         Ok(Block::from_vec(vec![one]))
     }
-
-    /// Returns the result, arrays as vectors.
-    fn returning(&mut self) -> Result<Block, Error> {
-        let Some((local, ty, out)) = self.result else {
-            return Ok(Block::new());
-        };
-        let before = self.out.expressions.len();
-        let pointer = self.append(Expression::LocalVariable(local));
-        let mut value = self.append(Expression::Load { pointer });
-        if let TypeInner::Struct { members, .. } = self.to.types[ty].inner.clone() {
-            let mut components = Vec::new();
-            for (index, member) in (0..).zip(members) {
-                let part = self.append(Expression::AccessIndex { base: value, index });
-                components.push(self.vector(member.ty, part));
-            }
-            value = self.append(Expression::Compose { ty: out, components });
-        } else {
-            value = self.vector(ty, value);
-        }
-        let mut statements = self.emitted_since(before);
-        statements.push(Statement::Return { value: Some(value) });
-        Ok(Block::from_vec(statements))
-    }
-
-    /// The value of an array as a vector; other values as they are.
-    fn vector(&mut self, ty: Handle<Type>, base: Handle<Expression>) -> Handle<Expression> {
-        let Some(vector @ TypeInner::Vector { size, .. }) = as_vector(self.to, ty) else {
-            return base;
-        };
-        let ty = insert(self.to, None, vector);
-        let parts = (0..size as u32).map(|index| self.append(Expression::AccessIndex { base, index }));
-        let components = parts.collect();
-        self.append(Expression::Compose { ty, components })
-    }
-}
-
-fn append(to: &mut Block, mut more: Block) {
-    to.append(&mut more);
 }
 
 /// The copy of a constant expression, and its type.

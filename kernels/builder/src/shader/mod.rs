@@ -5,6 +5,7 @@
 
 mod function;
 mod print;
+mod query;
 mod types;
 
 use naga::{

@@ -75,7 +75,7 @@ fn main() -> Result<()> {
         .first()
         .ok_or("path_wgpu: no Vulkan adapter with immediates")?;
 
-    // The lamps, and a second of their way.
+    // The lamps, and one second of their motion.
     let mut bvh = LightBvh::default();
     let lamps = bvh
         .apply(vec![Edit::AddMesh {

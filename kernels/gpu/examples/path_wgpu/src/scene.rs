@@ -1,4 +1,4 @@
-//! The lamps: what the engine tells lightbvh.
+//! The lamps, and their edits in each frame.
 
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::{Edit, EmissiveTriangle, LightBvh, MeshId, Transform};

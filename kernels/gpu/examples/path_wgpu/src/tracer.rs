@@ -11,7 +11,7 @@ use crate::Result;
 use crate::engine::Engine;
 use crate::lights::DeviceLights;
 
-/// Of each pixel the radiance, and the distance of what is seen, metres.
+/// Radiance of each pixel, and the distance of the surface seen there, metres.
 pub type Image = Vec<[f32; 4]>;
 
 // As in `path.wgsl`.

@@ -98,7 +98,7 @@ pub extern "C" fn follow() -> *const u32 {
     })
 }
 
-/// Workgroups of so many invocations for a dispatch: x in the lower 16 bits, y in the upper.
+/// The number of workgroups, each of `width` invocations, for `count` invocations: x in the lower 16 bits, y in the upper.
 #[unsafe(no_mangle)]
 pub extern "C" fn groups(count: u32, width: u32) -> u32 {
     let [x, y, _] = lightbvh_gpu::groups(count, width).expect("32 bits number all invocations");
