@@ -2,7 +2,7 @@
 //!
 //! Every function takes the nodes as they are and returns one node, so that the CPU and the kernels run the same
 //! body and each node is written by one invocation. The order of passes: [`bottom`] from the deepest level of the bottom
-//! levels to their roots; [`root`] for each bottom level; [`top`] from the deepest level of the top level to its root.
+//! levels to their roots, then [`top`] from the deepest level of the top level to its root.
 //! Children are merged in an order of the slots, so no order of execution shows in the bits. Kernels compute a node in two passes, its
 //! children one by one and then itself ([`bottom_child`], [`top_child`], [`assembled`]): the same words.
 
@@ -103,7 +103,7 @@ pub fn root<N: Node<W>, const W: usize>(nodes: &[N], root: u32) -> BlasRoot {
     BlasRoot::new(root, &nodes[node as usize].merged())
 }
 
-/// A node of the top level, with the summaries of its instances, from their bottom levels' roots or their one light, and of the nodes below it.
+/// A node of the top level, with the summaries of its instances and of the nodes below it.
 /// `nodes` holds the bottom levels and from `first` on the top level, as on a device; `index` counts in all of it. A
 /// [plan's](crate::bvh::RefitPlan::top) list counts from `first`.
 #[inline]
@@ -113,14 +113,13 @@ pub fn top<N: Node<W>, const W: usize>(
     first: u32,
     lights: &[N::Light],
     instances: &[Instance],
-    roots: &[BlasRoot],
     index: u32,
 ) -> N {
     let mut node = nodes[index as usize];
     let mut children = Lanes::<W>([[0.0; W]; SUMMARY_WORDS]);
     let mut limits = [Limits::NONE; W];
     for slot in 0..W {
-        let child = top_child(nodes, first, lights, instances, roots, index, slot);
+        let child = top_child(nodes, first, lights, instances, index, slot);
         children.set(slot, &child.summary);
         limits[slot] = child.limits;
     }

@@ -43,9 +43,6 @@ pub fn node_words(data: &[u8], forms: Forms) {
         let instances: Vec<Instance> = (0..u.int_in_range(0..=3)?)
             .map(|_| Ok(bytemuck::cast(u.arbitrary::<[u32; 34]>()?)))
             .collect::<Result<_>>()?;
-        let roots: Vec<refit::BlasRoot> = (0..u.int_in_range(0..=3)?)
-            .map(|_| Ok(bytemuck::cast(u.arbitrary::<[u32; 13]>()?)))
-            .collect::<Result<_>>()?;
         let trails: Vec<u32> = (0..u.int_in_range(0..=8)?)
             .map(|_| u.arbitrary())
             .collect::<Result<_>>()?;
@@ -110,7 +107,7 @@ pub fn node_words(data: &[u8], forms: Forms) {
         }
         for i in 0..nodes.len() as u32 {
             let _ = refit::bottom(&nodes, &triangles, i);
-            let _ = refit::top(&nodes, words.top, &triangles, &instances, &roots, i);
+            let _ = refit::top(&nodes, words.top, &triangles, &instances, i);
             let _ = refit::root(&nodes, i);
         }
         Ok(())

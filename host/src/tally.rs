@@ -19,7 +19,7 @@ use crate::words::{Record, compare_words};
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub(crate) enum Kind {
-    /// And roots: what a refit computes.
+    /// What a refit computes.
     Nodes,
     /// The other arrays of a light BVH.
     Uploads,
@@ -97,7 +97,7 @@ impl Tally {
 /// What a device, or the CPU, holds of a light BVH after a refit.
 fn kind_of(buffer: DeviceBuffer) -> Kind {
     match buffer {
-        DeviceBuffer::Nodes | DeviceBuffer::Roots => Kind::Nodes,
+        DeviceBuffer::Nodes => Kind::Nodes,
         _ => Kind::Uploads,
     }
 }

@@ -3,7 +3,7 @@
 use glam::UVec3;
 use lightbvh::light::{AnyLight, Light};
 use lightbvh::refit::world_light;
-use lightbvh::refit::{self, BlasRoot, Children, LIMITED_ROWS};
+use lightbvh::refit::{self, Children, LIMITED_ROWS};
 use lightbvh::{Instance, LightPoint, Random64, SampledLight};
 use spirv_std::spirv;
 
@@ -26,8 +26,7 @@ refit_passes!(
     AnyLight,
     refit_bottom_any = "refit_bottom_any",
     refit_top_any = "refit_top_any",
-    refit_nodes_any = "refit_nodes_any",
-    refit_roots_any = "refit_roots_any"
+    refit_nodes_any = "refit_nodes_any"
 );
 
 /// A pass of points on lights that depend on the receiver, a field `point` of `$query`.

@@ -91,32 +91,7 @@ macro_rules! query_passes {
     };
 }
 
-/// The pass over roots of bottom levels.
-macro_rules! roots_pass {
-    ($node:ty, $roots:ident = $roots_name:tt) => {
-        /// The summaries of bottom levels `list[first + i]` from their root nodes.
-        #[spirv(compute(threads(64), entry_point_name = $roots_name))]
-        pub fn $roots(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RefitPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] nodes: &[$node],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &mut [BlasRoot],
-        ) {
-            let i = invocation(id);
-            let entry = push.first.wrapping_add(i);
-            if i < push.count && entry < list.len() as u32 {
-                let blas = list[entry as usize];
-                if blas < roots.len() as u32 {
-                    roots[blas as usize] = refit::root(nodes, roots[blas as usize].node);
-                }
-            }
-        }
-    };
-}
-
-/// The four passes over one type of node, its width and its rows of [`Children`], and of light; without the last where another
-/// type's does.
+/// The three passes over one type of node, its width and its rows of [`Children`], and of light.
 macro_rules! refit_passes {
     (
         $node:ty,
@@ -126,7 +101,6 @@ macro_rules! refit_passes {
         $bottom:ident = $bottom_name:tt,
         $top:ident = $top_name:tt,
         $nodes:ident = $nodes_name:tt
-        $(, $roots:ident = $roots_name:tt)?
     ) => {
         /// Writes the summary of each child of the nodes `list[first + k]`, all of one level of bottom levels, into `children` for
         /// `refit_nodes`: of its light, or of the node below. Invocation `i` computes child `i % width` of node `k = i / width`.
@@ -155,7 +129,7 @@ macro_rules! refit_passes {
         }
 
         /// Writes the summary of each child of the top-level nodes `list[first + k]`, all of one level, into `children` for `refit_nodes`:
-        /// of its instance, from the bottom level's root or its one light, or of the node below. Invocations as of the pass over bottom levels.
+        /// of its instance, or of the node below. Invocations as of the pass over bottom levels.
         #[spirv(compute(threads(64), entry_point_name = $top_name))]
         pub fn $top(
             #[spirv(global_invocation_id)] id: UVec3,
@@ -163,9 +137,8 @@ macro_rules! refit_passes {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] lights: &[$light],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] instances: &[Instance],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] roots: &[BlasRoot],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] nodes: &[$node],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] children: &mut [Children<
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] nodes: &[$node],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] children: &mut [Children<
                 { $width },
                 { $rows },
             >],
@@ -176,7 +149,7 @@ macro_rules! refit_passes {
             if i < push.count && entry < list.len() as u32 {
                 let node = list[entry as usize];
                 if node < nodes.len() as u32 {
-                    let child = refit::top_child(nodes, push.top, lights, instances, roots, node, slot);
+                    let child = refit::top_child(nodes, push.top, lights, instances, node, slot);
                     child.put(children, place, slot);
                 }
             }
@@ -203,7 +176,6 @@ macro_rules! refit_passes {
                 }
             }
         }
-        $(roots_pass!($node, $roots = $roots_name);)?
     };
 }
 

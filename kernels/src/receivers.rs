@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
 use lightbvh::importance::{Cell, LinkedPoint};
 use lightbvh::light::{AnyLight, Light};
-use lightbvh::refit::{self, BlasRoot, Children, LIMITED_ROWS, world_light};
+use lightbvh::refit::{self, Children, LIMITED_ROWS, world_light};
 use lightbvh::tree::{Masked, Model};
 use lightbvh::{Instance, LightPoint, LightTree, Random64, SampledLight, ShadingPoint};
 use spirv_std::spirv;
@@ -89,6 +89,5 @@ refit_passes!(
     AnyLight,
     refit_bottom_linked = "refit_bottom_linked",
     refit_top_linked = "refit_top_linked",
-    refit_nodes_linked = "refit_nodes_linked",
-    refit_roots_linked = "refit_roots_linked"
+    refit_nodes_linked = "refit_nodes_linked"
 );

@@ -1,9 +1,9 @@
-//! Passes `refit_bottom`, `refit_top`, `refit_nodes`, `refit_roots`: new summaries bottom-up (paper section 3.4) of the nodes listed, so
+//! Passes `refit_bottom`, `refit_top`, `refit_nodes`: new summaries bottom-up (paper section 3.4) of the nodes listed, so
 //! that only what changed costs anything. A level is two dispatches: one invocation for each child of its nodes, then one for each node. A
 //! barrier stands between dispatches.
 
 use glam::UVec3;
-use lightbvh::refit::{self, BlasRoot, Children, PLAIN_ROWS};
+use lightbvh::refit::{self, Children, PLAIN_ROWS};
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
@@ -18,8 +18,7 @@ refit_passes!(
     EmissiveTriangle,
     refit_bottom = "refit_bottom",
     refit_top = "refit_top",
-    refit_nodes = "refit_nodes",
-    refit_roots = "refit_roots"
+    refit_nodes = "refit_nodes"
 );
 refit_passes!(
     PaperNode,
@@ -28,8 +27,7 @@ refit_passes!(
     EmissiveTriangle,
     refit_bottom_eq4 = "refit_bottom_eq4",
     refit_top_eq4 = "refit_top_eq4",
-    refit_nodes_eq4 = "refit_nodes_eq4",
-    refit_roots_eq4 = "refit_roots_eq4"
+    refit_nodes_eq4 = "refit_nodes_eq4"
 );
 
 #[cfg(test)]
@@ -84,25 +82,14 @@ mod tests {
         for i in [1, 2, 0] {
             expected[i as usize] = refit::bottom(&expected, &lights, i);
         }
-        let roots = [refit::root(&expected, 0)];
         for i in [4, 3] {
-            expected[i as usize] = refit::top(&expected, TOP, &lights, &instances, &roots, i);
+            expected[i as usize] = refit::top(&expected, TOP, &lights, &instances, i);
         }
 
         let list = [77, 1, 5, 2, 0, u32::MAX, 4, 3];
         let mut children = vec![[[0; WIDTH]; PLAIN_ROWS]; 3];
         let id = |i: u32| UVec3::new(i, 0, 0);
-        let mut found = vec![BlasRoot::new(0, &lightbvh::device::moments::LightMoments::EMPTY)];
         for (first, count, is_top) in [(1, 3, false), (4, 1, false), (5, 2, true), (7, 1, true)] {
-            if first == 5 {
-                let push = RefitPush {
-                    first: 4,
-                    count: 1,
-                    top: TOP,
-                };
-                (0..64).for_each(|i| refit_roots(id(i), &push, &list, &nodes, &mut found));
-                assert_eq!(found, roots);
-            }
             let width = WIDTH as u32;
             let push = RefitPush {
                 first,
@@ -111,16 +98,7 @@ mod tests {
             };
             for i in 0..64 {
                 if is_top {
-                    refit_top(
-                        id(i),
-                        &push,
-                        &list,
-                        &lights,
-                        &instances,
-                        &found,
-                        &nodes,
-                        &mut children,
-                    );
+                    refit_top(id(i), &push, &list, &lights, &instances, &nodes, &mut children);
                 } else {
                     refit_bottom(id(i), &push, &list, &lights, &nodes, &mut children);
                 }

@@ -20,10 +20,9 @@ use lightbvh_tests::devices::{devices, open};
 /// What a sample costs a software device with kernels ten times as long.
 const QUERIES: u32 = 4000;
 /// The quantised moments of a node round away most of what contraction does to them; the bounds of Eq. 4 do not.
-const KERNELS: [&str; 7] = [
+const KERNELS: [&str; 6] = [
     "self_test",
     "refit_bottom_eq4",
-    "refit_roots_eq4",
     "refit_top_eq4",
     "refit_nodes_eq4",
     "sample_eq4",

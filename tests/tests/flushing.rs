@@ -13,7 +13,7 @@ use lightbvh::light::{AnyLight, Light};
 use lightbvh::node::{
     CompactNode, LinkedSpotMomentNode, MomentNode, Node, SpotMomentNode, TwoSidedMomentNode,
 };
-use lightbvh::refit::{self, LIMITED_ROWS, PLAIN_ROWS, assembled, bottom_child, top_child};
+use lightbvh::refit::{LIMITED_ROWS, PLAIN_ROWS, assembled, bottom_child, top_child};
 use lightbvh::{Bvh, Defensive, Eq4, FluxOverDistance, GlossyPoint, Moments, Random64, ShadingPoint, exact};
 use lightbvh_peers::{Falcor, Pbrt};
 use lightbvh_tests::generate::Random;
@@ -42,12 +42,12 @@ fn words<T: Pod>(values: &[T]) -> Vec<u32> {
     cast_slice(values).to_vec()
 }
 
-/// All nodes and roots, computed anew in the order of the passes, child by child.
+/// All nodes, computed anew in the order of the passes, child by child.
 #[inline(never)]
-fn refitted<N: Node<W>, const W: usize, const ROWS: usize>(bvh: &Bvh<(N, ()), W>) -> (Vec<u32>, Vec<u32>) {
+fn refitted<N: Node<W>, const W: usize, const ROWS: usize>(bvh: &Bvh<(N, ()), W>) -> Vec<u32> {
     let (plan, view) = (Cursor::default().plan(bvh), bvh.view());
     let (triangles, instances) = (view.lights(), view.instances());
-    let (mut nodes, mut roots) = ([view.nodes(), view.top_nodes()].concat(), view.roots().to_vec());
+    let mut nodes = [view.nodes(), view.top_nodes()].concat();
     let first = view.nodes().len() as u32;
     let mut children = [[[0; W]; ROWS]];
     for &index in plan.bottom.nodes() {
@@ -56,21 +56,14 @@ fn refitted<N: Node<W>, const W: usize, const ROWS: usize>(bvh: &Bvh<(N, ()), W>
         }
         nodes[index as usize] = assembled(&nodes, index, &children, 0);
     }
-    for &index in &plan.roots {
-        roots[index as usize] = refit::root(&nodes, roots[index as usize].node);
-    }
     for &index in plan.top.nodes() {
         let index = first + index;
         for slot in 0..W {
-            top_child::<N, W>(&nodes, first, triangles, instances, &roots, index, slot).put(
-                &mut children,
-                0,
-                slot,
-            );
+            top_child::<N, W>(&nodes, first, triangles, instances, index, slot).put(&mut children, 0, slot);
         }
         nodes[index as usize] = assembled(&nodes, index, &children, 0);
     }
-    (words(&nodes), words(&roots))
+    words(&nodes)
 }
 
 /// What a query answers: the sample, the pmf of another light, the light itself, a point on it, what that sends.
@@ -131,9 +124,8 @@ where
         let [plain, flushed] = in_both(|| refitted::<N, W, ROWS>(&bvh));
         // What the passes compute is what the tree holds.
         let held = [bvh.view().nodes(), bvh.view().top_nodes()].concat();
-        assert_eq!(plain, (words(&held), words(bvh.view().roots())), "scene {seed}");
-        same("roots", &[plain.1, flushed.1]);
-        same("nodes", &[plain.0, flushed.0]);
+        assert_eq!(plain, words(&held), "scene {seed}");
+        same("nodes", &[plain, flushed]);
         for _ in 0..8 {
             queries(&bvh, random, &sizes);
         }

@@ -79,8 +79,8 @@ pub struct Cursor {
 }
 
 /// Ranges that a mirror of the arrays copies, and lists of the nodes that it then computes. Copy first, then run
-/// [`refit::bottom`](crate::refit::bottom), [`refit::root`](crate::refit::root) and [`refit::top`](crate::refit::top) over the
-/// lists in this order, each range of levels by itself. The mirror's nodes are one array, the top level behind the others.
+/// [`refit::bottom`](crate::refit::bottom) and [`refit::top`](crate::refit::top) over their lists in this order, each range of levels by
+/// itself. The mirror's nodes are one array, the top level behind the others.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct RefitPlan {
@@ -106,18 +106,15 @@ pub struct RefitPlan {
     pub written_parts: Vec<Range<u32>>,
     /// Nodes of bottom levels to compute.
     pub bottom: Levels,
-    /// Meshes whose roots are to be computed. A mirror takes the node's index from [`View::roots`](super::View::roots) and computes
-    /// [`refit::root`](crate::refit::root) from its own nodes.
-    pub roots: Vec<u32>,
     /// Nodes of the top level to compute.
     pub top: Levels,
 }
 
 impl RefitPlan {
-    /// Number of nodes and roots that the passes compute.
+    /// Number of nodes that the passes compute.
     #[must_use]
     pub fn computed(&self) -> usize {
-        self.bottom.nodes().len() + self.roots.len() + self.top.nodes().len()
+        self.bottom.nodes().len() + self.top.nodes().len()
     }
 }
 
@@ -192,19 +189,17 @@ impl Cursor {
         plan.written_trails = joined(with_trees.map(|own| own.lights.clone()).collect());
         meshes.extend(trees);
         let mut pairs = Vec::new();
-        let mut roots = meshes.clone();
+        let mut changed = meshes.clone();
         for (mesh, range) in paths.into_iter().filter(|(mesh, _)| is_live(mesh)) {
             let own = &bvh.meshes[mesh as usize].lights;
             let range = range.start.max(own.start)..range.end.min(own.end);
             if !meshes.contains(&mesh) && !range.is_empty() {
-                roots.insert(mesh);
+                changed.insert(mesh);
                 pairs.extend(bvh.path_nodes(mesh, range));
             }
         }
         meshes.iter().for_each(|&mesh| pairs.extend(bvh.mesh_nodes(mesh)));
         plan.bottom = Levels::by_height(&sorted(pairs));
-        let changed: Vec<u32> = roots.into_iter().collect();
-        plan.roots = bvh.with_roots(&changed);
         if !plan.whole_top {
             bvh.plan_links(&mut plan, links.clone());
         }
@@ -263,16 +258,9 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
             everything: true,
             whole_top: true,
             bottom: Levels::by_height(&sorted(pairs)),
-            roots: self.with_roots(&meshes),
             top: Levels::by_height(&self.top.by_height()),
             ..RefitPlan::default()
         }
-    }
-
-    /// Those of the meshes that have nodes.
-    fn with_roots(&self, meshes: &[u32]) -> Vec<u32> {
-        let has_root = |mesh: &u32| self.meshes[*mesh as usize].root() != INVALID;
-        meshes.iter().copied().filter(has_root).collect()
     }
 
     /// The nodes of a mesh by height.

@@ -200,14 +200,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
         bare(&mut again[first..], &top.nodes, &found);
         for node in found.upward() {
             let (first, at) = (first as u32, first + node as usize);
-            again[at] = refit::top(
-                &again,
-                first,
-                &self.lights,
-                &self.instances,
-                &self.roots,
-                at as u32,
-            );
+            again[at] = refit::top(&again, first, &self.lights, &self.instances, at as u32);
             same_words(node, INVALID, &again[at], &top.nodes[node as usize])?;
             let own = &top.nodes[node as usize];
             let inner = (0..W).filter(|&slot| own.kind(slot) == kind::INNER);

@@ -6,8 +6,10 @@
 
 use glam::Vec3;
 
-use super::limits::{has_limits, in_world, limits_of_light, limits_of_root};
-use super::{BlasRoot, Instance};
+#[cfg(feature = "alloc")]
+use super::BlasRoot;
+use super::Instance;
+use super::limits::{has_limits, in_world, limits_of_light};
 use crate::beam::{Beam, Limits};
 use crate::node::{Node, kind};
 use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
@@ -88,9 +90,20 @@ impl<S: Summary> Child<S> {
             }
         }
     }
+
+    /// The child of an instance, of what it holds in the mesh's space.
+    #[inline(always)]
+    fn to_world<N: Node<W, Summary = S>, const W: usize>(self, instance: &Instance) -> Self {
+        let summary = self.summary.to_world(instance);
+        let mut limits = self.limits;
+        if has_limits::<N, W>() {
+            limits = in_world::<N, W>(limits, instance, &summary);
+        }
+        Self { summary, limits }
+    }
 }
 
-/// Child `slot` of node `index` of a bottom level: of its triangle, or of the node below.
+/// Child `slot` of node `index` of a bottom level: of its light, or of the node below.
 #[inline(always)]
 #[must_use]
 pub fn bottom_child<N: Node<W>, const W: usize>(
@@ -99,14 +112,8 @@ pub fn bottom_child<N: Node<W>, const W: usize>(
     index: u32,
     slot: usize,
 ) -> Child<N::Summary> {
-    let (to, link) = (nodes[index as usize].kind(slot), nodes[index as usize].link(slot));
-    let mut child = Child::EMPTY;
-    if to == kind::LIGHT && link < lights.len() as u32 {
-        child = light_child::<N, W>(&lights[link as usize]);
-    } else if to == kind::INNER && link < nodes.len() as u32 {
-        child = inner_child(nodes, link);
-    }
-    child
+    let node = &nodes[index as usize];
+    held(nodes, lights, node.kind(slot), node.link(slot)).0
 }
 
 /// Child `slot` of node `index` of the top level, whose nodes begin at `first`: of its instance, or of the node below.
@@ -117,22 +124,68 @@ pub fn top_child<N: Node<W>, const W: usize>(
     first: u32,
     lights: &[N::Light],
     instances: &[Instance],
-    roots: &[BlasRoot],
     index: u32,
     slot: usize,
 ) -> Child<N::Summary> {
-    let (to, link) = (nodes[index as usize].kind(slot), nodes[index as usize].link(slot));
-    let below = link.wrapping_add(first);
-    let mut child = Child::EMPTY;
-    if to == kind::MESH {
-        child = leaf_child(nodes, lights, instances, roots, link);
-    } else if to == kind::INNER && below < nodes.len() as u32 {
-        child = inner_child(nodes, below);
+    let (to, mut link) = (nodes[index as usize].kind(slot), nodes[index as usize].link(slot));
+    if to == kind::INNER {
+        link = link.wrapping_add(first);
+    }
+    linked_child(nodes, lights, instances, to, link)
+}
+
+/// What a child of the top level of that kind and link holds, nodes counted from the first of `nodes`.
+#[inline(always)]
+fn linked_child<N: Node<W>, const W: usize>(
+    nodes: &[N],
+    lights: &[N::Light],
+    instances: &[Instance],
+    kind: u32,
+    link: u32,
+) -> Child<N::Summary> {
+    let (mut to, mut link, mut instance) = (kind, link, INVALID);
+    if kind == kind::MESH {
+        let (own, part) = leaf_parts(link);
+        to = kind::EMPTY;
+        if own < instances.len() as u32 {
+            instance = own;
+            let root = instances[own as usize].root;
+            if root == INVALID {
+                (to, link) = (kind::LIGHT, instances[own as usize].first_light);
+            } else if part == 0 {
+                (to, link) = (kind::INNER, root);
+            } else if root < nodes.len() as u32 {
+                let (root, slot) = (root as usize, (part as usize - 1) % W);
+                (to, link) = (nodes[root].kind(slot), nodes[root].link(slot));
+            }
+        }
+    }
+    let (mut child, is_there) = held(nodes, lights, to, link);
+    if is_there && instance < instances.len() as u32 {
+        child = child.to_world::<N, W>(&instances[instance as usize]);
     }
     child
 }
 
-/// Summary and limits of the [leaf](crate::trail::leaf) `link` of the top level: an instance, or a part of one.
+/// The light or the node of that kind and link, and whether there is one.
+#[inline(always)]
+fn held<N: Node<W>, const W: usize>(
+    nodes: &[N],
+    lights: &[N::Light],
+    kind: u32,
+    link: u32,
+) -> (Child<N::Summary>, bool) {
+    let (mut child, mut is_there) = (Child::EMPTY, false);
+    if kind == kind::LIGHT && link < lights.len() as u32 {
+        (child, is_there) = (light_child::<N, W>(&lights[link as usize]), true);
+    } else if kind == kind::INNER && link < nodes.len() as u32 {
+        (child, is_there) = (inner_child(nodes, link), true);
+    }
+    (child, is_there)
+}
+
+/// The [leaf](crate::trail::leaf) `link` of the top level: an instance, whose mesh's summary stands in `roots`, or a part of one.
+#[cfg(feature = "alloc")]
 #[inline(always)]
 pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
     nodes: &[N],
@@ -142,38 +195,16 @@ pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
     link: u32,
 ) -> Child<N::Summary> {
     let (index, part) = leaf_parts(link);
-    let mut child = Child::EMPTY;
-    if index < instances.len() as u32 {
-        let instance = &instances[index as usize];
-        let (blas, light) = (instance.blas, instance.first_light);
-        let mut local = Child::EMPTY;
-        let mut known = false;
-        if instance.root == INVALID {
-            known = light < lights.len() as u32;
-            if known {
-                local = light_child::<N, W>(&lights[light as usize]);
-            }
-        } else if part > 0 {
-            known = instance.root < nodes.len() as u32;
-            if known {
-                local = bottom_child(nodes, lights, instance.root, (part as usize - 1) % W);
-            }
-        } else if blas < roots.len() as u32 {
-            known = true;
-            let root_of = roots[blas as usize];
-            local.summary = root_of.summary();
-            if has_limits::<N, W>() {
-                local.limits = limits_of_root(nodes, &root_of);
-            }
-        }
-        if known {
-            child.summary = local.summary.to_world(instance);
-            if has_limits::<N, W>() {
-                child.limits = in_world::<N, W>(local.limits, instance, &child.summary);
-            }
-        }
+    let instance = match instances.get(index as usize) {
+        Some(own) if part == 0 && own.root != INVALID => own,
+        _ => return linked_child(nodes, lights, instances, kind::MESH, link),
+    };
+    let mut local = Child::EMPTY;
+    local.summary = roots[instance.blas as usize].summary();
+    if has_limits::<N, W>() {
+        local.limits = nodes[instance.root as usize].merged_limits(&local.summary);
     }
-    child
+    local.to_world::<N, W>(instance)
 }
 
 /// A light as a child.

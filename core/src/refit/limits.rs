@@ -3,7 +3,6 @@
 //! A union of masks is exact, so a child has a bit just where a light below it with flux has that bit. A walk that keeps to children with a
 //! common bit comes to no dead end. A beam holds those of all lights below.
 
-use super::BlasRoot;
 use crate::beam::{Beam, Limits};
 use crate::instance::Instance;
 use crate::light::Light;
@@ -56,16 +55,6 @@ pub(super) fn limits_of_light<N: Node<W>, const W: usize>(light: &N::Light) -> L
         } else {
             Limits::ENDLESS
         },
-    }
-}
-
-/// The limits of a bottom level. They stand in the node of the root alone, so that the records of roots are the same without limits.
-#[inline(always)]
-pub(super) fn limits_of_root<N: Node<W>, const W: usize>(nodes: &[N], root: &BlasRoot) -> Limits {
-    if root.node < nodes.len() as u32 {
-        nodes[root.node as usize].merged_limits(&root.summary())
-    } else {
-        Limits::NONE
     }
 }
 

@@ -5,7 +5,6 @@ use std::time::Duration;
 
 use bytemuck::{Pod, bytes_of, cast_slice};
 use lightbvh::node::Node;
-use lightbvh::refit::BlasRoot;
 use lightbvh::{Instance, TreeWords};
 use lightbvh_gpu::{DeviceBuffer, Frame, KernelSet, Mirror, Step};
 
@@ -22,7 +21,6 @@ pub struct Mirrored<'d, N: Node<W>, const W: usize> {
     instances: Buffer<Instance>,
     /// Bytes of the lights and instances that there are: kernels see no more of them.
     used: [usize; 2],
-    roots: Buffer<BlasRoot>,
     pub(super) trails: Buffer<u32>,
     list: Buffer<u32>,
     children: Buffer<u32>,
@@ -40,7 +38,6 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
             lights: device.buffer(0)?,
             instances: device.buffer(0)?,
             used: [0; 2],
-            roots: device.buffer(0)?,
             trails: device.buffer(0)?,
             list: device.buffer(0)?,
             children: device.buffer(0)?,
@@ -80,7 +77,6 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
             DeviceBuffer::Nodes => self.nodes.bind(),
             DeviceBuffer::Lights => self.lights.bind().first(self.used[0]),
             DeviceBuffer::Instances => self.instances.bind().first(self.used[1]),
-            DeviceBuffer::Roots => self.roots.bind(),
             DeviceBuffer::Trails => self.trails.bind(),
             DeviceBuffer::List => self.list.bind(),
             DeviceBuffer::Children => self.children.bind(),
@@ -164,7 +160,6 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
         write(device, &mut self.nodes, frame, DeviceBuffer::Nodes)?;
         write(device, &mut self.lights, frame, DeviceBuffer::Lights)?;
         write(device, &mut self.instances, frame, DeviceBuffer::Instances)?;
-        write(device, &mut self.roots, frame, DeviceBuffer::Roots)?;
         write(device, &mut self.trails, frame, DeviceBuffer::Trails)?;
         write(device, &mut self.list, frame, DeviceBuffer::List)?;
         write(device, &mut self.children, frame, DeviceBuffer::Children)

@@ -2,7 +2,6 @@
 
 use bytemuck::cast_slice;
 use lightbvh::Instance;
-use lightbvh::refit::BlasRoot;
 use lightbvh::tree::Model;
 use lightbvh_gpu::{DeviceBuffer, Mirror};
 
@@ -50,7 +49,6 @@ pub(super) fn held_by<M: Model<W>, const W: usize>(
         (DeviceBuffer::Nodes, size_of::<M::Node>()),
         (DeviceBuffer::Lights, size_of::<M::Light>()),
         (DeviceBuffer::Instances, size_of::<Instance>()),
-        (DeviceBuffer::Roots, size_of::<BlasRoot>()),
         (DeviceBuffer::Trails, size_of::<u32>()),
     ];
     let held = buffers.into_iter().map(|(buffer, bytes)| {

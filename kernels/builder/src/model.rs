@@ -18,7 +18,7 @@ use glam::UVec3;
 use lightbvh::importance::*;
 use lightbvh::light::*;
 use lightbvh::node::*;
-use lightbvh::refit::{self, BlasRoot, Children, child_rows};
+use lightbvh::refit::{self, Children, child_rows};
 use lightbvh::tree::{AnyKind, Masked, Model, Paper, Triangles};
 use lightbvh::*;
 use passes::{QueryPush, RefitPush, invocation};
@@ -50,8 +50,7 @@ refit_passes!(
     <Own as Model<WIDTH>>::Light,
     refit_bottom = "refit_bottom",
     refit_top = "refit_top",
-    refit_nodes = "refit_nodes",
-    refit_roots = "refit_roots"
+    refit_nodes = "refit_nodes"
 );
 "#;
 

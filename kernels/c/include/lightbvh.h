@@ -304,22 +304,21 @@ lightbvh_status lightbvh_forget_removed_lights(lightbvh *bvh);
 
 /* ---- Devices: Vulkan 1.2 with vulkanMemoryModel, or another API that takes SPIR-V (kernels/gpu/README.md) ---- */
 
-/* Storage buffers. The steps of lightbvh_mirror_frame fill the first seven. The engine fills QUERIES, SAMPLES, NUMBERS
+/* Storage buffers. The steps of lightbvh_mirror_frame fill the first six. The engine fills QUERIES, SAMPLES, NUMBERS
  * and OPERANDS, and reads RESULTS and ANSWERS, which kernels write. */
 typedef enum lightbvh_buffer {
     LIGHTBVH_NODES = 0,
     LIGHTBVH_LIGHTS = 1,
     LIGHTBVH_INSTANCES = 2,
-    LIGHTBVH_ROOTS = 3,
-    LIGHTBVH_TRAILS = 4,
-    LIGHTBVH_LIST = 5,     /* uploaded whole in each frame. Frames under way at once need one each */
-    LIGHTBVH_CHILDREN = 6, /* written and read by the refit's kernels alone. Frames under way at once need one each */
-    LIGHTBVH_QUERIES = 7,  /* lightbvh_query; lightbvh_masked_query of LIGHTBVH_MASKED_LIGHTS */
-    LIGHTBVH_RESULTS = 8,  /* of _SAMPLE lightbvh_sampled_light, of _PMF float, of _LIGHT_POINTS lightbvh_light_point */
-    LIGHTBVH_SAMPLES = 9,  /* lightbvh_sampled_light: the buffer that _SAMPLE wrote as its RESULTS */
-    LIGHTBVH_NUMBERS = 10, /* float[2], in [0, 1) */
-    LIGHTBVH_OPERANDS = 11,
-    LIGHTBVH_ANSWERS = 12
+    LIGHTBVH_TRAILS = 3,
+    LIGHTBVH_LIST = 4,     /* uploaded whole in each frame. Frames under way at once need one each */
+    LIGHTBVH_CHILDREN = 5, /* written and read by the refit's kernels alone. Frames under way at once need one each */
+    LIGHTBVH_QUERIES = 6,  /* lightbvh_query; lightbvh_masked_query of LIGHTBVH_MASKED_LIGHTS */
+    LIGHTBVH_RESULTS = 7,  /* of _SAMPLE lightbvh_sampled_light, of _PMF float, of _LIGHT_POINTS lightbvh_light_point */
+    LIGHTBVH_SAMPLES = 8,  /* lightbvh_sampled_light: the buffer that _SAMPLE wrote as its RESULTS */
+    LIGHTBVH_NUMBERS = 9,  /* float[2], in [0, 1) */
+    LIGHTBVH_OPERANDS = 10,
+    LIGHTBVH_ANSWERS = 11
 } lightbvh_buffer;
 
 /* Points on sampled lights: after _SAMPLE dispatch _LIGHT_POINTS with the same QUERIES, the RESULTS of _SAMPLE bound as
@@ -331,13 +330,12 @@ typedef enum lightbvh_buffer {
  * sign if the light is LIGHTBVH_TWO_SIDED. If c is not above 0, the result is 0. */
 typedef enum lightbvh_kernel_id {
     LIGHTBVH_REFIT_BOTTOM = 0,
-    LIGHTBVH_REFIT_ROOTS = 1,
-    LIGHTBVH_REFIT_TOP = 2,
-    LIGHTBVH_REFIT_NODES = 3,
-    LIGHTBVH_SAMPLE = 4,       /* a sample for each query; push constants: lightbvh_frame.push */
-    LIGHTBVH_PMF = 5,          /* the probability of each query's light; the same push constants */
-    LIGHTBVH_LIGHT_POINTS = 6, /* a point on each sample's light, for its query; push constant: their number */
-    LIGHTBVH_SELF_TEST = 7     /* 128 invocations; push constant: 128 */
+    LIGHTBVH_REFIT_TOP = 1,
+    LIGHTBVH_REFIT_NODES = 2,
+    LIGHTBVH_SAMPLE = 3,       /* a sample for each query; push constants: lightbvh_frame.push */
+    LIGHTBVH_PMF = 4,          /* the probability of each query's light; the same push constants */
+    LIGHTBVH_LIGHT_POINTS = 5, /* a point on each sample's light, for its query; push constant: their number */
+    LIGHTBVH_SELF_TEST = 6     /* 128 invocations; push constant: 128 */
 } lightbvh_kernel_id;
 
 /* What LIGHTBVH_SAMPLE and LIGHTBVH_PMF are asked: the random number, its high word first; the light and its

@@ -21,7 +21,6 @@ fn kernel(model: u32, which: u32) -> Result<&'static Kernel, Fault> {
     };
     let all = [
         set.refit_bottom,
-        set.refit_roots,
         set.refit_top,
         set.refit_nodes,
         set.sample,

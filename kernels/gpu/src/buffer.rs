@@ -10,11 +10,9 @@ pub enum DeviceBuffer {
     Lights,
     /// The instances.
     Instances,
-    /// The roots of bottom levels. A refit writes them.
-    Roots,
     /// The bit trails of lights, `LightTree::trail_words` words each, and the links of the top level, for pmfs.
     Trails,
-    /// Indices of the nodes and roots that a frame's refit computes. Like [`Children`](Self::Children) it belongs to one frame
+    /// Indices of the nodes that a frame's refit computes. Like [`Children`](Self::Children) it belongs to one frame
     /// until the device is done with it.
     List,
     /// Passed from one dispatch of a refit to the next; never uploaded.
@@ -23,11 +21,10 @@ pub enum DeviceBuffer {
 
 impl DeviceBuffer {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 6] = [
         Self::Nodes,
         Self::Lights,
         Self::Instances,
-        Self::Roots,
         Self::Trails,
         Self::List,
         Self::Children,
@@ -40,7 +37,6 @@ impl DeviceBuffer {
             Self::Nodes => "nodes",
             Self::Lights => "lights",
             Self::Instances => "instances",
-            Self::Roots => "roots",
             Self::Trails => "trails",
             Self::List => "list",
             Self::Children => "children",

@@ -72,12 +72,11 @@ impl Frame<'_> {
 }
 
 /// The device's buffer of each array: those of a light BVH, then those of a refit.
-const BUFFERS: [DeviceBuffer; 11] = [
+const BUFFERS: [DeviceBuffer; 10] = [
     DeviceBuffer::Nodes,
     DeviceBuffer::Nodes,
     DeviceBuffer::Lights,
     DeviceBuffer::Instances,
-    DeviceBuffer::Roots,
     DeviceBuffer::Trails,
     DeviceBuffer::Trails,
     DeviceBuffer::Trails,
@@ -87,11 +86,11 @@ const BUFFERS: [DeviceBuffer; 11] = [
 ];
 /// Places in [`BUFFERS`] of the nodes of the top level and of its links; and of a refit's two.
 const TOP: usize = 1;
-const ABOVE: usize = 6;
-const PLACES: usize = 7;
-const PARTS: usize = 8;
-const LIST: usize = 9;
-const CHILDREN: usize = 10;
+const ABOVE: usize = 5;
+const PLACES: usize = 6;
+const PARTS: usize = 7;
+const LIST: usize = 8;
+const CHILDREN: usize = 9;
 
 /// The arrays of a light BVH, with the bytes of an element, in the order of [`BUFFERS`].
 fn arrays<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> [(&[u8], u64); LIST] {
@@ -105,7 +104,6 @@ fn arrays<M: Model<W>, const W: usize>(bvh: &Bvh<M, W>) -> [(&[u8], u64); LIST] 
         of(bvh.view().top_nodes()),
         of(bvh.view().lights()),
         of(tree.instances),
-        of(bvh.view().roots()),
         (trails, word * u64::from(tree.trail_words)),
         of(tree.links.above),
         of(tree.links.places),
@@ -145,13 +143,11 @@ impl Mirror {
         for (k, (own, stride)) in arrays.into_iter().enumerate() {
             is_new[BUFFERS[k] as usize] |= self.reserve(k, own.len() as u64, stride);
         }
-        let roots: Vec<_> = plan.roots.iter().map(|&root| root..root + 1).collect();
         let written: [&[Range<u32>]; LIST] = [
             &plan.written_nodes,
             &plan.written_top,
             &plan.written_lights,
             &plan.written_instances,
-            &roots,
             &plan.written_trails,
             &plan.written_above,
             &plan.written_places,
@@ -238,7 +234,6 @@ impl Mirror {
             ones(all.top.nodes()),
             core::iter::once(0..view.lights().len() as u32).collect(),
             core::iter::once(0..instances.len() as u32).collect(),
-            ones(&all.roots),
             trails.collect(),
             ones(all.top.nodes()),
             live.map(|(index, _)| one(index)).collect(),

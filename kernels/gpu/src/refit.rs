@@ -12,8 +12,6 @@ use lightbvh::refit::child_rows;
 pub enum Pass {
     /// The children of nodes of bottom levels, an invocation for each.
     Bottom,
-    /// Roots of bottom levels.
-    Roots,
     /// The children of nodes of the top level, an invocation for each.
     Top,
     /// Nodes of either, from their children, which the dispatch before has computed.
@@ -22,7 +20,7 @@ pub enum Pass {
 
 impl Pass {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Bottom, Self::Roots, Self::Top, Self::Nodes];
+    pub const ALL: [Self; 3] = [Self::Bottom, Self::Top, Self::Nodes];
 }
 
 /// One dispatch of a refit: a pass over a part of the list.
@@ -40,7 +38,7 @@ pub(crate) struct Dispatch {
 /// A refit: a list, and the dispatches over parts of it, in order. Each reads what the one before wrote.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Refit {
-    /// Indices of nodes and roots.
+    /// Indices of nodes.
     pub list: Vec<u32>,
     pub dispatches: Vec<Dispatch>,
     /// Bytes by which passes [`Bottom`](Pass::Bottom) and [`Top`](Pass::Top) hand over to [`Nodes`](Pass::Nodes): at most those
@@ -61,9 +59,6 @@ impl Refit {
     fn of_at_most<N: Node<W>, const W: usize>(plan: &RefitPlan, top: u32, most: usize) -> Self {
         let mut refit = Self::default();
         refit.levels::<N, W>(Pass::Bottom, &plan.bottom, 0, most);
-        let first = refit.list.len() as u32;
-        refit.list.extend(&plan.roots);
-        refit.dispatch(Pass::Roots, first, plan.roots.len(), 0);
         refit.levels::<N, W>(Pass::Top, &plan.top, top, most);
         refit
     }
@@ -110,14 +105,12 @@ mod tests {
         let plan = Cursor::default().plan(&scene::<MomentNode<4>, 4>().0);
         let whole = Refit::new::<MomentNode<4>, 4>(&plan, 100);
         let levels = |levels: &Levels| levels.ranges().count();
-        let count = 2 * levels(&plan.bottom) + 1 + 2 * levels(&plan.top);
+        let count = 2 * (levels(&plan.bottom) + levels(&plan.top));
         assert_eq!(whole.dispatches.len(), count);
         assert_eq!(Refit::AT_A_TIME * 8 * 12 * 4, 12 << 20, "as documented");
-        let computed = |refit: &Refit| -> Vec<(Pass, u32)> {
-            let own = refit.dispatches.iter();
-            own.filter(|own| matches!(own.pass, Pass::Roots | Pass::Nodes))
-                .flat_map(|own| (own.first..own.first + own.count).map(|entry| (own.pass, entry)))
-                .collect()
+        let computed = |refit: &Refit| -> Vec<u32> {
+            let own = refit.dispatches.iter().filter(|own| own.pass == Pass::Nodes);
+            own.flat_map(|own| own.first..own.first + own.count).collect()
         };
         for most in [1, 7, 30] {
             let parts = Refit::of_at_most::<MomentNode<4>, 4>(&plan, 100, most);

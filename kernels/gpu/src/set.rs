@@ -10,8 +10,6 @@ use crate::table;
 pub struct KernelSet {
     /// Recomputes children of nodes of bottom levels.
     pub refit_bottom: &'static Kernel,
-    /// Recomputes roots of bottom levels.
-    pub refit_roots: &'static Kernel,
     /// Recomputes children of nodes of the top level.
     pub refit_top: &'static Kernel,
     /// Recomputes nodes from their children.
@@ -27,7 +25,6 @@ pub struct KernelSet {
 /// The kernels of `LightBvh`: `Bvh<(MomentNode<8>, Defensive<Moments, 6>)>`.
 pub static MOMENTS: KernelSet = KernelSet {
     refit_bottom: &table::REFIT_BOTTOM,
-    refit_roots: &table::REFIT_ROOTS,
     refit_top: &table::REFIT_TOP,
     refit_nodes: &table::REFIT_NODES,
     sample: &table::SAMPLE,
@@ -38,7 +35,6 @@ pub static MOMENTS: KernelSet = KernelSet {
 /// The kernels of `Bvh<(CompactNode<4>, Eq4), 4>`, the paper's.
 pub static EQ4: KernelSet = KernelSet {
     refit_bottom: &table::REFIT_BOTTOM_EQ4,
-    refit_roots: &table::REFIT_ROOTS_EQ4,
     refit_top: &table::REFIT_TOP_EQ4,
     refit_nodes: &table::REFIT_NODES_EQ4,
     sample: &table::SAMPLE_EQ4,
@@ -50,7 +46,6 @@ impl KernelSet {
     /// Those of [`MOMENTS`] for cells, over the same nodes. They are asked [`CellQuery`](crate::CellQuery)s.
     pub const CELLS: Self = Self {
         refit_bottom: &table::REFIT_BOTTOM,
-        refit_roots: &table::REFIT_ROOTS,
         refit_top: &table::REFIT_TOP,
         refit_nodes: &table::REFIT_NODES,
         sample: &table::SAMPLE_CELL,
@@ -65,7 +60,6 @@ impl KernelSet {
     /// receiver.
     pub const ANY: Self = Self {
         refit_bottom: &table::REFIT_BOTTOM_ANY,
-        refit_roots: &table::REFIT_ROOTS_ANY,
         refit_top: &table::REFIT_TOP_ANY,
         refit_nodes: &table::REFIT_NODES_ANY,
         sample: &table::SAMPLE_ANY,
@@ -77,7 +71,6 @@ impl KernelSet {
     /// [`light_points`](Self::light_points).
     pub const LINKED: Self = Self {
         refit_bottom: &table::REFIT_BOTTOM_LINKED,
-        refit_roots: &table::REFIT_ROOTS_LINKED,
         refit_top: &table::REFIT_TOP_LINKED,
         refit_nodes: &table::REFIT_NODES_LINKED,
         sample: &table::SAMPLE_LINKED,
@@ -92,7 +85,6 @@ impl KernelSet {
     pub fn refit(&self, pass: Pass) -> &'static Kernel {
         match pass {
             Pass::Bottom => self.refit_bottom,
-            Pass::Roots => self.refit_roots,
             Pass::Top => self.refit_top,
             Pass::Nodes => self.refit_nodes,
         }

@@ -18,14 +18,10 @@ crate::kernels! {
     REFIT_NODES_ANY "refit_nodes_any" 12 [64, 1, 1]: 0 list Read 4, 1 children Read 704, 2 nodes Write 256;
     REFIT_NODES_EQ4 "refit_nodes_eq4" 12 [64, 1, 1]: 0 list Read 4, 1 children Read 192, 2 nodes Write 112;
     REFIT_NODES_LINKED "refit_nodes_linked" 12 [64, 1, 1]: 0 list Read 4, 1 children Read 704, 2 nodes Write 288;
-    REFIT_ROOTS "refit_roots" 12 [64, 1, 1]: 0 list Read 4, 1 nodes Read 192, 2 roots Write 52;
-    REFIT_ROOTS_ANY "refit_roots_any" 12 [64, 1, 1]: 0 list Read 4, 1 nodes Read 256, 2 roots Write 52;
-    REFIT_ROOTS_EQ4 "refit_roots_eq4" 12 [64, 1, 1]: 0 list Read 4, 1 nodes Read 112, 2 roots Write 52;
-    REFIT_ROOTS_LINKED "refit_roots_linked" 12 [64, 1, 1]: 0 list Read 4, 1 nodes Read 288, 2 roots Write 52;
-    REFIT_TOP "refit_top" 12 [64, 1, 1]: 0 list Read 4, 1 lights Read 56, 2 instances Read 136, 3 roots Read 52, 4 nodes Read 192, 5 children Write 384;
-    REFIT_TOP_ANY "refit_top_any" 12 [64, 1, 1]: 0 list Read 4, 1 lights Read 56, 2 instances Read 136, 3 roots Read 52, 4 nodes Read 256, 5 children Write 704;
-    REFIT_TOP_EQ4 "refit_top_eq4" 12 [64, 1, 1]: 0 list Read 4, 1 lights Read 56, 2 instances Read 136, 3 roots Read 52, 4 nodes Read 112, 5 children Write 192;
-    REFIT_TOP_LINKED "refit_top_linked" 12 [64, 1, 1]: 0 list Read 4, 1 lights Read 56, 2 instances Read 136, 3 roots Read 52, 4 nodes Read 288, 5 children Write 704;
+    REFIT_TOP "refit_top" 12 [64, 1, 1]: 0 list Read 4, 1 lights Read 56, 2 instances Read 136, 3 nodes Read 192, 4 children Write 384;
+    REFIT_TOP_ANY "refit_top_any" 12 [64, 1, 1]: 0 list Read 4, 1 lights Read 56, 2 instances Read 136, 3 nodes Read 256, 4 children Write 704;
+    REFIT_TOP_EQ4 "refit_top_eq4" 12 [64, 1, 1]: 0 list Read 4, 1 lights Read 56, 2 instances Read 136, 3 nodes Read 112, 4 children Write 192;
+    REFIT_TOP_LINKED "refit_top_linked" 12 [64, 1, 1]: 0 list Read 4, 1 lights Read 56, 2 instances Read 136, 3 nodes Read 288, 4 children Write 704;
     SAMPLE "sample" 40 [64, 1, 1]: 0 nodes Read 192, 1 instances Read 136, 2 trails Read 4, 3 queries Read 32, 4 results Write 12;
     SAMPLE_ANY "sample_any" 40 [64, 1, 1]: 0 nodes Read 256, 1 instances Read 136, 2 trails Read 4, 3 queries Read 32, 4 results Write 12;
     SAMPLE_CELL "sample_cell" 40 [64, 1, 1]: 0 nodes Read 192, 1 instances Read 136, 2 trails Read 4, 3 queries Read 44, 4 results Write 12;

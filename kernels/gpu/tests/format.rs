@@ -7,7 +7,6 @@ use std::ops::Range;
 
 use lightbvh::light::{AnyLight, DiscLight, Light, PointLight, RectangleLight, SphereLight, SpotLight};
 use lightbvh::node::{LinkedSpotMomentNode, SpotMomentNode};
-use lightbvh::refit::BlasRoot;
 use lightbvh::{
     CompactNode, EmissiveTriangle, Instance, LightBvh, MomentNode, SampledLight, TreeWords,
     TwoSidedMomentNode,
@@ -126,7 +125,6 @@ macro_rules! record {
 fn records_have_their_fields() {
     record!(Instance: root, blas, first, first_light, count, listed, columns, translation, inverse, per_inverse, flux, radiance, mask,
         mirrored);
-    record!(BlasRoot: node, words);
     record!(EmissiveTriangle: p, radiance, mesh, flags);
     record!(SampledLight: light, instance, pmf);
     record!(TreeWords: root, trail_words, live, lights, depth, top, above, places, parts);

@@ -13,8 +13,7 @@ use crate::kit::scenes::{
 };
 use crate::light::{AnyLight, Light};
 use crate::node::{CompactNode, Holds, LinkedSpotMomentNode};
-use crate::refit::{self, BlasRoot};
-use crate::summary::Summary;
+use crate::refit;
 use crate::{Edit, LightBvh, Rebuilder, RebuilderParams, TreeWords};
 
 /// Start of the top level in the nodes of a mirror, and of its links behind the trails.
@@ -31,7 +30,6 @@ struct Mirror<N: Holds, const W: usize> {
     lights: Vec<N::Light>,
     trails: Vec<u32>,
     instances: Vec<Instance>,
-    roots: Vec<BlasRoot>,
     wholes: u32,
 }
 
@@ -63,7 +61,6 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
             lights: std::vec![N::Light::DARK; ABOVE],
             trails: std::vec![0; PARTS + (1 << 16)],
             instances: std::vec![Instance::IDENTITY; 1 << 12],
-            roots: std::vec![BlasRoot::new(0, &N::Summary::EMPTY); 1 << 12],
             wholes: 0,
         }
     }
@@ -111,19 +108,7 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
         copy(&mut self.trails, PARTS, links.parts, 1, &plan.written_parts);
         let bottom = |nodes: &[N], node| refit::bottom(nodes, &self.lights, node);
         passes(&mut self.nodes, 0, &plan.bottom, bottom);
-        for &mesh in &plan.roots {
-            self.roots[mesh as usize] = refit::root(&self.nodes, view.roots()[mesh as usize].node);
-        }
-        let top = |nodes: &[N], node| {
-            refit::top(
-                nodes,
-                TOP as u32,
-                &self.lights,
-                &self.instances,
-                &self.roots,
-                node,
-            )
-        };
+        let top = |nodes: &[N], node| refit::top(nodes, TOP as u32, &self.lights, &self.instances, node);
         passes(&mut self.nodes, TOP as u32, &plan.top, top);
     }
 
@@ -138,9 +123,6 @@ impl<N: Node<W>, const W: usize> Mirror<N, W> {
                 let words = [&self.nodes[first + node], &known[node]].map(bytemuck::bytes_of);
                 assert!(words[0] == words[1], "node {node} from {first} on");
             }
-        }
-        for &mesh in &all.roots {
-            assert_eq!(self.roots[mesh as usize], bvh.view().roots()[mesh as usize]);
         }
         assert_eq!(self.instances[..tree.instances.len()], *tree.instances);
         let words = TreeWords {

@@ -10,6 +10,7 @@ use crate::kit::Random;
 use crate::kit::scenes::{Lamp, bare, lamps};
 use crate::light::AnyLight;
 use crate::node::{CompactNode, LinkedSpotMomentNode, MomentNode, SpotMomentNode, TwoSidedMomentNode};
+use crate::trail::leaf;
 use crate::{Bvh, Transform};
 
 /// Two meshes, a small and a large one, each twice, one of the instances of the larger turned and scaled.
@@ -69,7 +70,7 @@ where
     let plan = Cursor::default().plan(&bvh);
     let (nodes, first) = flat(&bvh);
     let (nodes, view) = (&*nodes, bvh.view());
-    let (lights, instances, roots) = (view.lights(), view.instances(), view.roots());
+    let (lights, instances) = (view.lights(), view.instances());
     assert!(plan.bottom.nodes().len() > 20 && plan.top.nodes().len() > 4);
     for &index in plan.bottom.nodes() {
         let parts = by_children::<N, W, ROWS>(nodes, index, |slot| bottom_child(nodes, lights, index, slot));
@@ -77,7 +78,7 @@ where
     }
     for index in plan.top.nodes().iter().map(|node| first + node) {
         let parts = by_children::<N, W, ROWS>(nodes, index, |slot| {
-            top_child(nodes, first, lights, instances, roots, index, slot)
+            top_child(nodes, first, lights, instances, index, slot)
         });
         assert!(same(&nodes[index as usize], &parts), "{} {W}: {index}", N::NAME);
     }
@@ -114,41 +115,30 @@ fn limits_go_by_way_of_children_too() {
 fn dangling_links_are_empty_children() {
     type Layout = LinkedSpotMomentNode<8, AnyLight>;
     let bvh = scene::<Layout, 8>(&mut Random(5));
-    let (lights, instances, roots) = (bvh.view().lights(), bvh.view().instances(), bvh.view().roots());
+    let (lights, mut instances) = (bvh.view().lights(), bvh.view().instances().to_vec());
     let mut nodes = [bvh.view().nodes(), &[Layout::EMPTY]].concat();
     let (at, end) = (bvh.view().nodes().len(), nodes.len() as u32);
-    let mut alien = instances.to_vec();
-    alien[0].blas = roots.len() as u32;
+    let known = instances.len() as u32;
+    instances.extend([instances[0]; 2]);
+    instances[known as usize].root = end;
+    let alone = &mut instances[known as usize + 1];
+    (alone.root, alone.first_light) = (INVALID, lights.len() as u32);
     nodes[at].set_child(0, kind::LIGHT, lights.len() as u32);
     nodes[at].set_child(1, kind::INNER, end);
-    nodes[at].set_child(2, kind::MESH, instances.len() as u32);
-    nodes[at].set_child(3, kind::MESH, 0);
-    nodes[at].set_child(4, kind::LIGHT, 0);
-    nodes[at].set_child(5, kind::EMPTY, 0);
-    for slot in [0, 1, 2, 3, 5] {
-        assert_eq!(
-            bottom_child(&nodes, lights, at as u32, slot),
-            Child::EMPTY,
-            "{slot}"
-        );
+    nodes[at].set_child(2, kind::MESH, known + 2);
+    nodes[at].set_child(3, kind::MESH, known);
+    nodes[at].set_child(4, kind::MESH, leaf(known, 1));
+    nodes[at].set_child(5, kind::MESH, known + 1);
+    nodes[at].set_child(6, kind::EMPTY, 0);
+    let bottom = |nodes: &[Layout], slot| bottom_child(nodes, lights, at as u32, slot);
+    let top = |nodes: &[Layout], slot| top_child(nodes, 0, lights, &instances, at as u32, slot);
+    for slot in 0..7 {
+        assert_eq!(bottom(&nodes, slot), Child::EMPTY, "{slot}");
+        assert_eq!(top(&nodes, slot), Child::EMPTY, "{slot}");
     }
-    for slot in 0..6 {
-        assert_eq!(
-            top_child(&nodes, 0, lights, &alien, roots, at as u32, slot),
-            Child::EMPTY,
-            "{slot}"
-        );
-    }
-    // A root that is no node.
-    let mut lost = roots.to_vec();
-    let blas = instances[0].blas as usize;
-    assert_ne!(
-        top_child(&nodes, 0, lights, instances, &lost, at as u32, 3).limits,
-        Limits::NONE
-    );
-    lost[blas].node = end;
-    assert_eq!(
-        top_child(&nodes, 0, lights, instances, &lost, at as u32, 3).limits,
-        Limits::NONE
-    );
+    nodes[at].set_child(0, kind::LIGHT, 0);
+    nodes[at].set_child(2, kind::MESH, 0);
+    assert_ne!(bottom(&nodes, 0), Child::EMPTY);
+    assert_eq!(bottom(&nodes, 2), Child::EMPTY);
+    assert_ne!(top(&nodes, 2), Child::EMPTY);
 }

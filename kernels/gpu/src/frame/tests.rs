@@ -49,22 +49,19 @@ fn follow(held: &mut [Vec<u8>], scene: &Tree, mirror: &mut Mirror) -> usize {
                 ..
             } => {}
             Step::Dispatch {
-                pass,
+                pass: Pass::Nodes,
                 push: [first, ..],
                 count,
             } => {
                 let list = held[DeviceBuffer::List as usize].clone();
                 let list: &[u32] = cast_slice(&list);
                 for &entry in &list[first as usize..][..count as usize] {
-                    let (buffer, computed): (_, &[u8]) = match entry.checked_sub(top) {
-                        _ if pass == Pass::Roots => {
-                            (DeviceBuffer::Roots, bytes_of(&view.roots()[entry as usize]))
-                        }
-                        None => (DeviceBuffer::Nodes, bytes_of(&view.nodes()[entry as usize])),
-                        Some(above) => (DeviceBuffer::Nodes, bytes_of(&view.top_nodes()[above as usize])),
+                    let computed = match entry.checked_sub(top) {
+                        None => bytes_of(&view.nodes()[entry as usize]),
+                        Some(above) => bytes_of(&view.top_nodes()[above as usize]),
                     };
                     let at = entry as usize * computed.len();
-                    held[buffer as usize][at..][..computed.len()].copy_from_slice(computed);
+                    held[DeviceBuffer::Nodes as usize][at..][..computed.len()].copy_from_slice(computed);
                 }
             }
         }
