@@ -1,5 +1,6 @@
 //! Functions for shaders: what they promise, from a shader of one's own in WGSL, on every device.
 
+use std::path::Path;
 use std::process::Command;
 
 use bytemuck::bytes_of;
@@ -10,8 +11,8 @@ use lightbvh::{EmissiveTriangle, LightBvh, LightPoint, Random64, ShadingPoint};
 use lightbvh_gpu::{Access, Binding, Kernel, MOMENTS, Query, functions};
 use lightbvh_host::backend::Mirrored;
 use lightbvh_host::vulkan::Options;
-use lightbvh_kernels_builder::manifest;
-use lightbvh_kernels_builder::shader::{Language, Library, Naming, SETS};
+use lightbvh_kernels_builder::manifest::{self, ModuleRecord, read_module};
+use lightbvh_kernels_builder::shader::{Language, Library, Naming, SETS, kernel};
 use lightbvh_tests::devices::on_each_device;
 use lightbvh_tests::generate::{Random, small_triangles};
 use lightbvh_tests::placing;
@@ -68,6 +69,10 @@ const fn buffer(binding: u32, name: &'static str, stride: u32) -> Binding {
         access,
         stride,
     }
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
 }
 
 /// How the host binds it.
@@ -226,7 +231,7 @@ fn functions_keep_their_promises() {
 /// glslang where it is installed.
 #[test]
 fn each_set_is_printed_in_each_language() {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let root = root();
     let committed = manifest::read(root).unwrap();
     let folder = std::env::temp_dir().join(format!("lightbvh-functions-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
@@ -259,6 +264,9 @@ fn each_set_is_printed_in_each_language() {
                     assert_eq!(bound, [(2, 3), (2, 4), (2, 5), (2, 6), (2, 7)]);
                 }
                 Language::Glsl => {
+                    for binding in 3..=7 {
+                        assert!(text.contains(&format!("set = 2, binding = {binding})")));
+                    }
                     let file = folder.join(format!("functions{suffix}.comp"));
                     let whole =
                         format!("#version 450\n{text}\nlayout(local_size_x = 1) in;\nvoid main() {{}}\n");
@@ -285,4 +293,66 @@ fn each_set_is_printed_in_each_language() {
         }
     }
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// Prefixes that a language keeps for itself are refused, not renamed.
+#[test]
+fn prefixes_are_free_or_refused() {
+    let root = root();
+    let committed = manifest::read(root).unwrap();
+    for (prefix, kept) in [("gl", Language::Glsl), ("naga", Language::Hlsl)] {
+        let naming = Naming {
+            prefix: prefix.to_owned(),
+            ..Naming::default()
+        };
+        let read = |kernel: &str| manifest::module(root, &committed, &format!("{kernel}.spv"));
+        let library = Library::new(naming, &SETS[0], read).unwrap();
+        let error = library.print(kept).unwrap_err().to_string();
+        assert!(error.contains("choose another prefix"), "{error}");
+        assert!(library.print(Language::Wgsl).is_ok());
+    }
+}
+
+/// Fields and arguments have the names of Rust's, in its order.
+#[test]
+fn names_are_those_of_rust() {
+    let text = functions::WGSL;
+    for own in [
+        "fn lightbvh_sample(p: vec3<f32>, n: vec3<f32>, number: vec2<u32>) -> LightbvhLightSample",
+        "fn lightbvh_sample_cell(center: vec3<f32>, half: vec3<f32>, n",
+        "    light: u32,\n    instance: u32,\n    pmf: f32,\n",
+        "    root: u32,\n    blas: u32,\n    first: u32,\n    first_light: u32,\n    count: u32,\n    listed: u32,\n",
+        "    root: u32,\n    trail_words: u32,\n    live: u32,\n    lights: u32,\n    depth: u32,\n    top: u32,\n    above: u32,\n    places: u32,\n    parts: u32,\n",
+    ] {
+        assert!(text.contains(own), "{own}");
+    }
+}
+
+/// A whole kernel binds its push constants behind its buffers; a module that is not the recorded one is refused.
+#[test]
+fn whole_kernels_are_printed() {
+    let root = root();
+    let committed = manifest::read(root).unwrap();
+    let own = MOMENTS.refit_top;
+    let (words, buffers) = manifest::module(root, &committed, &format!("{}.spv", own.name)).unwrap();
+    let text = kernel(&words, &buffers).unwrap();
+    for binding in 0..=own.bindings.len() {
+        assert_eq!(text.matches(&format!("@group(0) @binding({binding})")).count(), 1);
+    }
+    let record = committed
+        .modules
+        .iter()
+        .find(|own| own.file == "sample.spv")
+        .unwrap();
+    let other = ModuleRecord {
+        file: "pmf.spv".to_owned(),
+        ..record.clone()
+    };
+    assert!(read_module(root, record).is_ok());
+    assert!(
+        read_module(root, &other)
+            .unwrap_err()
+            .to_string()
+            .contains("(hash)")
+    );
 }

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::{MAX_REACH, NORMAL_TOLERANCE, Receiver, ShadingPoint};
 use crate::domain::{DomainError, MAX_COORDINATE, MIN_COORDINATE, checked_place};
-use crate::exact::{self, div, flush, pow2};
+use crate::exact::{self, flush, pow2};
 use crate::instance::{FAR, Instance, flushed};
 use crate::vector::{abs3, length_squared, max3, min3, vector};
 
@@ -40,19 +40,22 @@ impl Cell {
         }
     }
 
-    /// The box around these points, which are [checked](ShadingPoint::checked), and the mean of their normals; `None` of no points.
+    /// The box around these points, which are [checked](ShadingPoint::checked), and the mean of their normals, brought to length 1; `None` of
+    /// no points.
     #[must_use]
     pub fn around(points: &[ShadingPoint]) -> Option<Self> {
         let first = points.first()?.position();
-        let (mut low, mut high, mut sum) = (first, first, Vec3::ZERO);
+        let (mut low, mut high, mut sum, mut lengths) = (first, first, [0.0; 3], 0.0);
         for point in points {
             low = min3(low, point.position());
             high = max3(high, point.position());
-            sum += point.normal();
+            // In f64: there may be more points than an f32 counts.
+            let squared = length_squared(point.normal());
+            lengths += f64::from(if squared > 0.0 { exact::sqrt(squared) } else { 1.0 });
+            (0..3).for_each(|axis| sum[axis] += f64::from(point.n[axis]));
         }
-        let count = points.len() as f32;
         Some(Self {
-            n: sum.to_array().map(|x| div(x, count)),
+            n: sum.map(|x| (x / lengths) as f32),
             ..Self::volume(low.to_array(), high.to_array())
         })
     }

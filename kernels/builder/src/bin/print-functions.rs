@@ -23,15 +23,14 @@ Usage: print-functions kernel NAME
 The current directory must be inside the repository.";
 
 fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    if matches!(
-        arguments.first().map(String::as_str),
-        None | Some("--help" | "-h")
-    ) {
-        println!("{USAGE}");
-        return ExitCode::SUCCESS;
-    }
-    match print(&arguments) {
+    let arguments = std::env::args_os().skip(1);
+    let arguments: Vec<String> = arguments.map(|own| own.to_string_lossy().into_owned()).collect();
+    let is_help = |own: &String| own == "--help" || own == "-h";
+    let text = match arguments.is_empty() || arguments.iter().any(is_help) {
+        true => Ok(format!("{USAGE}\n")),
+        false => print(&arguments),
+    };
+    match text {
         // A reader that has seen enough, `head`, is no error.
         Ok(text) => match std::io::stdout().write_all(text.as_bytes()) {
             Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -94,11 +93,10 @@ fn print(arguments: &[String]) -> Result<String, Error> {
 
 fn is_prefix(value: &str) -> bool {
     let mut letters = value.chars();
-    letters.next().is_some_and(|first| first.is_ascii_lowercase())
+    // Some compilers of shaders refuse names of 1,024 letters.
+    value.len() <= 64
+        && letters.next().is_some_and(|first| first.is_ascii_lowercase())
         && letters.all(|letter| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_')
         && !value.contains("__")
         && !value.ends_with('_')
-        // GLSL keeps these for itself.
-        && value != "gl"
-        && !value.starts_with("gl_")
 }

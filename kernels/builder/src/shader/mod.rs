@@ -155,7 +155,7 @@ const TREE: usize = 4;
 /// What an engine chooses of a library.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Naming {
-    /// What all names of the library begin with: lower-case words joined by `_`; in types each word has a capital.
+    /// What the names of the library's functions, buffers and types begin with: lower-case words joined by `_`; in types each word has a capital.
     pub prefix: String,
     /// Bind group (descriptor set, register space) of its buffers.
     pub group: u8,
@@ -207,9 +207,16 @@ impl Library {
     /// The library as text.
     ///
     /// # Errors
-    /// When the language cannot express it.
+    /// When the language cannot express it, or keeps names of that prefix for itself.
     pub fn print(&self, language: Language) -> Result<String, Error> {
-        language.print(&self.module)
+        let text = language.print(&self.module)?;
+        let prefix = &self.naming.prefix;
+        match text.contains(&format!(" {prefix}_sample(")) {
+            true => Ok(text),
+            false => Err(Error(format!(
+                "{language:?} keeps names that begin with {prefix} for itself: choose another prefix"
+            ))),
+        }
     }
 
     fn add(
