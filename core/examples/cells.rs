@@ -1,7 +1,7 @@
 //! Candidates for cells in place of points: 32 for each of 40,000 cells of a metre below streets of lamps. A point of a cell is lit by one
 //! lamp of eight out of its cell's 32, without a walk of its own.
 //!
-//! `cargo run --release -p lightbvh --example cells` (seconds). Prints the time, the squared error beside that of eight candidates walked
+//! `cargo run --release -p lightbvh --example cells` (seconds). Prints the time, the squared error next to that of eight candidates walked
 //! for each point, and checks that the means are right.
 
 use std::time::Instant;
@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (mut of_cells, mut of_points) = (Vec::new(), Vec::new());
     for (place, candidates) in (0..).zip(&filled).step_by(EVERY) {
         for k in 0..20 {
-            // Points of the cell beside those that it was made from.
+            // Points of the cell other than those that it was made from.
             let point = point(place, 16 + k);
             let right: f64 = all.iter().map(|light| sent(light, &point)).sum();
             let random = hash(place ^ (k << 16));

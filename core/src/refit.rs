@@ -94,15 +94,6 @@ pub(crate) fn below<N: Node<W>, const W: usize>(
     }
 }
 
-/// What is known of the bottom level whose root is node `root`, in its own space; kept apart from the nodes so that
-/// instances need not merge it again.
-#[inline]
-#[must_use]
-pub fn root<N: Node<W>, const W: usize>(nodes: &[N], root: u32) -> BlasRoot {
-    let node = if root < nodes.len() as u32 { root } else { 0 };
-    BlasRoot::new(root, &nodes[node as usize].merged())
-}
-
 /// A node of the top level, with the summaries of its instances and of the nodes below it.
 /// `nodes` holds the bottom levels and from `first` on the top level, as on a device; `index` counts in all of it. A
 /// [plan's](crate::bvh::RefitPlan::top) list counts from `first`.
@@ -128,7 +119,7 @@ pub fn top<N: Node<W>, const W: usize>(
     node
 }
 
-/// The root of a bottom level and what is known of it in the bottom level's space; plain words.
+/// The root of a bottom level and its summary in the bottom level's space, merged once for all instances; plain words.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct BlasRoot {

@@ -149,7 +149,7 @@ pub(crate) fn weight(l: &Lobe, side: &Side) -> f32 {
     from_nearest(l, side, l.x)
 }
 
-/// The mean over a cell: to the lights, its points are as many more places of their own. The nearest of them counts for the distance.
+/// Adds the variance of a cell's points to that of the lights, and takes the distance from the nearest point of the box.
 #[inline(always)]
 pub(crate) fn weight_over(l: &Lobe, side: &Side, cell: &Extent) -> f32 {
     let own = l.breadth * l.breadth;

@@ -108,7 +108,6 @@ pub fn node_words(data: &[u8], forms: Forms) {
         for i in 0..nodes.len() as u32 {
             let _ = refit::bottom(&nodes, &triangles, i);
             let _ = refit::top(&nodes, words.top, &triangles, &instances, i);
-            let _ = refit::root(&nodes, i);
         }
         Ok(())
     }

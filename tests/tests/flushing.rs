@@ -42,7 +42,7 @@ fn words<T: Pod>(values: &[T]) -> Vec<u32> {
     cast_slice(values).to_vec()
 }
 
-/// All nodes, computed anew in the order of the passes, child by child.
+/// Refits all nodes child by child, in the order of the passes.
 #[inline(never)]
 fn refitted<N: Node<W>, const W: usize, const ROWS: usize>(bvh: &Bvh<(N, ()), W>) -> Vec<u32> {
     let (plan, view) = (Cursor::default().plan(bvh), bvh.view());

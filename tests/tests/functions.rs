@@ -1,22 +1,27 @@
 //! Functions for shaders: what they promise, from a shader of one's own in WGSL, on every device.
 
+use std::mem::offset_of;
 use std::path::Path;
 use std::process::Command;
 
 use bytemuck::bytes_of;
 use glam::Vec3;
+use lightbvh::importance::Cell;
 use lightbvh::light::Light;
 use lightbvh::refit::world_light;
-use lightbvh::{EmissiveTriangle, LightBvh, LightPoint, Random64, ShadingPoint};
+use lightbvh::{
+    EmissiveTriangle, Instance, LightBvh, LightPoint, Random64, SampledLight, ShadingPoint, TreeWords,
+};
 use lightbvh_gpu::{Access, Binding, Kernel, MOMENTS, Query, functions};
 use lightbvh_host::backend::Mirrored;
 use lightbvh_host::vulkan::Options;
 use lightbvh_kernels_builder::manifest::{self, ModuleRecord, read_module};
-use lightbvh_kernels_builder::shader::{Language, Library, Naming, SETS, kernel};
+use lightbvh_kernels_builder::shader::{Language, Library, Naming, SETS, Set, kernel};
 use lightbvh_tests::devices::on_each_device;
 use lightbvh_tests::generate::{Random, small_triangles};
 use lightbvh_tests::placing;
 use lightbvh_tests::statistics::{chi_squared, chi_squared_quantile};
+use naga::TypeInner;
 
 /// Answers a sample, its probability by `pmf`, and a point on its light; or the probability of the light of the query.
 const OWN: &str = "
@@ -73,6 +78,21 @@ const fn buffer(binding: u32, name: &'static str, stride: u32) -> Binding {
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
+}
+
+fn prefixed(prefix: &str) -> Naming {
+    Naming {
+        prefix: prefix.to_owned(),
+        ..Naming::default()
+    }
+}
+
+/// The library of a set, from the committed modules.
+fn library(naming: Naming, set: &Set) -> Result<Library, lightbvh_kernels_builder::Error> {
+    let committed = manifest::read(root())?;
+    Library::new(naming, set, |kernel| {
+        manifest::module(root(), &committed, &format!("{kernel}{}.spv", set.suffix))
+    })
 }
 
 /// How the host binds it.
@@ -162,15 +182,24 @@ fn functions_keep_their_promises() {
                 .map(|&[light, instance]| Query::pmf(point, light, instance))
                 .collect();
             let answers = ask(&asked);
+            // As in the shader.
+            let cell = Cell {
+                center: point.p,
+                half: [0.5, 0.25, 1.0],
+                n: point.n.map(|x| 0.7 * x),
+            };
             let of_cell: f64 = answers.iter().map(|own| f64::from(own.cell_own)).sum();
             assert!((of_cell - 1.0).abs() < 1e-4, "{}: {of_cell}", device.name());
             let pmfs: Vec<f64> = answers.iter().map(|own| f64::from(own.own)).collect();
             assert!((pmfs.iter().sum::<f64>() - 1.0).abs() < 1e-4, "{}", device.name());
-            for (&pmf, &[light, instance]) in pmfs.iter().zip(&all) {
-                let expected = tree.pmf(&point, light, instance);
-                assert_eq!(pmf > 0.0, expected > 0.0, "light {light} of {instance}");
-                if expected > 0.0 {
-                    furthest = furthest.max((pmf as f32 / expected - 1.0).abs());
+            for (own, &[light, instance]) in answers.iter().zip(&all) {
+                let at_point = (own.own, tree.pmf(&point, light, instance));
+                let of_cell = (own.cell_own, tree.pmf(&cell, light, instance));
+                for (pmf, expected) in [at_point, of_cell] {
+                    assert_eq!(pmf > 0.0, expected > 0.0, "light {light} of {instance}");
+                    if expected > 0.0 {
+                        furthest = furthest.max((pmf / expected - 1.0).abs());
+                    }
                 }
             }
             let numbers: Vec<Random64> = (0..SAMPLES)
@@ -231,8 +260,6 @@ fn functions_keep_their_promises() {
 /// glslang where it is installed.
 #[test]
 fn each_set_is_printed_in_each_language() {
-    let root = root();
-    let committed = manifest::read(root).unwrap();
     let folder = std::env::temp_dir().join(format!("lightbvh-functions-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     for set in &SETS {
@@ -242,8 +269,7 @@ fn each_set_is_printed_in_each_language() {
             group: 2,
             bindings: [7, 6, 5, 4, 3],
         };
-        let read = |kernel: &str| manifest::module(root, &committed, &format!("{kernel}{suffix}.spv"));
-        let library = Library::new(naming, set, read).unwrap();
+        let library = library(naming, set).unwrap();
         for language in Language::ALL {
             let text = library.print(language).unwrap();
             assert!(
@@ -298,33 +324,68 @@ fn each_set_is_printed_in_each_language() {
 /// Prefixes that a language keeps for itself are refused, not renamed.
 #[test]
 fn prefixes_are_free_or_refused() {
-    let root = root();
-    let committed = manifest::read(root).unwrap();
     for (prefix, kept) in [("gl", Language::Glsl), ("naga", Language::Hlsl)] {
-        let naming = Naming {
-            prefix: prefix.to_owned(),
-            ..Naming::default()
-        };
-        let read = |kernel: &str| manifest::module(root, &committed, &format!("{kernel}.spv"));
-        let library = Library::new(naming, &SETS[0], read).unwrap();
+        let library = library(prefixed(prefix), &SETS[0]).unwrap();
         let error = library.print(kept).unwrap_err().to_string();
         assert!(error.contains("choose another prefix"), "{error}");
         assert!(library.print(Language::Wgsl).is_ok());
     }
+    for prefix in ["", "Lamps", "1a", "a__b", "a_", "ä", &"a".repeat(65)] {
+        let error = library(prefixed(prefix), &SETS[0]).unwrap_err().to_string();
+        assert!(error.contains("is no prefix"), "{error}");
+    }
+    let naming = Naming {
+        bindings: [0, 1, 2, 3, 1],
+        ..Naming::default()
+    };
+    let error = library(naming, &SETS[0]).unwrap_err().to_string();
+    assert!(error.contains("not different"), "{error}");
 }
 
-/// Fields and arguments have the names of Rust's, in its order.
+/// Structs have the fields of Rust's at their offsets. Arguments have the names that the documents give.
 #[test]
 fn names_are_those_of_rust() {
-    let text = functions::WGSL;
-    for own in [
-        "fn lightbvh_sample(p: vec3<f32>, n: vec3<f32>, number: vec2<u32>) -> LightbvhLightSample",
-        "fn lightbvh_sample_cell(center: vec3<f32>, half: vec3<f32>, n",
-        "    light: u32,\n    instance: u32,\n    pmf: f32,\n",
-        "    root: u32,\n    blas: u32,\n    first: u32,\n    first_light: u32,\n    count: u32,\n    listed: u32,\n",
-        "    root: u32,\n    trail_words: u32,\n    live: u32,\n    lights: u32,\n    depth: u32,\n    top: u32,\n    above: u32,\n    places: u32,\n    parts: u32,\n",
+    let parsed = naga::front::wgsl::parse_str(functions::WGSL).unwrap();
+    macro_rules! same {
+        ($name:literal, $type:ty: $($field:ident),*) => {
+            let expected = [$((stringify!($field), offset_of!($type, $field))),*];
+            let own = parsed.types.iter().find(|(_, own)| own.name.as_deref() == Some($name));
+            let TypeInner::Struct { members, .. } = &own.expect($name).1.inner else {
+                panic!("{} is no struct", $name);
+            };
+            let found: Vec<_> = members
+                .iter()
+                .map(|own| (own.name.as_deref().unwrap_or_default(), own.offset as usize))
+                .collect();
+            assert_eq!(found, expected, "{}", $name);
+        };
+    }
+    same!("LightbvhInstance", Instance: root, blas, first, first_light, count, listed, columns, translation, inverse, per_inverse, flux,
+        radiance, mask, mirrored);
+    same!("LightbvhTree", TreeWords: root, trail_words, live, lights, depth, top, above, places, parts);
+    same!("LightbvhLight", EmissiveTriangle: p, radiance, mesh, flags);
+    same!("LightbvhLightSample", SampledLight: light, instance, pmf);
+    for (name, arguments) in [
+        ("lightbvh_sample", "p n number"),
+        ("lightbvh_pmf", "p n light instance"),
+        ("lightbvh_sample_cell", "center half n number"),
+        ("lightbvh_pmf_cell", "center half n light instance"),
+        ("lightbvh_light_point", "light instance numbers"),
     ] {
-        assert!(text.contains(own), "{own}");
+        let mut all = parsed.functions.iter().map(|(_, own)| own);
+        let own = all.find(|own| own.name.as_deref() == Some(name)).expect(name);
+        // Names that were taken have a number behind them.
+        let bare = |own: &str| {
+            own.trim_end_matches(|c: char| c.is_ascii_digit())
+                .trim_end_matches('_')
+                .to_owned()
+        };
+        let found: Vec<_> = own
+            .arguments
+            .iter()
+            .filter_map(|own| own.name.as_deref().map(bare))
+            .collect();
+        assert_eq!(found.join(" "), arguments);
     }
 }
 

@@ -17,7 +17,7 @@ use crate::light::Light;
 #[cfg(feature = "std")]
 use crate::node::Holds;
 use crate::node::{Node, kind};
-use crate::refit::{self, BlasRoot};
+use crate::refit::BlasRoot;
 use crate::summary::Summary;
 use crate::sweep;
 use crate::trail::{BitTrail, trail_words};
@@ -206,7 +206,7 @@ impl<M: Model<W>, const W: usize> Bvh<M, W> {
                 let light = &self.lights[mesh.lights.start as usize];
                 BlasRoot::new(INVALID, &<SummaryOf<M, W>>::of_light(light))
             }
-            root => refit::root(&self.nodes, root),
+            root => BlasRoot::new(root, &self.nodes[root as usize].merged()),
         }
     }
 

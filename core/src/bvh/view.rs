@@ -28,7 +28,7 @@ impl<'a, M: Model<W>, const W: usize> View<'a, M, W> {
         &self.0.top.nodes
     }
 
-    /// The bounds of the bottom levels.
+    /// Root and summary of each mesh's bottom level.
     #[must_use]
     pub fn roots(&self) -> &'a [BlasRoot] {
         &self.0.roots

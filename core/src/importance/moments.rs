@@ -18,8 +18,8 @@ impl<N: MomentLayout<W>, const W: usize> ImportanceModel<N, W> for Moments {
     }
 }
 
-/// The same as a mean over the points of a cell: their positions add to the spread of the lights', their normals to that of the
-/// cosine, and the distance is from the nearest point of the box.
+/// The mean over a cell. The variance of its points widens the lights' spread, and the spread of normals softens the cosine. The distance is
+/// from the nearest point of the box.
 impl<N: MomentLayout<W>, const W: usize> ImportanceModel<N, W, Cell> for Moments {
     #[inline(always)]
     fn weights_in(node: &N, cell: &Cell, space: Space) -> [f32; W] {

@@ -40,8 +40,8 @@ impl Cell {
         }
     }
 
-    /// The box around these points, which are [checked](ShadingPoint::checked), and the mean of their normals, brought to length 1; `None` of
-    /// no points.
+    /// The box around [checked](ShadingPoint::checked) points, and the sum of their normals by the sum of the normals' lengths, of which a zero
+    /// normal has 1. `None` if there are no points.
     #[must_use]
     pub fn around(points: &[ShadingPoint]) -> Option<Self> {
         let first = points.first()?.position();

@@ -91,7 +91,7 @@ impl<S: Summary> Child<S> {
         }
     }
 
-    /// The child of an instance, of what it holds in the mesh's space.
+    /// Maps a child in the space of a mesh into the world.
     #[inline(always)]
     fn to_world<N: Node<W, Summary = S>, const W: usize>(self, instance: &Instance) -> Self {
         let summary = self.summary.to_world(instance);
@@ -113,7 +113,7 @@ pub fn bottom_child<N: Node<W>, const W: usize>(
     slot: usize,
 ) -> Child<N::Summary> {
     let node = &nodes[index as usize];
-    held(nodes, lights, node.kind(slot), node.link(slot)).0
+    bottom_link(nodes, lights, node.kind(slot), node.link(slot)).0
 }
 
 /// Child `slot` of node `index` of the top level, whose nodes begin at `first`: of its instance, or of the node below.
@@ -131,12 +131,12 @@ pub fn top_child<N: Node<W>, const W: usize>(
     if to == kind::INNER {
         link = link.wrapping_add(first);
     }
-    linked_child(nodes, lights, instances, to, link)
+    top_link(nodes, lights, instances, to, link)
 }
 
-/// What a child of the top level of that kind and link holds, nodes counted from the first of `nodes`.
+/// The child of the top level with this kind and link. Links to nodes count from the first of `nodes`.
 #[inline(always)]
-fn linked_child<N: Node<W>, const W: usize>(
+fn top_link<N: Node<W>, const W: usize>(
     nodes: &[N],
     lights: &[N::Light],
     instances: &[Instance],
@@ -160,16 +160,16 @@ fn linked_child<N: Node<W>, const W: usize>(
             }
         }
     }
-    let (mut child, is_there) = held(nodes, lights, to, link);
+    let (mut child, is_there) = bottom_link(nodes, lights, to, link);
     if is_there && instance < instances.len() as u32 {
         child = child.to_world::<N, W>(&instances[instance as usize]);
     }
     child
 }
 
-/// The light or the node of that kind and link, and whether there is one.
+/// The light or node with this kind and link, and whether there is one.
 #[inline(always)]
-fn held<N: Node<W>, const W: usize>(
+fn bottom_link<N: Node<W>, const W: usize>(
     nodes: &[N],
     lights: &[N::Light],
     kind: u32,
@@ -184,7 +184,7 @@ fn held<N: Node<W>, const W: usize>(
     (child, is_there)
 }
 
-/// The [leaf](crate::trail::leaf) `link` of the top level: an instance, whose mesh's summary stands in `roots`, or a part of one.
+/// The child at [leaf](crate::trail::leaf) `link` of the top level. It takes the summary of a whole mesh from `roots`, which spares the merge.
 #[cfg(feature = "alloc")]
 #[inline(always)]
 pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
@@ -197,7 +197,7 @@ pub(crate) fn leaf_child<N: Node<W>, const W: usize>(
     let (index, part) = leaf_parts(link);
     let instance = match instances.get(index as usize) {
         Some(own) if part == 0 && own.root != INVALID => own,
-        _ => return linked_child(nodes, lights, instances, kind::MESH, link),
+        _ => return top_link(nodes, lights, instances, kind::MESH, link),
     };
     let mut local = Child::EMPTY;
     local.summary = roots[instance.blas as usize].summary();

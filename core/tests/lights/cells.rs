@@ -1,7 +1,7 @@
 //! Cells of points: every light has its exact probability, wherever its instance is.
 
 use glam::Vec3;
-use lightbvh::exact::{hash, pow2};
+use lightbvh::exact::pow2;
 use lightbvh::importance::{Cell, ImportanceModel, Receiver};
 use lightbvh::light::{AnyLight, Light, SpotLight};
 use lightbvh::tree::Model;
@@ -171,7 +171,7 @@ fn weights_are_positive_everywhere() {
     }
 }
 
-/// The mapped box holds every mapped point. Under a similarity the mean normal turns with them.
+/// The mapped box holds the mapped corners. A unit normal maps as a point's does.
 #[test]
 fn a_mapped_cell_holds_its_points() {
     let random = &mut Random(4);
@@ -181,10 +181,10 @@ fn a_mapped_cell_holds_its_points() {
         let instance = bvh.view().instances()[0];
         let cell = random.cell(15.0, 5.0);
         let local = cell.to_local(&instance);
-        for k in 0..16 {
+        for k in 0..8 {
             let n = random.unit_vector();
             let p = core::array::from_fn(|axis| {
-                let side = if hash(k) >> axis & 1 == 0 { 1.0 } else { -1.0 };
+                let side = if k >> axis & 1 == 0 { 1.0 } else { -1.0 };
                 cell.center[axis] + side * cell.half[axis]
             });
             let point = ShadingPoint { p, n }.to_local(&instance);
@@ -204,7 +204,7 @@ fn a_mapped_cell_holds_its_points() {
         let length = |n| Vec3::from_array(n).length();
         assert!(length(local.n) <= length(cell.n) * 1.001);
     }
-    assert!(held > 10_000, "{held}");
+    assert!(held > 5_000, "{held}");
 }
 
 /// The geometric mean, over points of 40 cells of these half sides and this length of the mean normal, of the second moment of one candidate
@@ -266,7 +266,7 @@ where
     (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp()
 }
 
-/// Each term of the weight does what it is for. Bounds are what was measured and 3 % more; without a term one of them is exceeded.
+/// Dropping any term of the weight raises one of these moments above its bound, which is 3 % above its value.
 #[test]
 fn weights_suit_all_points_of_a_cell() {
     let mut mesh = room(&mut Random(1)).all().to_vec();
@@ -337,6 +337,10 @@ fn cells_are_made_of_points() {
     let many = vec![ShadingPoint { p: ORIGIN, n }; 200_000];
     let all = Cell::around(&many).expect("points");
     assert!((Vec3::from_array(all.n) - Vec3::from_array(n)).length() < 1e-6);
+    // A point in a volume has no normal to agree with.
+    let mixed = [n, ORIGIN].map(|n| ShadingPoint { p: ORIGIN, n });
+    let mixed = Vec3::from_array(Cell::around(&mixed).expect("points").n);
+    assert!((mixed - 0.5 * Vec3::from_array(n)).length() < 1e-6);
     let [a, b] = [[-1.0, 0.0, 2.0], [3.0, 0.5, 2.0]];
     let of = |p, n| ShadingPoint { p, n };
     let cell = Cell::around(&[of(a, [0.0, 1.0, 0.0]), of(b, [1.0, 0.0, 0.0])]);

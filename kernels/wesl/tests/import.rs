@@ -10,9 +10,6 @@ fn functions_are_imported_with_what_they_use() {
         .compile(&"package::main".parse().unwrap())
         .unwrap()
         .to_string();
-    assert!(
-        compiled.contains("fn main") && compiled.contains("light_point"),
-        "{compiled}"
-    );
+    naga::front::wgsl::parse_str(&compiled).unwrap();
     assert!(!compiled.contains("lightbvh_pmf"), "nothing that is not used");
 }

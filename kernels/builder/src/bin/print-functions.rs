@@ -69,17 +69,14 @@ fn print(arguments: &[String]) -> Result<String, Error> {
         };
         match &**option {
             "--set" => set = value,
-            "--prefix" if is_prefix(value) => naming.prefix.clone_from(value),
+            "--prefix" => naming.prefix.clone_from(value),
             "--group" => naming.group = value.parse().map_err(|_| unknown("group, 0 to 255,", value))?,
             "--bindings" => {
                 let numbers: Result<Vec<u8>, _> = value.split(',').map(str::parse).collect();
                 let numbers = numbers.ok().and_then(|own| <[u8; 5]>::try_from(own).ok());
-                let is_once = |own: &[u8; 5]| (1..5).all(|k| !own[..k].contains(&own[k]));
-                let numbers = numbers.filter(is_once);
                 naming.bindings =
-                    numbers.ok_or_else(|| unknown("list of five different bindings, 0 to 255,", value))?;
+                    numbers.ok_or_else(|| unknown("list of five bindings, 0 to 255,", value))?;
             }
-            "--prefix" => return Err(unknown("prefix", value)),
             _ => return Err(unknown("option", option)),
         }
     }
@@ -89,14 +86,4 @@ fn print(arguments: &[String]) -> Result<String, Error> {
         manifest::module(&root, &committed, &format!("{kernel}{}.spv", set.suffix))
     })?;
     library.print(language)
-}
-
-fn is_prefix(value: &str) -> bool {
-    let mut letters = value.chars();
-    // Some compilers of shaders refuse names of 1,024 letters.
-    value.len() <= 64
-        && letters.next().is_some_and(|first| first.is_ascii_lowercase())
-        && letters.all(|letter| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_')
-        && !value.contains("__")
-        && !value.ends_with('_')
 }

@@ -1,8 +1,8 @@
-//! From a kernel's function to one without invocations: expressions and statements over copies, and what is known of them folded.
+//! Copies a kernel's function into one without invocations, and folds the values that this fixes.
 
 use naga::{
-    BinaryOperator, Block, Expression, Function, FunctionArgument, FunctionResult, GlobalVariable, Handle,
-    Literal, LocalVariable, Module, Range, Span, Statement, SwitchCase, Type,
+    BinaryOperator, Block, Constant, Expression, Function, FunctionArgument, FunctionResult, GlobalVariable,
+    Handle, Literal, LocalVariable, Module, Range, Span, Statement, SwitchCase, Type,
 };
 use std::collections::HashMap;
 
@@ -47,8 +47,8 @@ pub(super) struct Translation<'a, 'b> {
     locals: HashMap<Handle<LocalVariable>, Handle<LocalVariable>>,
     known: HashMap<Handle<Expression>, Known>,
     new: HashMap<Handle<Expression>, Handle<Expression>>,
-    /// The result: its local variable, the type of that, and the type that is returned.
-    pub result: Option<(Handle<LocalVariable>, Handle<Type>, Handle<Type>)>,
+    /// The local variable that it returns.
+    pub result: Option<Handle<LocalVariable>>,
 }
 
 impl<'a, 'b> Translation<'a, 'b> {
@@ -110,9 +110,7 @@ impl<'a, 'b> Translation<'a, 'b> {
         // In one order each time.
         constants.sort_by_key(|(global, _)| global.index());
         for (global, init) in constants {
-            let (init, ty) = constant_value(self.to, self.types, init)?;
-            let own = naga::Constant { name: None, ty, init };
-            let own = self.to.constants.append(own, Span::UNDEFINED);
+            let (own, ty) = self.constant(init)?;
             let init = self.append(Expression::Constant(own));
             let local = self.local("constant", ty);
             self.out.local_variables[local].init = Some(init);
@@ -266,16 +264,20 @@ impl<'a, 'b> Translation<'a, 'b> {
         }
     }
 
+    /// A constant of a copied value, and its type.
+    fn constant(&mut self, init: Handle<Expression>) -> Result<(Handle<Constant>, Handle<Type>), Error> {
+        let (init, ty) = constant_value(self.to, self.types, init)?;
+        let own = Constant { name: None, ty, init };
+        Ok((self.to.constants.append(own, Span::UNDEFINED), ty))
+    }
+
     /// An expression over copies.
     fn translated(&mut self, expression: &Expression) -> Result<Expression, Error> {
         let mut out = expression.clone();
         match &mut out {
             Expression::Literal(_) | Expression::FunctionArgument(_) => {}
             Expression::Constant(constant) => {
-                let init = self.types.from.constants[*constant].init;
-                let (init, ty) = constant_value(self.to, self.types, init)?;
-                let own = naga::Constant { name: None, ty, init };
-                *constant = self.to.constants.append(own, Span::UNDEFINED);
+                (*constant, _) = self.constant(self.types.from.constants[*constant].init)?;
             }
             Expression::ZeroValue(ty) => *ty = self.types.copy(self.to, *ty, None)?,
             Expression::Compose { ty, components } => {
@@ -407,7 +409,7 @@ impl<'a, 'b> Translation<'a, 'b> {
 }
 
 /// The copy of a constant expression, and its type.
-pub(super) fn constant_value(
+fn constant_value(
     to: &mut Module,
     types: &mut Types<'_>,
     old: Handle<Expression>,

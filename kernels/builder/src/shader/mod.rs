@@ -48,18 +48,16 @@ const LIGHT_POINT: Signature = Signature {
     words: &["_", "_"],
     answer: ("LightPoint", &["p", "density", "normal", "flags", "radiance"]),
 };
-const CELLS: [Signature; 2] = [
-    Signature {
-        kernel: "sample_cell",
-        name: "sample_cell",
-        ..SAMPLE
-    },
-    Signature {
-        kernel: "pmf_cell",
-        name: "pmf_cell",
-        ..PMF
-    },
-];
+const SAMPLE_CELL: Signature = Signature {
+    kernel: "sample_cell",
+    name: "sample_cell",
+    ..SAMPLE
+};
+const PMF_CELL: Signature = Signature {
+    kernel: "pmf_cell",
+    name: "pmf_cell",
+    ..PMF
+};
 
 const POINT: &[&str] = &["p.xyz", "n.xyz"];
 const CELL: &[&str] = &["center.xyz", "half.xyz", "n.xyz"];
@@ -80,8 +78,8 @@ pub const SETS: [Set; 3] = [
         functions: &[
             (SAMPLE, POINT),
             (PMF, POINT),
-            (CELLS[0], CELL),
-            (CELLS[1], CELL),
+            (SAMPLE_CELL, CELL),
+            (PMF_CELL, CELL),
             (LIGHT_POINT, POINT),
         ],
     },
@@ -159,8 +157,34 @@ pub struct Naming {
     pub prefix: String,
     /// Bind group (descriptor set, register space) of its buffers.
     pub group: u8,
-    /// Bindings of nodes, instances, trails, lights, and the tree's words: five numbers.
+    /// Bindings of nodes, instances, trails, lights, and the tree's words: five different numbers.
     pub bindings: [u8; 5],
+}
+
+impl Naming {
+    fn check(&self) -> Result<(), Error> {
+        let own = &self.prefix;
+        let is_letter =
+            |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_';
+        let is_prefix = own.starts_with(|first: char| first.is_ascii_lowercase())
+            && own.chars().all(is_letter)
+            && !own.contains("__")
+            && !own.ends_with('_')
+            // Some compilers of shaders refuse names of 1,024 letters.
+            && own.len() <= 64;
+        if !is_prefix {
+            return Err(Error(format!(
+                "{own:?} is no prefix: lower-case words joined by _, at most 64 letters"
+            )));
+        }
+        match (1..5).all(|k| !self.bindings[..k].contains(&self.bindings[k])) {
+            true => Ok(()),
+            false => Err(Error(format!(
+                "the bindings {:?} are not different",
+                self.bindings
+            ))),
+        }
+    }
 }
 
 impl Default for Naming {
@@ -185,12 +209,13 @@ impl Library {
     /// the names of its buffers by binding.
     ///
     /// # Errors
-    /// When a module has something that no function can have.
+    /// When the prefix or the bindings are not as [`Naming`] says, or a module has something that no function can have.
     pub fn new(
         naming: Naming,
         set: &Set,
         mut read: impl FnMut(&str) -> Result<(Vec<u32>, Vec<String>), Error>,
     ) -> Result<Self, Error> {
+        naming.check()?;
         let mut library = Self {
             module: Module::default(),
             naming,
@@ -250,13 +275,13 @@ impl Library {
             let TypeInner::Array { base, .. } = from.types[array].inner else {
                 return Err(Error(format!("{name} is no array")));
             };
-            let (role, ty) = copy.own(name, base)?;
-            copy.roles.insert(global, role);
+            let local = copy.own(name, base)?;
+            copy.roles.insert(global, Role::Own(local));
             match name {
-                "results" => copy.returns(role, ty, own.answer)?,
-                "queries" => copy.arguments(role, ty, receiver.iter().chain(own.words))?,
-                "samples" => copy.arguments(role, ty, &SAMPLES)?,
-                "numbers" => copy.arguments(role, ty, &NUMBERS)?,
+                "results" => copy.returns(local, own.answer)?,
+                "queries" => copy.arguments(local, receiver.iter().chain(own.words))?,
+                "samples" => copy.arguments(local, &SAMPLES)?,
+                "numbers" => copy.arguments(local, &NUMBERS)?,
                 _ => return Err(Error(format!("no function knows a buffer {name}"))),
             }
         }

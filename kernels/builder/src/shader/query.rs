@@ -1,28 +1,27 @@
 //! The query of an invocation as arguments, and its answer as a result.
 
-use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, Statement, Type, TypeInner};
+use naga::{
+    Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Statement, Type, TypeInner,
+};
 
-use super::function::{Role, Translation};
-use super::types::{Names, as_vector, insert, returned};
+use super::function::Translation;
+use super::types::{Names, as_vector, insert, returned, vector_size};
 use crate::Error;
 
 impl Translation<'_, '_> {
-    /// A local variable for the element of a buffer that belongs to an invocation, and its type.
-    pub fn own(&mut self, name: &str, element: Handle<Type>) -> Result<(Role, Handle<Type>), Error> {
+    /// A local variable for the element of a buffer that belongs to an invocation.
+    pub fn own(&mut self, name: &str, element: Handle<Type>) -> Result<Handle<LocalVariable>, Error> {
         let ty = self.types.copy(self.to, element, None)?;
-        Ok((Role::Own(self.local(name, ty)), ty))
+        Ok(self.local(name, ty))
     }
 
     /// Sets an element from arguments, as `names` say in the order of its words: `p.xyz` is a vector, `light` a number, `_` zero.
     pub fn arguments<'n>(
         &mut self,
-        own: Role,
-        ty: Handle<Type>,
+        local: Handle<LocalVariable>,
         names: impl IntoIterator<Item = &'n &'n str>,
     ) -> Result<(), Error> {
-        let Role::Own(local) = own else {
-            return Err(Error("arguments for a buffer that all share".to_owned()));
-        };
+        let ty = self.out.local_variables[local].ty;
         let before = self.out.expressions.len();
         let mut words = Vec::new();
         self.words(ty, &mut words)?;
@@ -40,17 +39,8 @@ impl Translation<'_, '_> {
                 values.push(self.append(Expression::ZeroValue(ty)));
                 continue;
             }
-            let inner = match parts.len() {
-                1 => TypeInner::Scalar(scalar),
-                2 => TypeInner::Vector {
-                    size: naga::VectorSize::Bi,
-                    scalar,
-                },
-                _ => TypeInner::Vector {
-                    size: naga::VectorSize::Tri,
-                    scalar,
-                },
-            };
+            let vector = vector_size(parts.len() as u32).map(|size| TypeInner::Vector { size, scalar });
+            let inner = vector.unwrap_or(TypeInner::Scalar(scalar));
             let argument = FunctionArgument {
                 name: Some(name.to_owned()),
                 ty: insert(self.to, None, inner),
@@ -123,25 +113,20 @@ impl Translation<'_, '_> {
         }))
     }
 
-    /// Makes the function return the element of `own`, under these names.
-    pub fn returns(&mut self, own: Role, ty: Handle<Type>, names: Names) -> Result<(), Error> {
-        let Role::Own(local) = own else {
-            return Err(Error("a result in a buffer that all share".to_owned()));
-        };
-        let out = returned(self.to, ty, names)?;
-        self.result = Some((local, ty, out));
-        self.out.result = Some(FunctionResult {
-            ty: out,
-            binding: None,
-        });
+    /// Makes the function return the variable, its members under these names.
+    pub fn returns(&mut self, local: Handle<LocalVariable>, names: Names) -> Result<(), Error> {
+        let ty = returned(self.to, self.out.local_variables[local].ty, names)?;
+        self.result = Some(local);
+        self.out.result = Some(FunctionResult { ty, binding: None });
         Ok(())
     }
 
     /// Returns the result, arrays as vectors.
     pub(super) fn returning(&mut self) -> Result<Block, Error> {
-        let Some((local, ty, out)) = self.result else {
+        let (Some(local), Some(result)) = (self.result, &self.out.result) else {
             return Ok(Block::new());
         };
+        let (ty, out) = (self.out.local_variables[local].ty, result.ty);
         let before = self.out.expressions.len();
         let pointer = self.append(Expression::LocalVariable(local));
         let mut value = self.append(Expression::Load { pointer });

@@ -45,6 +45,15 @@ impl<'a> Types<'a> {
                 space,
             },
             TypeInner::Struct { members, span } => {
+                if let Some((name, own)) = names
+                    && !own.is_empty()
+                    && own.len() != members.len()
+                {
+                    return Err(Error(format!(
+                        "{name} has {} members, not {own:?}",
+                        members.len()
+                    )));
+                }
                 let mut copies = Vec::new();
                 for (k, member) in members.iter().enumerate() {
                     let name = names.and_then(|(_, own)| own.get(k));
@@ -95,13 +104,17 @@ pub(super) fn as_vector(module: &Module, own: Handle<Type>) -> Option<TypeInner>
     let TypeInner::Scalar(scalar) = module.types[base].inner else {
         return None;
     };
-    let size = match count.get() {
-        2 => VectorSize::Bi,
-        3 => VectorSize::Tri,
-        4 => VectorSize::Quad,
-        _ => return None,
-    };
-    Some(TypeInner::Vector { size, scalar })
+    vector_size(count.get()).map(|size| TypeInner::Vector { size, scalar })
+}
+
+/// The size of a vector of two to four.
+pub(super) fn vector_size(count: u32) -> Option<VectorSize> {
+    match count {
+        2 => Some(VectorSize::Bi),
+        3 => Some(VectorSize::Tri),
+        4 => Some(VectorSize::Quad),
+        _ => None,
+    }
 }
 
 /// The type of what a function returns: with names, and vectors in place of such arrays.

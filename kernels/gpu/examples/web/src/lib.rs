@@ -25,19 +25,17 @@ struct Page {
 }
 
 thread_local! {
-    static PAGE: RefCell<Option<Page>> = const { RefCell::new(None) };
+    /// Begins with an empty world and a device that holds nothing.
+    static PAGE: RefCell<Page> = RefCell::new(Page {
+        world: World::new(),
+        mirror: Mirror::default(),
+        words: Vec::new(),
+        bytes: Vec::new(),
+    });
 }
 
-/// Runs `act` on the page, which begins with an empty world and a device that holds nothing.
 fn with<T>(act: impl FnOnce(&mut Page) -> T) -> T {
-    PAGE.with_borrow_mut(|page| {
-        act(page.get_or_insert_with(|| Page {
-            world: World::new(),
-            mirror: Mirror::default(),
-            words: Vec::new(),
-            bytes: Vec::new(),
-        }))
-    })
+    PAGE.with_borrow_mut(act)
 }
 
 /// Does the edits of a frame, and refits: `count` instances of [`world::LIGHTS`] lights each, as they are at `time`, s.
@@ -96,13 +94,6 @@ pub extern "C" fn follow() -> *const u32 {
         }
         words.as_ptr()
     })
-}
-
-/// The number of workgroups, each of `width` invocations, for `count` invocations: x in the lower 16 bits, y in the upper.
-#[unsafe(no_mangle)]
-pub extern "C" fn groups(count: u32, width: u32) -> u32 {
-    let [x, y, _] = lightbvh_gpu::groups(count, width).expect("32 bits number all invocations");
-    x | y << 16
 }
 
 /// The words that the device must hold now: the number of ranges, and for each the buffer, its first byte there, its address here, its

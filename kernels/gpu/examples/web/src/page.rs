@@ -4,6 +4,8 @@
 
 use std::fmt::Write;
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use lightbvh_gpu::{Access, DeviceBuffer, MOMENTS, Pass, functions};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -44,27 +46,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("<!--SHADERS-->", scripts),
         ("/*PASSES*/", passes),
         ("/*BUFFERS*/", format!("{names:?}")),
-        ("/*WASM*/", base64(&std::fs::read(wasm)?)),
+        ("/*WASM*/", STANDARD.encode(std::fs::read(wasm)?)),
     ] {
         assert_eq!(text.matches(place).count(), 1, "{place}");
         text = text.replace(place, &own);
     }
     print!("{text}");
     Ok(())
-}
-
-/// RFC 4648, section 4.
-fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut out = String::new();
-    for three in bytes.chunks(3) {
-        let bits = (0..3).fold(0, |bits, k| {
-            bits << 8 | three.get(k).map_or(0, |&own| u32::from(own))
-        });
-        for k in 0..4 {
-            let digit = DIGITS[(bits >> (18 - 6 * k) & 63) as usize];
-            out.push(if k > three.len() { '=' } else { digit.into() });
-        }
-    }
-    out
 }

@@ -95,25 +95,15 @@ fn at(k: u32, time: f32) -> (Transform, [f32; 3]) {
     let pulse = 0.62 + 0.38 * (time * (0.8 + 1.8 * number(8)) + TAU * number(9)).sin();
     let power = 3.2 * pulse * pulse;
     (
-        Transform {
-            columns: turned(spin, TAU * number(10)).map(|column| column.map(|x| x * size)),
-            translation,
-        },
+        Transform::from_trs(translation, turned(spin, TAU * number(10)), [size; 3]),
         hue(phase).map(|own| own * power),
     )
 }
 
-/// A rotation by `spin` about an axis of azimuth `lean`, tilted from the vertical.
-fn turned(spin: f32, lean: f32) -> [[f32; 3]; 3] {
-    let axis = [0.6 * lean.cos(), 0.8, 0.6 * lean.sin()];
-    let (s, c) = spin.sin_cos();
-    let [x, y, z] = axis;
-    let t = 1.0 - c;
-    [
-        [t * x * x + c, t * x * y + s * z, t * x * z - s * y],
-        [t * x * y - s * z, t * y * y + c, t * y * z + s * x],
-        [t * x * z + s * y, t * y * z - s * x, t * z * z + c],
-    ]
+/// The quaternion of a turn by `spin` about an axis of azimuth `lean`, tilted from the vertical.
+fn turned(spin: f32, lean: f32) -> [f32; 4] {
+    let (s, c) = (0.5 * spin).sin_cos();
+    [0.6 * s * lean.cos(), 0.8 * s, 0.6 * s * lean.sin(), c]
 }
 
 /// The stream's colour at a place of the knot: amber, rose, blue, and back.
@@ -135,13 +125,7 @@ fn hue(phase: f32) -> [f32; 3] {
 
 /// A light around `middle`, `size` wide, that shines to `front`.
 fn tile(middle: [f32; 3], front: [f32; 3], size: f32, turn: f32) -> EmissiveTriangle {
-    let helper = if front[1].abs() < 0.9 {
-        [0.0, 1.0, 0.0]
-    } else {
-        [1.0, 0.0, 0.0]
-    };
-    let across = unit(cross(helper, front));
-    let along = cross(front, across);
+    let [across, along, _] = Transform::look_along(middle, front.map(|x| -x), [0.0, 1.0, 0.0]).columns;
     let corner = |k: u8| {
         let (s, c) = (turn + TAU / 3.0 * f32::from(k)).sin_cos();
         std::array::from_fn(|i| middle[i] + size * (c * across[i] + s * along[i]))
@@ -182,17 +166,4 @@ fn ribbon(part: f32, k: u16) -> EmissiveTriangle {
     let side = if k.is_multiple_of(2) { 0.0 } else { PI };
     let (s, c) = (2.0 * TAU * part + side).sin_cos();
     tile([0.5 * c, 3.0 * part - 1.5, 0.5 * s], [c, 0.0, s], 0.17, 0.0)
-}
-
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn unit(a: [f32; 3]) -> [f32; 3] {
-    let length = a.iter().map(|x| x * x).sum::<f32>().sqrt();
-    a.map(|x| x / length)
 }
